@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "calibration/error.h"
+
+namespace insitu {
+namespace {
+
+std::string Located(const std::filesystem::path& file, int line, const std::string& message) {
+  const std::string at = line > 0 ? ":" + std::to_string(line) : "";
+  return file.string() + at + ": " + message;
+}
+
+}  // namespace
+
+InputError::InputError(const std::filesystem::path& file, int line, const std::string& message)
+    : std::runtime_error(Located(file, line, message)) {}
+
+CheckError::CheckError(const char* file, int line, const char* condition)
+    : std::logic_error(Located(file, line, std::string("check failed: ") + condition)) {}
+
+}  // namespace insitu

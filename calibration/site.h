@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The layout of a site folder: where each stage finds its input and leaves its results.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace insitu {
+
+struct SitePaths {
+  std::filesystem::path root;
+
+  std::filesystem::path photos() const { return root / "photos"; }
+  std::filesystem::path boards() const { return root / "calibration"; }
+  std::filesystem::path brought_camera() const { return root / "calibration/camera.cameramodel"; }
+  std::filesystem::path survey() const { return root / "survey"; }
+  std::filesystem::path building() const { return root / "building"; }
+  std::filesystem::path montages() const { return root / "montages"; }
+
+  std::filesystem::path camera() const { return root / "work/calibration/camera.cameramodel"; }
+  std::filesystem::path calibration_report() const { return root / "work/calibration/report.json"; }
+  std::filesystem::path input_image(const std::string& photo) const {
+    return root / "work/input_images" / (photo + ".exr");
+  }
+  std::filesystem::path pinhole_camera() const {
+    return root / "work/input_images/pinhole.cameramodel";
+  }
+  std::filesystem::path posed_camera(const std::string& photo) const {
+    return root / "work/reconstruction" / (photo + ".cameramodel");
+  }
+  std::filesystem::path scene() const { return root / "work/reconstruction/scene.json"; }
+  std::filesystem::path residual_report() const { return root / "work/reconstruction/report.json"; }
+  std::filesystem::path residual_page() const { return root / "work/reconstruction/report.html"; }
+  std::filesystem::path environment() const { return root / "work/environment.json"; }
+  std::filesystem::path artificial() const { return root / "work/building.json"; }
+};
+
+// The site's photographs, sorted by name (their stem is the photo's name everywhere).
+// Throws InputError: no photos folder, no photographs in it, two with one name.
+std::vector<std::filesystem::path> ListPhotographs(const SitePaths& site);
+
+}  // namespace insitu

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// First inversion of the illumination model: sun, ambient and sky from one material in varied
+// light. [Durisch92, §4.3]
+#pragma once
+
+#include <vector>
+
+#include "radiometry/daylight.h"
+
+namespace insitu {
+
+struct DaylightSample {
+  Spectrum true_color;     // L_0i, radiance, haze removed
+  Spectrum sigma;          // its standard deviation, > 0 in used bins
+  LightGeometry geometry;  // what the point sees of the daylight
+};
+
+struct DaylightFitOptions {
+  bool average_over_wavelength = false;  // the paper's one spectrum for all three components
+};
+
+struct DaylightFit {
+  Spectrum sun_radiance, ambient_radiance, sky_radiance;  // >= 0
+  Spectrum sun_sigma, ambient_sigma, sky_sigma;
+  double condition = 0;  // of the scaled design matrix, 1 = best
+  double rms = 0;        // of the residuals over their sigma
+  std::vector<double> residuals;  // one a sample: mean relative residual over the bins
+};
+
+// Solves [Durisch92, Eq. (9)] per bin by non-negative weighted least squares for the radiances
+// k_s L, k_u L, k_h L. `brdf` is rho of the samples' material [1/sr], > 0 in used bins.
+// `has_sun` false (overcast): the sun stays zero. Components without influence on any sample stay
+// zero. Needs as many samples as components (INSITU_CHECK).
+// Departure: weights are kept per wavelength unless averaging is asked for; one spectrum for sun
+// and sky cannot make bluish shadows.
+DaylightFit FitDaylight(const std::vector<DaylightSample>& samples, const Spectrum& brdf,
+                        bool has_sun, const SpectralBins& bins,
+                        const DaylightFitOptions& options = {});
+
+}  // namespace insitu

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The surveyor's files: control points, marks on photographs, polygons, directions.
+#pragma once
+
+#include <Eigen/Core>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "calibration/json_file.h"
+#include "calibration/site.h"
+
+namespace insitu {
+
+// Where in a file a statement was made, for error messages.
+struct FilePlace {
+  std::filesystem::path path;
+  int line = 0;
+};
+
+enum class ControlRole { kControl, kCheck };
+
+// control_points.csv: name,x,y,z,sigma_x,sigma_y,sigma_z,role
+struct ControlPoint {
+  std::string name;
+  Eigen::Vector3d position;  // [m], world
+  Eigen::Vector3d sigma;     // [m], > 0
+  ControlRole role = ControlRole::kControl;
+  FilePlace place;
+};
+
+// observations.csv: photo,point,x,y,sigma
+struct ImageObservation {
+  std::string photo;
+  std::string point;
+  Eigen::Vector2d pixel;  // of the original photograph, distortion and all
+  double sigma_px = 0;    // > 0
+  FilePlace place;
+};
+
+// polygons.json
+struct PolygonOutline {
+  std::string name;
+  std::vector<std::string> vertices;  // >= 3 distinct point names, counter-clockwise from outside
+  std::optional<std::string> photo;   // the image attribute; nullopt: seen in no photo
+  std::string material;
+  std::optional<std::string> mask;    // a PNG in survey/, white where the polygon is really visible
+  FilePlace place;
+};
+
+// directions.json: a sun pair points from a shadow to the point that casts it, a zenith pair from
+// bottom to top.
+struct DirectionPair {
+  std::string from, to;
+  FilePlace place;
+};
+
+struct Survey {
+  std::vector<ControlPoint> control_points;
+  std::vector<ImageObservation> observations;
+  std::vector<PolygonOutline> polygons;
+  std::vector<DirectionPair> sun_pairs;
+  std::vector<DirectionPair> zenith_pairs;
+};
+
+// Reads the survey folder and resolves every name. Throws InputError at the offending line: a name
+// twice, an observation of a photo that is not there or of a point that is neither surveyed nor a
+// vertex nor part of a direction pair, a mark outside any sensible frame, sigma <= 0, a polygon
+// with fewer than three distinct vertices, an unknown role, a direction pair of one point.
+// directions.json may be missing; the other three files may not.
+Survey ReadSurvey(const SitePaths& site, const std::vector<std::string>& photos);
+
+}  // namespace insitu
