@@ -36,7 +36,7 @@ struct BoardCalibration {
   int points = 0, outliers = 0;
   double rms_px = 0;  // sqrt(sum |residual|^2 / points), inliers
   double worst_px = 0;
-  ProjectionUncertainty uncertainty;  // of the lens model asked for
+  ProjectionUncertainty uncertainty;          // of the lens model asked for
   ProjectionUncertainty splined_uncertainty;  // of mrcal's splined model on the same boards
   std::string BriefReport() const;
 };
@@ -45,8 +45,7 @@ struct BoardCalibration {
 // to `output_model`. Throws InputError: fewer than three boards found, photos of unequal size,
 // a non-square board, mrcal's programs missing.
 BoardCalibration CalibrateFromBoards(const std::vector<std::filesystem::path>& board_photos,
-                                     const Board& board,
-                                     const std::filesystem::path& output_model,
+                                     const Board& board, const std::filesystem::path& output_model,
                                      const BoardCalibrationOptions& options = {});
 
 }  // namespace insitu

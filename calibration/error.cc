@@ -5,8 +5,9 @@ namespace insitu {
 namespace {
 
 std::string Located(const std::filesystem::path& file, int line, const std::string& message) {
-  const std::string at = line > 0 ? ":" + std::to_string(line) : "";
-  return file.string() + at + ": " + message;
+  std::string located = file.string();
+  if (line > 0) located.append(":").append(std::to_string(line));
+  return located.append(": ").append(message);
 }
 
 }  // namespace

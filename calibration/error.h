@@ -26,7 +26,7 @@ class CheckError : public std::logic_error {
 
 }  // namespace insitu
 
-#define INSITU_CHECK(condition)                                       \
-  do {                                                                \
+#define INSITU_CHECK(condition)                                                   \
+  do {                                                                            \
     if (!(condition)) throw ::insitu::CheckError(__FILE__, __LINE__, #condition); \
   } while (false)

@@ -22,9 +22,9 @@ class JsonNode {
  public:
   static JsonNode Load(const std::filesystem::path& path);
 
-  JsonNode At(const std::string& key) const;                   // must exist, must not be null
-  std::optional<JsonNode> Find(const std::string& key) const;  // nullopt if absent or null
-  std::vector<JsonNode> Items() const;                         // of an array
+  JsonNode At(const std::string& key) const;                      // must exist, must not be null
+  std::optional<JsonNode> Find(const std::string& key) const;     // nullopt if absent or null
+  std::vector<JsonNode> Items() const;                            // of an array
   std::vector<std::pair<std::string, JsonNode>> Members() const;  // of an object, sorted by key
 
   double Number() const;  // finite
@@ -41,10 +41,11 @@ class JsonNode {
 
  private:
   struct Document;
-  JsonNode(std::shared_ptr<const Document> document, const Json::Value* value)
-      : document_(std::move(document)), value_(value) {}
+  JsonNode(std::shared_ptr<const Document> document, const Json::Value* value, std::string place)
+      : document_(std::move(document)), value_(value), place_(std::move(place)) {}
   std::shared_ptr<const Document> document_;
   const Json::Value* value_;
+  std::string place_;  // e.g. "haze[2].pixel", for messages
 };
 
 Json::Value ToJson(const Eigen::VectorXd& vector);

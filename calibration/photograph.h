@@ -26,6 +26,9 @@ double SrgbFromLinear(double linear);
 // Throws InputError: missing, not an image, cut short, NaN or infinite values.
 Photograph ReadPhotograph(const std::filesystem::path& path);
 
+// (width, height) [px] from the file's header alone. Throws InputError: missing, not an image.
+Eigen::Vector2i ReadPhotographSize(const std::filesystem::path& path);
+
 // Whether the sensor clipped here: a channel at its highest code (never for linear files).
 bool IsClipped(const Photograph& photo, int x, int y);
 

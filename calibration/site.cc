@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "calibration/site.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <map>
+
+#include "calibration/error.h"
+
+namespace insitu {
+namespace fs = std::filesystem;
+namespace {
+
+bool IsPhotograph(const fs::directory_entry& entry) {
+  static constexpr std::array kEndings = {".jpg", ".jpeg", ".png", ".tif", ".tiff", ".exr"};
+  const fs::path& path = entry.path();
+  if (!entry.is_regular_file() || path.filename().string().starts_with('.')) return false;
+  std::string ending = path.extension().string();
+  std::transform(ending.begin(), ending.end(), ending.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return std::find(kEndings.begin(), kEndings.end(), ending) != kEndings.end();
+}
+
+}  // namespace
+
+std::vector<fs::path> ListPhotographs(const SitePaths& site) {
+  if (!fs::is_directory(site.photos())) {
+    throw InputError(site.photos(), "no such folder, expected the site's photographs in it");
+  }
+  std::map<std::string, fs::path> by_name;
+  for (const fs::directory_entry& entry : fs::directory_iterator(site.photos())) {
+    if (!IsPhotograph(entry)) continue;
+    const auto [other, is_new] = by_name.emplace(entry.path().stem().string(), entry.path());
+    if (!is_new) {
+      const auto [first, second] = std::minmax(other->second, entry.path());
+      throw InputError(second, "has the same name as " + first.filename().string() +
+                                   ", expected each photograph's name once");
+    }
+  }
+  if (by_name.empty()) {
+    throw InputError(site.photos(), "no photographs, expected JPEG, PNG, TIFF or EXR files");
+  }
+  std::vector<fs::path> photos;
+  for (const auto& [name, path] : by_name) photos.push_back(path);
+  return photos;
+}
+
+}  // namespace insitu
