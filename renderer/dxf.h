@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,16 +21,21 @@ struct LayeredMesh {
 
 struct DxfModel {
   LayeredMesh mesh;
-  std::map<std::string, int> entities;  // kind -> count, blocks counted where they are inserted
-  std::map<std::string, int> skipped;   // kinds that carry no surface we read -> count
-  int degenerate_faces = 0;             // dropped: two corners alike or no area
+  std::optional<double> metres_per_unit;  // nullopt: the drawing names no unit; taken as metres
+  std::map<std::string, int> entities;    // kind -> count, blocks counted where they are inserted
+  std::map<std::string, int> skipped;     // kinds that carry no surface we read -> count
+  std::map<std::string, int> hidden;      // frozen or switched-off layer -> pieces left out
+  int degenerate_faces = 0;               // dropped: no area, or an outline that crosses itself
+  int smoothed_meshes = 0;                // MESH whose level 0 we read but not its smoothing
 };
 
-// ASCII DXF, R12 to 2018: 3DFACE, MESH (level 0), POLYLINE as polyface and as polygon mesh, INSERT
-// (nested, scaled, mirrored, rotated, in rows and columns, extruded). A face of a block on layer 0
-// takes the layer of its INSERT. Throws InputError at the line: cut in half (no EOF), a group code
-// that is no number, a face that names a vertex out of range, an unknown block, blocks that insert
-// themselves, coordinates that are not finite.
+// ASCII DXF, R12 to 2018: 3DFACE, SOLID and TRACE (with thickness), MESH (level 0), POLYLINE as
+// polyface and as polygon mesh, INSERT (nested, scaled, mirrored, rotated, in rows and columns,
+// extruded). A face of a block on layer 0 takes the layer of its INSERT. What CAD programs do not
+// show is left out: frozen and switched-off layers, invisible entities, paper space.
+// Throws InputError at the line: cut in half (no EOF), a group code that is no number, a face that
+// names a vertex out of range, an unknown block, blocks that insert themselves, coordinates that
+// are not finite, an unknown unit.
 DxfModel ReadDxf(const std::filesystem::path& path);
 
 }  // namespace insitu

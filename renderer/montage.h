@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// From a site's files to its montages.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "calibration/photograph.h"
+#include "calibration/site.h"
+#include "renderer/render.h"
+
+namespace insitu {
+
+enum class Frame {
+  kPhoto,
+  kPinhole
+};  // the original photograph's pixel grid, or the input image's
+
+struct MontageOptions {
+  Frame frame = Frame::kPhoto;
+  bool with_building = true;
+  std::vector<std::string> photos;  // names; empty: every photo of the site
+  RenderOptions render;
+};
+
+struct MontageReport {
+  std::string photo;
+  RenderResult result;  // its picture is written already
+  double seconds = 0;   // rendering, files apart
+};
+
+// Reads work/environment.json, work/building.json, the input images and the photographs; writes
+// montages/<photo>.exr, .png and .jpg. Throws InputError: a stage before is missing, an unknown
+// photo, a photograph whose size is not its camera's.
+std::vector<MontageReport> MakeMontages(const SitePaths& site, const MontageOptions& options);
+
+}  // namespace insitu

@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "renderer/montage_scene.h"
+
+#include <cmath>
+#include <numbers>
+
+#include "calibration/error.h"
+#include "renderer/photographed_color.h"
+
+namespace insitu {
+namespace {
+
+TriangleMesh LocalMesh(const ArtificialEnvironment& building, const Eigen::Vector3d& origin) {
+  TriangleMesh mesh;
+  mesh.triangles = building.triangles;
+  mesh.vertices.reserve(building.vertices.size());
+  for (const Eigen::Vector3d& vertex : building.vertices) {
+    mesh.vertices.push_back((vertex - origin).cast<float>());
+  }
+  return mesh;
+}
+
+std::vector<Eigen::Vector3d> TriangleNormals(const ArtificialEnvironment& building) {
+  std::vector<Eigen::Vector3d> normals;
+  normals.reserve(building.triangles.size());
+  for (const Eigen::Vector3i& t : building.triangles) {
+    const Eigen::Vector3d& a = building.vertices[t[0]];
+    normals.push_back(
+        (building.vertices[t[1]] - a).cross(building.vertices[t[2]] - a).normalized());
+  }
+  return normals;
+}
+
+InfluenceBox BoxAround(const TriangleMesh& mesh) {
+  InfluenceBox box;
+  if (mesh.vertices.empty()) return box;
+  box.low = box.high = mesh.vertices[0].array();
+  for (const Eigen::Vector3f& vertex : mesh.vertices) {
+    box.low = box.low.min(vertex.array());
+    box.high = box.high.max(vertex.array());
+  }
+  // Embree's robust mode may report hits this far outside.
+  box.low -= 1e-3f;
+  box.high += 1e-3f;
+  return box;
+}
+
+SpectralMaterial NaturalSurface(const NaturalEnvironment& natural, const Polygon& polygon) {
+  const auto found = natural.materials.find(polygon.material);
+  if (found == natural.materials.end()) return {};
+  return {found->second.diffuse_weight, Spectrum::Zero(), found->second.specular};
+}
+
+SpectralMaterial ArtificialSurface(const SpectralBasis& spectra, const SurfaceMaterial& material) {
+  return {material.diffuse_weight,
+          spectra.ReflectanceFromRgb(material.diffuse_rgb) / std::numbers::pi, material.specular};
+}
+
+InputImage LocalInputImage(const PosedCamera& photo, const Camera& pinhole, Raster image,
+                           const Eigen::Vector3d& origin) {
+  Rigid3 cam_from_local = photo.cam_from_world;
+  cam_from_local.translation = photo.cam_from_world * origin;
+  return {{photo.photo, pinhole, cam_from_local}, Center(cam_from_local), std::move(image)};
+}
+
+}  // namespace
+
+MontageScene MakeMontageScene(NaturalEnvironment natural, const ArtificialEnvironment& artificial,
+                              const Camera& pinhole, std::vector<Raster> images) {
+  INSITU_CHECK(images.size() == natural.scene.cameras.size());
+  const Eigen::Vector3d origin = natural.scene.origin;
+  PolygonMesh polygons = MeshOfPolygons(natural.scene);
+  const TriangleMesh building = LocalMesh(artificial, origin);
+  MontageScene scene{.natural = std::move(natural),
+                     .natural_rays = RayScene(polygons.mesh),
+                     .polygon_of_triangle = std::move(polygons.polygon_of_triangle),
+                     .material_of_polygon = {},
+                     .artificial_rays = RayScene(building),
+                     .artificial_normals = TriangleNormals(artificial),
+                     .material_of_triangle = artificial.material_of_triangle,
+                     .artificial_materials = {},
+                     .building_box = BoxAround(building),
+                     .lamps = {},
+                     .facets = {},
+                     .facet_directions = {},
+                     .inverse_facet_directions = {},
+                     .solar_disc_radius = 0,
+                     .input_images = {},
+                     .mean_brdf_of_polygon = {}};
+  const NaturalEnvironment& site = scene.natural;
+  for (const Polygon& polygon : site.scene.polygons) {
+    scene.material_of_polygon.push_back(NaturalSurface(site, polygon));
+  }
+  for (const SurfaceMaterial& material : artificial.materials) {
+    scene.artificial_materials.push_back(ArtificialSurface(site.spectra, material));
+  }
+  for (const PointLight& lamp : artificial.lights) {
+    scene.lamps.push_back(
+        {lamp.position - origin, site.spectra.SpectrumFromRgb(lamp.intensity_rgb)});
+  }
+  scene.facets = MakeSkyFacets(site.light.zenith_direction, site.light.polar_facets);
+  for (const Eigen::Vector3d& direction : scene.facets.directions) {
+    scene.facet_directions.push_back(direction.cast<float>());
+    scene.inverse_facet_directions.push_back(direction.cast<float>().array().inverse());
+  }
+  // A cone of half angle a holds 2 pi (1 - cos a) steradians.
+  const double cosine = 1 - site.light.sun_solid_angle / (2 * std::numbers::pi);
+  scene.solar_disc_radius = std::sqrt(1 - cosine * cosine) / cosine;
+  for (size_t i = 0; i < images.size(); ++i) {
+    scene.input_images.push_back(
+        LocalInputImage(site.scene.cameras[i], pinhole, std::move(images[i]), origin));
+  }
+  scene.mean_brdf_of_polygon = MeanBrdfOfPolygons(scene);
+  return scene;
+}
+
+}  // namespace insitu

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Both environments made ready for rays: two Embree scenes about one local origin, materials as
+// spectra, sky facets, and the input images that natural surfaces take their colour from.
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <vector>
+
+#include "calibration/raster.h"
+#include "radiometry/natural_environment.h"
+#include "reconstruction/ray_scene.h"
+#include "renderer/artificial_environment.h"
+
+namespace insitu {
+
+// A surface as the illumination model sees it.
+struct SpectralMaterial {
+  double diffuse_weight = 1;
+  Spectrum brdf = Spectrum::Zero();  // rho [1/sr]; zero for natural surfaces: it is in the photo
+  std::optional<Specular> specular;
+};
+
+struct LampSpectrum {
+  Eigen::Vector3d position;  // [m], local
+  Spectrum intensity;        // radiance unit times m^2
+};
+
+// An input image: an undistorted photograph with its pinhole camera. [Durisch92, §4.1]
+struct InputImage {
+  PosedCamera camera;      // local frame
+  Eigen::Vector3d center;  // [m], local
+  Raster linear;
+};
+
+// An axis-aligned box about the planned building; a light ray that misses it is not blocked by it.
+struct InfluenceBox {
+  Eigen::Array3f low = Eigen::Array3f::Constant(1);
+  Eigen::Array3f high = Eigen::Array3f::Constant(-1);
+
+  bool IsEmpty() const { return (low > high).any(); }
+  // Slab test of the half line from `origin`; `inverse_direction` may hold infinities.
+  bool MayMeet(const Eigen::Array3f& origin, const Eigen::Array3f& inverse_direction) const {
+    const Eigen::Array3f a = (low - origin) * inverse_direction;
+    const Eigen::Array3f b = (high - origin) * inverse_direction;
+    const float near = a.min(b).maxCoeff();
+    const float far = a.max(b).minCoeff();
+    return near <= far && far >= 0;
+  }
+};
+
+struct MontageScene {
+  NaturalEnvironment natural;
+  RayScene natural_rays;
+  std::vector<int> polygon_of_triangle;
+  std::vector<SpectralMaterial> material_of_polygon;
+
+  RayScene artificial_rays;
+  std::vector<Eigen::Vector3d> artificial_normals;  // of each triangle, unit
+  std::vector<int> material_of_triangle;
+  std::vector<SpectralMaterial> artificial_materials;
+  InfluenceBox building_box;
+  std::vector<LampSpectrum> lamps;
+
+  SkyFacets facets;
+  std::vector<Eigen::Vector3f> facet_directions;         // the same, for packets
+  std::vector<Eigen::Array3f> inverse_facet_directions;  // for the slab test
+  double solar_disc_radius = 0;                          // tangent of the sun's half angle
+
+  std::vector<InputImage> input_images;  // in the order of natural.scene.cameras
+  // Mean BRDF of each polygon's material over the photographs, for polygons that none shows.
+  std::vector<Spectrum> mean_brdf_of_polygon;
+};
+
+// `artificial` may be empty: the site as it is. The input images are made and owned by the caller's
+// site (work/input_images); `images` go with natural.scene.cameras.
+MontageScene MakeMontageScene(NaturalEnvironment natural, const ArtificialEnvironment& artificial,
+                              const Camera& pinhole, std::vector<Raster> images);
+
+}  // namespace insitu

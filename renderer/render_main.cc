@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <cstdio>
+#include <map>
+#include <memory>
+
+#include "calibration/program.h"
+#include "renderer/montage.h"
+#include "renderer/profile.h"
+
+namespace insitu {
+namespace {
+
+void PrintReport(const MontageReport& report) {
+  const Raster& picture = report.result.linear;
+  const double pixels = static_cast<double>(picture.width) * picture.height;
+  std::printf("%s: building %.1f %%, changed %.1f %% of the pixels, %.2f rays a pixel, %.1f s\n",
+              report.photo.c_str(), 100 * report.result.building_pixels / pixels,
+              100 * report.result.changed_pixels / pixels, report.result.mean_rays, report.seconds);
+}
+
+int RunRender(int argc, char** argv) {
+  CLI::App app("Renders the planned building into the photographs of its site.");
+  app.footer(
+      "Example: insitu-render path/to/site --photo IMG_2102\n"
+      "Reads work/environment.json, work/building.json and work/input_images/;\n"
+      "writes montages/<photo>.exr, .png and .jpg.");
+  SitePaths site;
+  MontageOptions options;
+  bool no_building = false, timing = false;
+  app.add_option("site", site.root, "site folder")->required();
+  app.add_option("--photo", options.photos, "only this photograph (may be repeated)");
+  const std::map<std::string, Frame> frames = {{"photo", Frame::kPhoto},
+                                               {"pinhole", Frame::kPinhole}};
+  app.add_option("--frame", options.frame, "pixel grid: photo (default) or pinhole")
+      ->transform(CLI::CheckedTransformer(frames));
+  app.add_flag("--no-building", no_building, "render the empty site");
+  app.add_option("--most-rays", options.render.most_rays, "rays a pixel at most (default 16)")
+      ->check(CLI::IsMember({4, 8, 12, 16}));
+  app.add_option("--threads", options.render.threads, "threads (default: all cores)")
+      ->check(CLI::PositiveNumber);
+  app.add_flag("--timing", timing, "print the shares of CPU time");
+  return RunProgram(app, argc, argv, [&] {
+    options.with_building = !no_building;
+    const auto profile = timing ? std::make_unique<Profile>() : nullptr;
+    for (const MontageReport& report : MakeMontages(site, options)) PrintReport(report);
+    if (profile) std::fputs(profile->Report().c_str(), stdout);
+  });
+}
+
+}  // namespace
+}  // namespace insitu
+
+int main(int argc, char** argv) { return insitu::RunRender(argc, argv); }

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Adaptive stochastic sampling: where the rays of a pixel go, and when there are enough of them.
+// [Durisch92, §7, after Cook 1986]
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+
+namespace insitu {
+
+// Well-spread pseudo-random positions, seeded by the pixel alone.
+class PixelSampler {
+ public:
+  PixelSampler(int x, int y);
+
+  Eigen::Vector2d InPixel(int ray) const;  // offset from the pixel's centre, [-0.5, 0.5)^2
+  Eigen::Vector2d OnDisc(int ray) const;   // for the sun's disc, [0, 1)^2
+
+ private:
+  Eigen::Vector2d pixel_shift_, disc_shift_;
+};
+
+// Mean and spread of the colours that the rays of a pixel return, spread in sRGB units.
+class ColorStatistics {
+ public:
+  void Add(const Eigen::Vector3d& linear_rgb);
+  // Largest standard error of the mean over the three channels.
+  double StandardError() const;
+
+ private:
+  int count_ = 0;
+  Eigen::Array3d sum_ = Eigen::Array3d::Zero();
+  Eigen::Array3d sum_of_squares_ = Eigen::Array3d::Zero();
+};
+
+}  // namespace insitu
