@@ -7,7 +7,7 @@
 namespace insitu {
 
 struct Atmosphere {
-  Spectrum horizon = Spectrum::Zero();      // horizon colour, radiance
+  Spectrum horizon = Spectrum::Zero();        // horizon colour, radiance
   Spectrum transmittance = Spectrum::Ones();  // per metre (d_a = 1 m), in (0, 1]
 };
 

@@ -12,7 +12,8 @@ namespace insitu {
 // Tabulated at 5 nm (radiometry/data, with source and licence), linear between.
 Eigen::Matrix<double, 3, kMaxBins> ColorMatching(const SpectralBins& bins);
 
-// Relative spectral distribution of CIE standard illuminant D65, averaged over each bin, 1 at 560 nm.
+// Relative spectral distribution of CIE standard illuminant D65, averaged over each bin, 1 at 560
+// nm.
 Spectrum IlluminantD65(const SpectralBins& bins);
 
 // Tristimulus values of a colour stimulus. [Durisch92, Eq. (11)]  k = 1 / integral of y.
@@ -25,8 +26,8 @@ Eigen::Vector3d Chromaticity(const Eigen::Vector3d& tristimulus);
 struct RgbPrimaries {
   Eigen::Vector2d red, green, blue, white;
 };
-RgbPrimaries Rec709();     // white D65
-RgbPrimaries Ntsc1953();   // white C, the standard NTSC monitor of [Durisch92, App. A]
+RgbPrimaries Rec709();    // white D65
+RgbPrimaries Ntsc1953();  // white C, the standard NTSC monitor of [Durisch92, App. A]
 
 // The matrix M of [Durisch92, Eq. (13)]: RGB = M XYZ, white (1, 1, 1) at Y = 1.
 // Throws std::invalid_argument for primaries on one line.

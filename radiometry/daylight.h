@@ -26,7 +26,8 @@ struct Daylight {
 
 // The 4 m_h^2 directions to the centres of the sky facets, of equal solid angle, all above the
 // horizon: m_h bands in polar direction times 4 m_h in azimuth, the centre of a band halving its
-// solid angle. Ordered so that every 4th facet alone covers the sky evenly (for m_h even).
+// solid angle. Ordered so that every 4th facet alone covers the sky evenly: as many of each band,
+// evenly spaced in azimuth.
 struct SkyFacets {
   std::vector<Eigen::Vector3d> directions;  // unit, world
   double solid_angle = 0;                   // of one facet [sr]; all sum to 2 pi
@@ -38,9 +39,9 @@ Spectrum IrradianceElement(const Spectrum& radiance, double cosine, double solid
 
 // What a surface element sees of the daylight, per unit radiance; irradiances follow by product.
 struct LightGeometry {
-  double sun = 0;          // n.d_s Omega_s, 0 if the sun is hidden or behind [sr]
-  double ambient = 0;      // pi [sr]
-  double sky = 0;          // sum of delta_i n.l_i domega [sr]
+  double sun = 0;      // n.d_s Omega_s, 0 if the sun is hidden or behind [sr]
+  double ambient = 0;  // pi [sr]
+  double sky = 0;      // sum of delta_i n.l_i domega [sr]
 };
 
 // Irradiance of the sun. [Durisch92, Eq. (3)]  E_s = k_s L n.d_s Omega_s

@@ -21,10 +21,12 @@ struct AtmosphereFit {
   Spectrum transmittance_sigma = Spectrum::Zero();  // per metre
   Spectrum condition = Spectrum::Zero();            // of the normal equations, per bin
   double rms = 0;                                   // of the residuals over their sigma
+  std::vector<double> residuals;  // one a sample: mean of (measured - model) / measured over bins
 };
 
 // Solves [Durisch92, Eq. (7)] per bin for tau and L_0 by Gauss-Newton from tau = 1 and the nearest
-// sample, tau held within (0, 1]. Needs >= 2 samples at different distances (INSITU_CHECK).
+// sample, tau held within (0, 1]. Samples that contradict the others count less (robust_weights.h).
+// Needs >= 2 samples at different distances (INSITU_CHECK).
 AtmosphereFit FitAtmosphere(const std::vector<HazeSample>& samples, const Spectrum& horizon,
                             const SpectralBins& bins);
 

@@ -22,15 +22,16 @@ struct DaylightFitOptions {
 struct DaylightFit {
   Spectrum sun_radiance, ambient_radiance, sky_radiance;  // >= 0
   Spectrum sun_sigma, ambient_sigma, sky_sigma;
-  double condition = 0;  // of the scaled design matrix, 1 = best
-  double rms = 0;        // of the residuals over their sigma
-  std::vector<double> residuals;  // one a sample: mean relative residual over the bins
+  double condition = 0;           // of the scaled design matrix, 1 = best
+  double rms = 0;                 // of the residuals over their sigma
+  std::vector<double> residuals;  // one a sample: (measured - model) / measured, bins averaged
 };
 
 // Solves [Durisch92, Eq. (9)] per bin by non-negative weighted least squares for the radiances
 // k_s L, k_u L, k_h L. `brdf` is rho of the samples' material [1/sr], > 0 in used bins.
 // `has_sun` false (overcast): the sun stays zero. Components without influence on any sample stay
-// zero. Needs as many samples as components (INSITU_CHECK).
+// zero. Samples that contradict the others count less (robust_weights.h). Needs as many samples as
+// components (INSITU_CHECK).
 // Departure: weights are kept per wavelength unless averaging is asked for; one spectrum for sun
 // and sky cannot make bluish shadows.
 DaylightFit FitDaylight(const std::vector<DaylightSample>& samples, const Spectrum& brdf,

@@ -13,8 +13,8 @@ namespace insitu {
 // A mirroring share over a diffuse ground: L = F w L_mirror + (1 - F w) diffuse, F the Fresnel
 // reflectance of `index`, or 1 for a bare mirror without index.
 struct Specular {
-  double weight = 0;                // 0..1
-  std::optional<double> index;      // of refraction, > 1; nullopt: F = 1
+  double weight = 0;            // 0..1
+  std::optional<double> index;  // of refraction, > 1; nullopt: F = 1
 };
 
 struct NaturalMaterial {

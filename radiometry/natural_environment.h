@@ -4,6 +4,7 @@
 
 #include <map>
 #include <string>
+#include <vector>
 
 #include "calibration/photograph.h"
 #include "radiometry/atmosphere.h"
@@ -12,6 +13,7 @@
 #include "radiometry/fit_daylight.h"
 #include "radiometry/material.h"
 #include "radiometry/rgb_to_spectrum.h"
+#include "radiometry/samples.h"
 #include "reconstruction/scene_geometry.h"
 
 namespace insitu {
@@ -25,18 +27,24 @@ struct NaturalEnvironment {
 };
 
 struct LightOptions {
-  int bins = kMaxBins;               // 16, or 9 as the paper's mode
-  int polar_facets = 8;              // m_h
+  int bins = kMaxBins;   // 16, or 9 as the paper's mode
+  int polar_facets = 8;  // m_h
   bool average_over_wavelength = false;
 };
 
 // What the light inversion found, for the report and the environment file.
 struct LightMeasurement {
   NaturalEnvironment environment;
-  AtmosphereFit air_fit;       // rms < 0 never; zero samples: clear air
+  LightSamples samples;
+  AtmosphereFit air_fit;  // without haze samples: clear air, residuals empty
   DaylightFit daylight_fit;
   bool reflectance_known = false;  // false: rho = 1, the building's brightness is relative
   std::vector<std::string> warnings;
+  Eigen::Vector3d TransmittanceRgb(double distance) const;  // of white light over a distance [m]
+  Eigen::Vector3d SunIrradianceRgb() const;                 // across the sun's rays: k_s L Omega_s
+  // What the open sky sends: k_h L + k_u L, for Eq. (4) spreads the ambient light over the sky too.
+  // Comparable with a measured sky; k_h L alone is what a shaded facet loses.
+  Eigen::Vector3d OpenSkyRgb() const;
   std::string BriefReport() const;
 };
 

@@ -17,7 +17,7 @@ struct PiecewiseBasis {
   Eigen::Vector3d weights;    // c_1i, c_2i, c_3i >= 0
   bool exact = true;          // false: no non-negative solution, nearest two-transition box instead
 };
-Spectrum DomainIndicator(int first_bin, int end_bin);                    // Eq. (19)
+Spectrum DomainIndicator(int first_bin, int end_bin);                      // Eq. (19)
 Spectrum Evaluate(const PiecewiseBasis& basis, const SpectralBins& bins);  // Eq. (18)
 
 // The search of [Durisch92, App. A] for a basis function of given tristimulus values.
@@ -39,10 +39,12 @@ class SpectralBasis {
   // RGB = W c and its general form through the tristimulus values. [Durisch92, Eqs. (15), (16)]
   Eigen::Vector3d RgbFromSpectrum(const Spectrum& stimulus) const;
   // A reflectance whose colour under the RGB white is `rgb`: SpectrumFromRgb over the spectrum of
-  // white, so that grey is flat and 0..1 stays 0..1. Departure: App. A alone makes white 0.85-2.7.
+  // white, so that grey is flat and 0..1 stays 0..1. In a bin where white is zero nothing can be
+  // seen of the reflectance: its luminance stands there, so grey is flat there too.
+  // Departure: App. A alone makes white 0.85-2.7.
   Spectrum ReflectanceFromRgb(const Eigen::Vector3d& rgb) const;
 
-  const Eigen::Matrix<double, kMaxBins, 3>& basis() const { return basis_; }  // columns b, g, r
+  const Eigen::Matrix<double, kMaxBins, 3>& basis() const { return basis_; }     // columns b, g, r
   const Eigen::Matrix3d& weights_from_rgb() const { return weights_from_rgb_; }  // W^-1
 
  private:
@@ -51,6 +53,7 @@ class SpectralBasis {
   Eigen::Matrix<double, 3, kMaxBins> rgb_from_spectrum_;
   Eigen::Matrix3d weights_from_rgb_;
   Eigen::Matrix<double, kMaxBins, 3> spectrum_from_rgb_;
+  Eigen::RowVector3d luminance_from_rgb_;
   Spectrum white_;
 };
 

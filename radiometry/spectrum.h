@@ -18,8 +18,8 @@ using Spectrum = Eigen::Array<double, kMaxBins, 1>;
 struct SpectralBins {
   int count = kMaxBins;  // 16, or 9 as in [Durisch92, §7]; 3..kMaxBins
 
-  double Width() const { return (kLastWavelength - kFirstWavelength) / count; }    // [nm]
-  double Edge(int bin) const { return kFirstWavelength + bin * Width(); }          // [nm]
+  double Width() const { return (kLastWavelength - kFirstWavelength) / count; }      // [nm]
+  double Edge(int bin) const { return kFirstWavelength + bin * Width(); }            // [nm]
   double Center(int bin) const { return kFirstWavelength + (bin + 0.5) * Width(); }  // [nm]
 };
 

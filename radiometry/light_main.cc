@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// insitu-light: haze and daylight of a reconstructed site, from its photographs.
+#include <iostream>
+
+#include "calibration/program.h"
+#include "radiometry/natural_environment.h"
+
+namespace insitu {
+namespace {
+
+int RunLight(int argc, char** argv) {
+  CLI::App app("Measures haze and daylight of a site and writes work/environment.json.");
+  app.footer("Example: insitu-light sites/gallery --sky-facets 8");
+  SitePaths site;
+  LightOptions options;
+  app.add_option("SITE", site.root, "site folder, already reconstructed")->required();
+  app.add_option("--bins", options.bins, "spectral bins: 16, or 9 as in the paper")
+      ->check(CLI::IsMember({9, 16}))
+      ->capture_default_str();
+  app.add_option("--sky-facets", options.polar_facets, "m_h: the sky has 4 m_h^2 facets")
+      ->check(CLI::Range(1, 64))
+      ->capture_default_str();
+  app.add_flag("--average", options.average_over_wavelength,
+               "the paper's one spectrum for sun, sky and ambient light");
+  return RunProgram(app, argc, argv, [&] {
+    const LightMeasurement measurement = MeasureDaylight(site, options);
+    WriteEnvironment(site, measurement);
+    std::cout << measurement.BriefReport();
+  });
+}
+
+}  // namespace
+}  // namespace insitu
+
+int main(int argc, char** argv) { return insitu::RunLight(argc, argv); }

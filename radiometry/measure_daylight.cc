@@ -1,0 +1,224 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <set>
+#include <sstream>
+
+#include "calibration/error.h"
+#include "radiometry/natural_environment.h"
+#include "reconstruction/ray_scene.h"
+
+namespace insitu {
+namespace {
+
+// Light rays start this far off the surface: survey noise leaves polygons that lie on each other
+// about a centimetre apart, and the lower of two must not be shaded by the upper. [m]
+constexpr double kRayOffset = 0.02;
+constexpr double kPoorCondition = 100;
+constexpr double kReportedDistance = 200;  // [m]
+
+std::vector<Photograph> ReadPhotographs(const SitePaths& site, const SceneGeometry& scene) {
+  const std::vector<std::filesystem::path> paths = ListPhotographs(site);
+  std::vector<Photograph> photos;
+  for (const PosedCamera& posed : scene.cameras) {
+    const auto path = std::find_if(paths.begin(), paths.end(),
+                                   [&](const auto& p) { return p.stem() == posed.photo; });
+    if (path == paths.end()) {
+      throw InputError(site.photos(), "no photograph \"" + posed.photo +
+                                          "\", expected every one that was reconstructed");
+    }
+    photos.push_back(ReadPhotograph(*path));
+    const Raster& image = photos.back().linear;
+    if (image.width == posed.camera.width() && image.height == posed.camera.height()) continue;
+    throw InputError(*path, "is " + std::to_string(image.width) + " x " +
+                                std::to_string(image.height) + " pixels, expected " +
+                                std::to_string(posed.camera.width()) + " x " +
+                                std::to_string(posed.camera.height()) + " as its camera has");
+  }
+  return photos;
+}
+
+std::map<std::string, NaturalMaterial> MaterialsOfPolygons(const SitePaths& site,
+                                                           const SceneGeometry& scene,
+                                                           std::vector<std::string>& warnings) {
+  std::map<std::string, NaturalMaterial> materials = ReadNaturalMaterials(site);
+  std::string missing;
+  for (const Polygon& polygon : scene.polygons) {
+    if (!materials.try_emplace(polygon.material).second) continue;
+    missing += (missing.empty() ? "" : ", ") + polygon.material;
+  }
+  if (!missing.empty()) {
+    warnings.push_back(
+        "materials without an entry in survey/materials.json, taken as purely "
+        "diffuse: " +
+        missing);
+  }
+  return materials;
+}
+
+// Of the spectrum that App. A makes of an RGB triplet with independent errors.
+Spectrum SpectrumSigma(const SpectralBasis& spectra, const Eigen::Vector3d& rgb_sigma) {
+  Spectrum variance = Spectrum::Zero();
+  for (int c = 0; c < 3; ++c) {
+    variance += spectra.SpectrumFromRgb(Eigen::Vector3d::Unit(c) * rgb_sigma[c]).square();
+  }
+  return variance.sqrt();
+}
+
+Spectrum HorizonColor(const std::vector<PixelSample>& samples, const SpectralBasis& spectra) {
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (const PixelSample& sample : samples) sum += sample.rgb;
+  return spectra.SpectrumFromRgb(sum / static_cast<double>(samples.size()));
+}
+
+AtmosphereFit MeasureAir(const LightSamples& samples, const SpectralBasis& spectra,
+                         std::vector<std::string>& warnings) {
+  const Spectrum horizon = HorizonColor(samples.horizon, spectra);
+  if (samples.haze.empty()) {
+    warnings.push_back("samples.json has no haze samples: the air is taken as clear");
+    AtmosphereFit clear;
+    clear.air.horizon = horizon;
+    return clear;
+  }
+  std::vector<HazeSample> haze;
+  for (const PixelSample& sample : samples.haze) {
+    haze.push_back({spectra.SpectrumFromRgb(sample.rgb), SpectrumSigma(spectra, sample.rgb_sigma),
+                    sample.distance});
+  }
+  return FitAtmosphere(haze, horizon, spectra.bins());
+}
+
+Daylight IlluminationGeometry(const SceneGeometry& scene, int polar_facets) {
+  Daylight light;
+  light.zenith_direction = scene.zenith.unit;
+  light.sun_direction = scene.sun ? scene.sun->unit : scene.zenith.unit;
+  light.polar_facets = polar_facets;
+  return light;
+}
+
+// What each sample sees of the daylight, on the side of its polygon that faces its camera.
+std::vector<LightGeometry> TraceSamples(const std::vector<PixelSample>& samples,
+                                        const SceneGeometry& scene, const Daylight& light) {
+  const RayScene rays(MeshOfPolygons(scene).mesh);
+  const SkyFacets facets = MakeSkyFacets(light.zenith_direction, light.polar_facets);
+  std::vector<LightGeometry> geometries;
+  for (const PixelSample& sample : samples) {
+    const Eigen::Vector3d to_camera =
+        Center(scene.cameras[sample.photo].cam_from_world) - sample.point;
+    Eigen::Vector3d normal = scene.polygons[*sample.polygon].normal;
+    if (normal.dot(to_camera) < 0) normal = -normal;
+    const Eigen::Vector3d origin = sample.point - scene.origin + kRayOffset * normal;
+    geometries.push_back(MeasureLight(light, facets, normal, [&](const Eigen::Vector3d& to_light) {
+      return !rays.IsOccluded({origin, to_light});
+    }));
+  }
+  return geometries;
+}
+
+Spectrum SampleBrdf(const LightSamples& samples, const SpectralBasis& spectra,
+                    std::vector<std::string>& warnings) {
+  if (samples.daylight_reflectance) {
+    return spectra.ReflectanceFromRgb(*samples.daylight_reflectance) / std::numbers::pi;
+  }
+  warnings.push_back(
+      "samples.json has no daylight_reflectance_rgb: it is taken as 1, so the "
+      "building will come out too dark beside its surroundings");
+  return spectra.Ones() / std::numbers::pi;
+}
+
+void WarnOfWeakSamples(const LightMeasurement& measured, bool has_sun,
+                       const std::vector<LightGeometry>& geometries,
+                       std::vector<std::string>& warnings) {
+  const bool any_sun = std::any_of(geometries.begin(), geometries.end(),
+                                   [](const LightGeometry& seen) { return seen.sun > 0; });
+  if (!has_sun) warnings.push_back("no sun direction was measured: the sky is taken as overcast");
+  if (has_sun && !any_sun) warnings.push_back("no daylight sample sees the sun: it stays dark");
+  if (measured.daylight_fit.condition > kPoorCondition) {
+    warnings.push_back(
+        "the daylight samples hardly tell sun, sky and ambient light apart: choose "
+        "some in sun, in open shade and in deep shade");
+  }
+}
+
+void MeasureLightComponents(const LightOptions& options, LightMeasurement& measured) {
+  NaturalEnvironment& environment = measured.environment;
+  Daylight& light = environment.light;
+  light = IlluminationGeometry(environment.scene, options.polar_facets);
+  const std::vector<LightGeometry> geometries =
+      TraceSamples(measured.samples.daylight, environment.scene, light);
+  std::vector<DaylightSample> samples;
+  for (size_t i = 0; i < geometries.size(); ++i) {
+    const PixelSample& pixel = measured.samples.daylight[i];
+    const Spectrum apparent = environment.spectra.SpectrumFromRgb(pixel.rgb);
+    samples.push_back({TrueColor(apparent, environment.air, pixel.distance),
+                       SpectrumSigma(environment.spectra, pixel.rgb_sigma) /
+                           TransmittanceOver(environment.air, pixel.distance),
+                       geometries[i]});
+  }
+  const bool has_sun = environment.scene.sun.has_value();
+  measured.daylight_fit =
+      FitDaylight(samples, SampleBrdf(measured.samples, environment.spectra, measured.warnings),
+                  has_sun, environment.spectra.bins(), {options.average_over_wavelength});
+  light.sun_radiance = measured.daylight_fit.sun_radiance;
+  light.ambient_radiance = measured.daylight_fit.ambient_radiance;
+  light.sky_radiance = measured.daylight_fit.sky_radiance;
+  WarnOfWeakSamples(measured, has_sun, geometries, measured.warnings);
+}
+
+std::ostream& operator<<(std::ostream& out, const Eigen::Vector3d& rgb) {
+  return out << rgb[0] << " " << rgb[1] << " " << rgb[2];
+}
+
+}  // namespace
+
+LightMeasurement MeasureDaylight(const SitePaths& site, const LightOptions& options) {
+  LightMeasurement measured;
+  NaturalEnvironment& environment = measured.environment;
+  environment.scene = ReadSceneGeometry(site);
+  environment.spectra = SpectralBasis(Rec709(), {options.bins});
+  environment.materials = MaterialsOfPolygons(site, environment.scene, measured.warnings);
+  measured.samples = ReadSamples(site, environment.scene, ReadPhotographs(site, environment.scene));
+  measured.reflectance_known = measured.samples.daylight_reflectance.has_value();
+  measured.air_fit = MeasureAir(measured.samples, environment.spectra, measured.warnings);
+  environment.air = measured.air_fit.air;
+  MeasureLightComponents(options, measured);
+  return measured;
+}
+
+Eigen::Vector3d LightMeasurement::TransmittanceRgb(double distance) const {
+  const SpectralBasis& spectra = environment.spectra;
+  const Spectrum white = spectra.SpectrumFromRgb(Eigen::Vector3d::Ones());
+  return spectra.RgbFromSpectrum(white * TransmittanceOver(environment.air, distance));
+}
+
+Eigen::Vector3d LightMeasurement::SunIrradianceRgb() const {
+  const Daylight& light = environment.light;
+  return environment.spectra.RgbFromSpectrum(light.sun_radiance * light.sun_solid_angle);
+}
+
+Eigen::Vector3d LightMeasurement::OpenSkyRgb() const {
+  const Daylight& light = environment.light;
+  return environment.spectra.RgbFromSpectrum(light.sky_radiance + light.ambient_radiance);
+}
+
+std::string LightMeasurement::BriefReport() const {
+  const SpectralBasis& spectra = environment.spectra;
+  const Daylight& light = environment.light;
+  std::ostringstream out;
+  out.setf(std::ios::fixed);
+  out.precision(3);
+  out << "Horizon colour      " << spectra.RgbFromSpectrum(environment.air.horizon) << " (RGB)\n"
+      << "Haze: transmittance " << TransmittanceRgb(kReportedDistance) << " over 200 m, "
+      << samples.haze.size() << " samples, residuals " << air_fit.rms << " sigma\n"
+      << "Sun: irradiance     " << SunIrradianceRgb() << " across its rays\n"
+      << "Sky: radiance       " << spectra.RgbFromSpectrum(light.sky_radiance) << "\n"
+      << "Ambient: radiance   " << spectra.RgbFromSpectrum(light.ambient_radiance)
+      << ", with the sky " << OpenSkyRgb() << "\n"
+      << "Daylight: " << samples.daylight.size() << " samples, residuals " << daylight_fit.rms
+      << " sigma, condition " << daylight_fit.condition << "\n";
+  for (const std::string& warning : warnings) out << "Warning: " << warning << "\n";
+  return out.str();
+}
+
+}  // namespace insitu

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Weights for samples that contradict the others: a shadow nobody modelled, a stain, a reflection.
+#pragma once
+
+#include <vector>
+
+namespace insitu {
+
+// Weights in (0, 1] by Huber's function of residual magnitudes (>= 0, in units of their sigma);
+// 1 up to 1.345 robust standard deviations, which are taken as at least one sigma.
+// [Huber 1964; tuning constant for 95 % efficiency on normal errors]
+std::vector<double> HuberWeights(const std::vector<double>& residuals);
+
+}  // namespace insitu
