@@ -1,0 +1,36 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+# For the scripts of this folder to source: each assertion prints a line with its figure.
+# shellcheck shell=bash
+# The caller's environment, set by CMakeLists.txt:
+: "${INSITU_BIN:?folder of the programs}" "${COMPARE_IMAGES:?program}" "${DEMO_SITE:?folder}"
+export LC_ALL=C.UTF-8
+tests=$(dirname -- "$(readlink -f -- "${BASH_SOURCE[0]}")")
+root=$(dirname -- "$(dirname -- "$tests")")
+export tests root
+failures=0
+temporary=$(mktemp -d)
+trap 'rm -rf -- "$temporary"' EXIT
+
+# check WHAT COMMAND...: the command's status decides; its output is shown.
+check() {
+  local what=$1 output result=ok
+  shift
+  output=$("$@" 2>&1) || result=FAIL
+  [[ $result == ok ]] || failures=$((failures + 1))
+  printf '%-4s %s%s\n' "$result" "$what" "${output:+: $output}"
+}
+
+# finish: the script's status, 1 if any assertion failed.
+finish() {
+  [[ $failures -eq 0 ]] || printf '%d assertions failed\n' "$failures"
+  exit $((failures > 0))
+}
+
+# Check sums of every file below the folders that exist, to see whether anything changed.
+checksums() { find "$@" -type f -print0 2>/dev/null | sort -z | xargs -0r sha256sum; }
+
+# Names of a site's photographs, without the ending.
+photo_names() { find "$1/photos" -type f -printf '%f\n' | sed 's/\.[^.]*$//' | sort; }
+
+# The photograph of a site with this name.
+photo_file() { find "$1/photos" -name "$2.*"; }

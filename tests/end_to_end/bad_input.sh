@@ -1,0 +1,121 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Bad input: status 2, one line on stderr that names file and line, nothing half-written.
+# shellcheck disable=SC2317 # the functions are called through check
+set -euo pipefail
+# shellcheck source=assertions.sh
+source "$(dirname -- "${BASH_SOURCE[0]}")/assertions.sh"
+
+# fresh_site: a copy of the demo site with all its results, at $site.
+fresh_site() {
+  site=$temporary/site
+  rm -rf -- "$site"
+  cp -a -- "$DEMO_SITE" "$site"
+}
+
+# refuses PROGRAM PATTERN: insitu-PROGRAM refuses $site, its one line of stderr matches PATTERN
+# after the site's path, and no result is changed.
+refuses() {
+  local program=$1 pattern=$2 status=0 message before
+  before=$(checksums "$site/work" "$site/montages")
+  message=$("$INSITU_BIN/insitu-$program" "$site" 2>&1 >/dev/null) || status=$?
+  printf '%s' "${message//"$site/"/}"
+  [[ $status -eq 2 && $message != *$'\n'* && $message =~ ^"$site"/$pattern &&
+    $before == "$(checksums "$site/work" "$site/montages")" ]]
+}
+
+# edit_json FILE STATEMENT: runs a Python statement on `data`, the content of survey/FILE.
+edit_json() {
+  /usr/bin/python3 - "$site/survey/$1" "$2" <<'PYTHON'
+import json, sys
+path, statement = sys.argv[1:]
+data = json.load(open(path))
+exec(statement)
+json.dump(data, open(path, 'w'), indent=1)
+PYTHON
+}
+
+# last_line FILE: the number of its last line.
+last_line() { awk 'END { print NR }' "$1"; }
+
+# halve FILE: cuts it in the middle.
+halve() { truncate -s $(($(stat -c %s -- "$1") / 2)) -- "$1"; }
+
+survey() { printf '%s' "$site/survey/$1"; }
+
+fresh_site
+photo=$(photo_file "$site" "$(photo_names "$site" | head -n 1)")
+name=$(photo_names "$site" | head -n 1)
+rm -- "$photo"
+check 'missing photo' refuses reconstruct 'survey/[a-z_]+\.(csv|json):[0-9]+: '
+
+fresh_site
+halve "$photo"
+check 'unreadable photo, light' refuses light "photos/$name\.[a-z]+: "
+check 'unreadable photo, undistort' refuses undistort "photos/$name\.[a-z]+: "
+check 'unreadable photo, render' refuses render "photos/$name\.[a-z]+: "
+
+fresh_site
+printf '%s,no_such_point,100.0,100.0,0.3\n' "$name" >>"$(survey observations.csv)"
+check 'unknown point' refuses reconstruct \
+  "survey/observations\.csv:$(last_line "$(survey observations.csv)"): "
+
+fresh_site
+awk -F, -v OFS=, 'NR > 3 { $8 = "check" } 1' "$DEMO_SITE/survey/control_points.csv" \
+  >"$(survey control_points.csv)"
+check 'two control points' refuses reconstruct 'survey/[a-z_]+\.csv:[0-9]+: '
+
+fresh_site
+awk -F, -v OFS=, 'NR > 1 { $2 = 2600500 + NR; $3 = 1200300 + 2 * NR; $4 = 430 } 1' \
+  "$DEMO_SITE/survey/control_points.csv" >"$(survey control_points.csv)"
+check 'collinear control' refuses reconstruct 'survey/[a-z_]+\.csv:[0-9]+: .*line'
+
+fresh_site
+edit_json polygons.json 'del data["polygons"][1]["vertices"][2:]'
+check 'polygon with two vertices' refuses reconstruct 'survey/polygons\.json:[0-9]+: '
+
+fresh_site
+edit_json polygons.json \
+  'p = data["polygons"]; q = next(q for q in p[1:] if len(q["vertices"]) == 4 and
+   not set(q["vertices"]) & set(p[0]["vertices"])); p[0]["vertices"] += q["vertices"][2:3]'
+check 'polygon far from planar' refuses reconstruct 'survey/polygons\.json:[0-9]+: '
+
+fresh_site
+sed -i '3s/,[^,]*/,nan/' "$(survey control_points.csv)"
+check 'NaN in a coordinate' refuses reconstruct 'survey/control_points\.csv:3: '
+
+fresh_site
+sed -i '4s/\(,[^,]*\),[^,]*/\1,nan/' "$(survey observations.csv)"
+check 'NaN in a mark' refuses reconstruct 'survey/observations\.csv:4: '
+
+fresh_site
+edit_json samples.json 'data["haze"][0].update(data["horizon"][0])'
+check 'haze sample on the sky' refuses light 'survey/samples\.json:[0-9]+: '
+
+fresh_site
+edit_json samples.json 'data["daylight"][0]["x"] = float("nan")'
+check 'NaN in a sample' refuses light 'survey/samples\.json:[0-9]+: '
+
+fresh_site
+drawing=$(find "$site/building" -name '*.dxf' | head -n 1)
+halve "$drawing"
+check 'drawing cut in half' refuses convert "building/${drawing##*/}:[0-9]+: "
+
+for program in calibrate reconstruct undistort light convert render; do
+  site=$temporary/empty
+  mkdir -p -- "$site"
+  check "empty folder, $program" refuses "$program" '[a-z]+'
+  check "empty folder, $program: it stays empty" test -z "$(ls -A -- "$site")"
+done
+
+montage_status() {
+  local status=0
+  "$root/scripts/montage" "$@" || status=$?
+  [[ $status -eq 2 ]]
+}
+check 'montage of no folder' montage_status "$temporary/nothing"
+check 'montage in an unknown frame' montage_status --frame sideways "$DEMO_SITE"
+fresh_site
+halve "$drawing"
+check 'montage stops with its program'\''s status' montage_status "$site"
+finish

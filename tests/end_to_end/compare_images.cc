@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Compares images for the end-to-end tests.
+//   compare_images identical A B [MASK]
+//       status 0 if the decoded pixels are equal; with MASK only where it is 0.
+//   compare_images error MONTAGE TRUTH BEFORE MASK MAX_RATIO
+//       status 0 if, where MASK is not 0, the sRGB RMS error against TRUTH is at most MAX_RATIO
+//       of that of BEFORE, the photograph without the building.
+#include <algorithm>
+#include <cmath>
+#include <exception>
+#include <iostream>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "calibration/photograph.h"
+
+namespace insitu {
+namespace {
+
+Raster ReadLinear(const std::string& path) { return ReadPhotograph(path).linear; }
+
+void RequireSameSize(const Raster& a, const Raster& b) {
+  if (a.width != b.width || a.height != b.height) throw std::runtime_error("sizes differ");
+}
+
+// Sum over the channels of the squared difference of two pixels, sRGB encoded.
+double SquaredError(const Raster& a, const Raster& b, int x, int y) {
+  double sum = 0;
+  for (int c = 0; c < 3; ++c) {
+    const auto encoded = [&](const Raster& image) {
+      return SrgbFromLinear(std::clamp<double>(image.At(x, y)[c], 0, 1));
+    };
+    sum += std::pow(encoded(a) - encoded(b), 2);
+  }
+  return sum;
+}
+
+bool AreIdentical(const std::vector<std::string>& files) {
+  const Raster a = ReadLinear(files[0]), b = ReadLinear(files[1]);
+  const Raster mask = files.size() > 2 ? ReadLinear(files[2]) : Raster(a.width, a.height);
+  RequireSameSize(a, b);
+  RequireSameSize(a, mask);
+  int compared = 0, different = 0;
+  for (int y = 0; y < a.height; ++y) {
+    for (int x = 0; x < a.width; ++x) {
+      if (mask.At(x, y)[0] > 0) continue;
+      ++compared;
+      different += a.Rgb(x, y) != b.Rgb(x, y);
+    }
+  }
+  std::cout << different << " of " << compared << " pixels differ\n";
+  return compared > 0 && different == 0;
+}
+
+bool IsErrorBelow(const std::vector<std::string>& files, double max_ratio) {
+  const Raster montage = ReadLinear(files[0]), truth = ReadLinear(files[1]);
+  const Raster before = ReadLinear(files[2]), mask = ReadLinear(files[3]);
+  for (const Raster* image : {&truth, &before, &mask}) RequireSameSize(montage, *image);
+  double error = 0, nothing = 0;
+  for (int y = 0; y < mask.height; ++y) {
+    for (int x = 0; x < mask.width; ++x) {
+      if (mask.At(x, y)[0] == 0) continue;
+      error += SquaredError(montage, truth, x, y);
+      nothing += SquaredError(before, truth, x, y);
+    }
+  }
+  const double ratio = std::sqrt(error / nothing);
+  std::cout << "error " << ratio << " of that of doing nothing, at most " << max_ratio << "\n";
+  return ratio <= max_ratio;  // false for NaN too: a mask without changed pixels
+}
+
+bool Compare(const std::vector<std::string>& arguments) {
+  const std::string mode = arguments.empty() ? "" : arguments[0];
+  const std::vector<std::string> rest(arguments.begin() + !arguments.empty(), arguments.end());
+  if (mode == "identical" && (rest.size() == 2 || rest.size() == 3)) return AreIdentical(rest);
+  if (mode == "error" && rest.size() == 5) return IsErrorBelow(rest, std::stod(rest[4]));
+  throw std::runtime_error("expected identical A B [MASK] or error A TRUTH BEFORE MASK MAX_RATIO");
+}
+
+}  // namespace
+}  // namespace insitu
+
+int main(int argc, char** argv) {
+  try {
+    return insitu::Compare({argv + 1, argv + argc}) ? 0 : 1;
+  } catch (const std::exception& error) {
+    std::cerr << "compare_images: " << error.what() << "\n";
+    return 2;
+  }
+}

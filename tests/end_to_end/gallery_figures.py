@@ -1,0 +1,74 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""gallery_figures.py gi|direct SITE SHARED: the figures of a montage of the shared gallery site.
+
+Prints one line a figure, "ok: ..." or "FAIL: ...", with its bound. The truth is that of the
+gallery's README; score.py of the shared tools compares the images.
+"""
+import json
+import math
+import subprocess
+import sys
+
+SUN = (0.793943, 0.142317, 0.591101)
+ZENITH = (0.004887, -0.003665, 0.999981)
+TRANSMITTANCE_PER_M = (0.999473, 0.999246, 0.998885)
+SUN_IRRADIANCE = (4.90, 4.73, 4.46)
+SKY_RADIANCE = (0.410, 0.485, 0.570)
+MAX_ERROR_OVER_NOTHING = {'gi': 0.30, 'direct': 0.12}
+PHOTO = 'IMG_2102'
+
+
+def at_most(what, value, bound):
+    print(f"{'ok' if value <= bound else 'FAIL'}: {what} {value:.4f}, at most {bound}")
+
+
+def angle_deg(a, b):
+    cross = [a[i - 2] * b[i - 1] - a[i - 1] * b[i - 2] for i in range(3)]
+    return math.degrees(math.atan2(math.hypot(*cross), sum(x * y for x, y in zip(a, b))))
+
+
+def load(site, path):
+    with open(f'{site}/work/{path}', encoding='utf-8') as file:
+        return json.load(file)
+
+
+def geometry_and_light(site):
+    report = load(site, 'reconstruction/report.json')
+    environment = load(site, 'environment.json')
+    air, light = environment['air'], environment['light']
+    at_most('check points RMS over sigma', report['summary']['check_rms_over_sigma'], 1.5)
+    at_most('sun direction [deg]', angle_deg(light['sun_direction'], SUN), 0.3)
+    at_most('zenith direction [deg]', angle_deg(light['zenith'], ZENITH), 0.1)
+    for channel, name in enumerate(('red', 'green', 'blue')):
+        measured = air['transmittance_200m_rgb'][channel]
+        at_most(f'haze transmittance at 200 m, {name}, off by',
+                abs(measured - TRANSMITTANCE_PER_M[channel] ** 200), 0.02)
+        ratio = light['sun_irradiance_rgb'][channel] / light['sky_radiance_rgb'][channel]
+        truth = SUN_IRRADIANCE[channel] / SKY_RADIANCE[channel]
+        at_most(f'sun to sky, {name}, off by', abs(ratio / truth - 1), 0.10)
+
+
+def picture(kind, site, shared):
+    gallery = f'{shared}/data/gallery'
+    before = {'gi': 'photos_linear', 'direct': 'photos_direct'}[kind]
+    scores = json.loads(subprocess.check_output(
+        ['/usr/bin/python3', f'{shared}/tools/score.py', '--json',
+         '--montage', f'{site}/montages/{PHOTO}.exr',
+         '--truth', f'{gallery}/truth/after_{kind}_{PHOTO}.exr',
+         '--before', f'{gallery}/{before}/{PHOTO}.exr',
+         '--mask', f'{gallery}/truth/mask_{kind}_{PHOTO}.png']))
+    at_most('error over that of doing nothing, changed pixels',
+            scores['changed']['error_over_nothing'], MAX_ERROR_OVER_NOTHING[kind])
+    if kind == 'direct':
+        at_most('mean CIEDE2000 of shadow pixels', scores['shadow']['de2000_mean'], 1.5)
+
+
+def main():
+    kind, site, shared = sys.argv[1:]
+    geometry_and_light(site)
+    picture(kind, site, shared)
+
+
+if __name__ == '__main__':
+    main()
