@@ -10,19 +10,15 @@
 
 namespace insitu {
 namespace fs = std::filesystem;
-namespace {
 
-bool IsPhotograph(const fs::directory_entry& entry) {
+bool IsPhotograph(const fs::path& path) {
   static constexpr std::array kEndings = {".jpg", ".jpeg", ".png", ".tif", ".tiff", ".exr"};
-  const fs::path& path = entry.path();
-  if (!entry.is_regular_file() || path.filename().string().starts_with('.')) return false;
+  if (!fs::is_regular_file(path) || path.filename().string().starts_with('.')) return false;
   std::string ending = path.extension().string();
   std::transform(ending.begin(), ending.end(), ending.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   return std::find(kEndings.begin(), kEndings.end(), ending) != kEndings.end();
 }
-
-}  // namespace
 
 std::vector<fs::path> ListPhotographs(const SitePaths& site) {
   if (!fs::is_directory(site.photos())) {
@@ -30,7 +26,7 @@ std::vector<fs::path> ListPhotographs(const SitePaths& site) {
   }
   std::map<std::string, fs::path> by_name;
   for (const fs::directory_entry& entry : fs::directory_iterator(site.photos())) {
-    if (!IsPhotograph(entry)) continue;
+    if (!IsPhotograph(entry.path())) continue;
     const auto [other, is_new] = by_name.emplace(entry.path().stem().string(), entry.path());
     if (!is_new) {
       const auto [first, second] = std::minmax(other->second, entry.path());

@@ -36,6 +36,9 @@ struct SitePaths {
   std::filesystem::path artificial() const { return root / "work/building.json"; }
 };
 
+// Whether a path is a file that ends as JPEG, PNG, TIFF or EXR do and is not hidden.
+bool IsPhotograph(const std::filesystem::path& path);
+
 // The site's photographs, sorted by name (their stem is the photo's name everywhere).
 // Throws InputError: no photos folder, no photographs in it, two with one name.
 std::vector<std::filesystem::path> ListPhotographs(const SitePaths& site);

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <iostream>
+
+#include "calibration/program.h"
+#include "calibration/site_calibration.h"
+
+int main(int argc, char** argv) {
+  CLI::App app("Removes the lens distortion from a site's photographs, in linear light.",
+               "insitu-undistort");
+  insitu::SitePaths site;
+  app.add_option("SITE", site.root, "the site folder")->required();
+  app.footer(
+      "Example: insitu-undistort gallery\n"
+      "writes gallery/work/input_images/*.exr and pinhole.cameramodel.");
+  return insitu::RunProgram(
+      app, argc, argv, [&] { std::cout << insitu::UndistortSite(site).BriefReport() << "\n"; });
+}
