@@ -15,9 +15,9 @@
 namespace insitu {
 
 struct AdjustmentOptions {
-  double plane_sigma = 0.005;    // [m], distance of a vertex from its polygon's plane
-  double zenith_sigma = 0.005;   // [m], across, of a vertical edge's ends
-  double sun_sigma = 0.02;       // [m], across, of a shadow point from the line to the sun
+  double plane_sigma = 0.005;   // [m], distance of a vertex from its polygon's plane
+  double zenith_sigma = 0.005;  // [m], across, of a vertical edge's ends
+  double sun_sigma = 0.02;      // [m], across, of a shadow point from the line to the sun
   std::map<std::string, Rigid3> initial_cam_from_world;  // user's estimates, by photo; none needed
 };
 
@@ -43,7 +43,7 @@ struct AdjustedPoint {
   Eigen::Vector3d position;    // [m], world
   Eigen::Matrix3d covariance;  // [m^2], scaled by sigma0^2
   int rays = 0;
-  double rms_px = 0;           // of its marks
+  double rms_px = 0;  // of its marks
 };
 
 // A surveyed point against the adjustment; for a check point the combined sigma is that of the
@@ -58,7 +58,7 @@ struct Adjustment {
   std::vector<AdjustedPose> poses;
   std::vector<AdjustedPoint> points;
   SceneGeometry scene;
-  double sigma0 = 0;      // a posteriori, a priori 1
+  double sigma0 = 0;  // a posteriori, a priori 1
   int observations = 0, unknowns = 0, redundancy = 0, iterations = 0;
   double chi_square_p = 0;  // two-sided p of the global test
   std::vector<ObservationResidual> residuals;

@@ -23,9 +23,9 @@ struct Ray {
 };
 
 struct RayHit {
-  double distance = 0;     // [m]
-  int triangle = 0;        // index into the triangles given
-  Eigen::Vector2d uv;      // barycentric weights of the triangle's second and third corner
+  double distance = 0;  // [m]
+  int triangle = 0;     // index into the triangles given
+  Eigen::Vector2d uv;   // barycentric weights of the triangle's second and third corner
 };
 
 // Triangles as three corners each, about a local origin so that single precision suffices.
@@ -46,8 +46,8 @@ class RayScene {
 
   // Up to 16 directions from one origin at once (Embree packets). Bit i of the result: direction i
   // is blocked between `near` and infinity.
-  uint16_t OcclusionMask(const Eigen::Vector3d& origin,
-                         std::span<const Eigen::Vector3f> directions, double near) const;
+  uint16_t OcclusionMask(const Eigen::Vector3d& origin, std::span<const Eigen::Vector3f> directions,
+                         double near) const;
 
  private:
   struct Embree;

@@ -21,7 +21,7 @@ struct ResectionResult {
   Rigid3 cam_from_world;
   double rms_px = 0;                       // sqrt(sum |v|^2 / points)
   Eigen::Matrix<double, 6, 6> covariance;  // left rotation increment [rad], camera centre [m]
-  bool ambiguous = false;                  // three points allow several poses and no start was given
+  bool ambiguous = false;  // three points allow several poses and no start was given
 };
 
 // First inversion of the camera model. [Durisch92, §4.1]

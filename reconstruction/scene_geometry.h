@@ -31,9 +31,9 @@ struct SceneGeometry {
   Eigen::Vector3d origin;  // a round point near the site; single-precision work is about it
   std::vector<PosedCamera> cameras;
   std::vector<Polygon> polygons;
-  std::optional<Direction> sun;     // nullopt: overcast, no sun pairs
+  std::optional<Direction> sun;  // nullopt: overcast, no sun pairs
   Direction zenith;
-  double vertex_sigma = 0;          // [m], the median posterior sigma of a vertex coordinate
+  double vertex_sigma = 0;  // [m], the median posterior sigma of a vertex coordinate
 };
 
 // work/reconstruction/scene.json and the .cameramodel files beside it. Reading throws InputError.
@@ -48,7 +48,6 @@ std::optional<std::vector<Eigen::Vector3i>> Triangulate(
 // The point of a polygon that a pixel of `camera` sees, ignoring everything before it; nullopt if
 // the line of sight misses the polygon.
 std::optional<Eigen::Vector3d> PointOnPolygon(const PosedCamera& camera,
-                                              const Eigen::Vector2d& pixel,
-                                              const Polygon& polygon);
+                                              const Eigen::Vector2d& pixel, const Polygon& polygon);
 
 }  // namespace insitu

@@ -45,7 +45,7 @@ struct PolygonOutline {
   std::vector<std::string> vertices;  // >= 3 distinct point names, counter-clockwise from outside
   std::optional<std::string> photo;   // the image attribute; nullopt: seen in no photo
   std::string material;
-  std::optional<std::string> mask;    // a PNG in survey/, white where the polygon is really visible
+  std::optional<std::string> mask;  // a PNG in survey/, white where the polygon is really visible
   FilePlace place;
 };
 
@@ -70,5 +70,8 @@ struct Survey {
 // with fewer than three distinct vertices, an unknown role, a direction pair of one point.
 // directions.json may be missing; the other three files may not.
 Survey ReadSurvey(const SitePaths& site, const std::vector<std::string>& photos);
+
+// Where a point is first stated: its first mark, else its control row, polygon or direction pair.
+FilePlace PlaceOfPoint(const Survey& survey, const std::string& name);
 
 }  // namespace insitu

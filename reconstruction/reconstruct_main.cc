@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <iostream>
+
+#include "calibration/program.h"
+#include "reconstruction/reconstruct_site.h"
+
+int main(int argc, char** argv) {
+  insitu::SitePaths site;
+  insitu::AdjustmentOptions options;
+  std::filesystem::path start_poses;
+  CLI::App app(
+      "Finds where the photographs of a site were taken from, its polygons, and the directions to "
+      "the sun and the zenith, in one adjustment of its survey.",
+      "insitu-reconstruct");
+  app.add_option("SITE", site.root, "site folder")->required()->check(CLI::ExistingDirectory);
+  app.add_option("--plane-sigma", options.plane_sigma, "vertex off its polygon's plane [m]")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  app.add_option("--zenith-sigma", options.zenith_sigma, "top off the plumb line of bottom [m]")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  app.add_option("--sun-sigma", options.sun_sigma, "shadow point off the sun's ray [m]")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  app.add_option("--start", start_poses,
+                 "estimated positions, JSON: {\"PHOTO\": {\"center\": [x,y,z], \"look_at\": "
+                 "[x,y,z]}}")
+      ->check(CLI::ExistingFile);
+  app.footer("Example:\n  insitu-reconstruct sites/gallery --plane-sigma 0.01");
+  return insitu::RunProgram(app, argc, argv, [&] {
+    std::cout << insitu::ReconstructSite(site, options, start_poses).BriefReport();
+  });
+}
