@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "radiometry/natural_environment.h"
+
+#include <gtest/gtest.h>
+
+#include "calibration/error.h"
+#include "calibration/whole_file.h"
+#include "synthetic_site.h"
+
+namespace insitu {
+namespace {
+
+double RelativeError(const Eigen::Vector3d& value, const Eigen::Vector3d& truth) {
+  return (value.array() / truth.array() - 1).abs().maxCoeff();
+}
+
+bool HasWarning(const LightMeasurement& measured, const std::string& part) {
+  for (const std::string& warning : measured.warnings) {
+    if (warning.find(part) != std::string::npos) return true;
+  }
+  return false;
+}
+
+void Replace(const std::filesystem::path& path, const std::string& from, const std::string& to) {
+  std::string text = ReadWhole(path);
+  ASSERT_NE(text.find(from), std::string::npos);
+  WriteWhole(path, text.replace(text.find(from), from.size(), to));
+}
+
+template <typename Function>
+std::string ErrorOf(Function function) {
+  try {
+    function();
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+class BinsTest : public testing::TestWithParam<int> {};
+INSTANTIATE_TEST_SUITE_P(Counts, BinsTest, testing::Values(9, 16));
+
+TEST_P(BinsTest, MeasureDaylightFindsTheTruth) {
+  const SyntheticSite truth = MakeSyntheticSite("measure_" + std::to_string(GetParam()));
+  LightOptions options;
+  options.bins = GetParam();
+  options.polar_facets = 24;
+  const LightMeasurement measured = MeasureDaylight(truth.site, options);
+  const SpectralBasis& spectra = measured.environment.spectra;
+  const Daylight& light = measured.environment.light;
+  const Eigen::Vector3d tau = truth.transmittance.array().pow(200);
+  EXPECT_LT((measured.TransmittanceRgb(200) - tau).cwiseAbs().maxCoeff(), 0.005);
+  EXPECT_LT(RelativeError(measured.SunIrradianceRgb(), truth.sun_irradiance), 0.01);
+  EXPECT_LT(RelativeError(spectra.RgbFromSpectrum(light.sky_radiance), truth.sky_radiance), 0.04);
+  EXPECT_LT(RelativeError(measured.OpenSkyRgb(), truth.sky_radiance + truth.ambient_radiance),
+            0.03);
+  EXPECT_LT(measured.daylight_fit.rms, 0.5);
+}
+
+TEST(MeasureDaylight, PolygonsThatLieOnEachOtherDoNotShadeEachOther) {
+  const SyntheticSite truth = MakeSyntheticSite("coplanar");
+  const LightMeasurement measured = MeasureDaylight(truth.site);
+  EXPECT_LT(std::abs(measured.daylight_fit.residuals[6]), 0.02);  // below the path, in full sun
+}
+
+TEST(MeasureDaylight, WarnsOfWhatIsMissing) {
+  const SyntheticSite truth = MakeSyntheticSite("warnings");
+  const std::filesystem::path samples = truth.site.survey() / "samples.json";
+  Replace(samples, "\"haze\"", "\"no_haze\"");
+  Replace(samples, "daylight_reflectance_rgb", "note");
+  const LightMeasurement measured = MeasureDaylight(truth.site);
+  EXPECT_TRUE(HasWarning(measured, "air is taken as clear"));
+  EXPECT_TRUE((measured.environment.air.transmittance == 1).all());
+  EXPECT_TRUE(HasWarning(measured, "daylight_reflectance_rgb"));
+  EXPECT_FALSE(measured.reflectance_known);
+  EXPECT_TRUE(HasWarning(measured, "concrete, gravel"));
+  EXPECT_EQ(measured.environment.materials.size(), 2u);
+}
+
+TEST(MeasureDaylight, WithoutSunDirectionTheSkyIsOvercast) {
+  SyntheticSite truth = MakeSyntheticSite("overcast");
+  truth.scene.sun.reset();
+  WriteSceneGeometry(truth.site, truth.scene);
+  const LightMeasurement measured = MeasureDaylight(truth.site);
+  EXPECT_TRUE((measured.environment.light.sun_radiance == 0).all());
+  EXPECT_TRUE(HasWarning(measured, "overcast"));
+}
+
+TEST(MeasureDaylight, RefusesPhotographsThatDoNotFit) {
+  const SyntheticSite truth = MakeSyntheticSite("photos");
+  WriteExr(truth.site.photos() / "B.exr", Raster(90, 60));
+  EXPECT_NE(ErrorOf([&] { MeasureDaylight(truth.site); })
+                .find("B.exr: is 90 x 60 pixels, expected "
+                      "900 x 600"),
+            std::string::npos);
+  std::filesystem::remove(truth.site.photos() / "B.exr");
+  EXPECT_NE(ErrorOf([&] { MeasureDaylight(truth.site); }).find("no photograph \"B\""),
+            std::string::npos);
+  EXPECT_FALSE(std::filesystem::exists(truth.site.environment()));
+}
+
+void ExpectSameScene(const SceneGeometry& a, const SceneGeometry& b) {
+  EXPECT_EQ(a.origin, b.origin);
+  EXPECT_EQ(a.vertex_sigma, b.vertex_sigma);
+  EXPECT_EQ(a.sun->unit, b.sun->unit);
+  EXPECT_EQ(a.sun->covariance, b.sun->covariance);
+  EXPECT_EQ(a.zenith.unit, b.zenith.unit);
+  ASSERT_EQ(a.cameras.size(), b.cameras.size());
+  for (size_t i = 0; i < a.cameras.size(); ++i) {
+    EXPECT_EQ(a.cameras[i].photo, b.cameras[i].photo);
+    EXPECT_EQ(a.cameras[i].camera.lens_model(), b.cameras[i].camera.lens_model());
+    EXPECT_EQ(a.cameras[i].camera.intrinsics(), b.cameras[i].camera.intrinsics());
+    EXPECT_EQ(a.cameras[i].camera.width(), b.cameras[i].camera.width());
+    EXPECT_EQ(a.cameras[i].cam_from_world.rotation.coeffs(),
+              b.cameras[i].cam_from_world.rotation.coeffs());
+    EXPECT_EQ(a.cameras[i].cam_from_world.translation, b.cameras[i].cam_from_world.translation);
+  }
+  ASSERT_EQ(a.polygons.size(), b.polygons.size());
+  for (size_t i = 0; i < a.polygons.size(); ++i) {
+    EXPECT_EQ(a.polygons[i].name, b.polygons[i].name);
+    EXPECT_EQ(a.polygons[i].vertices, b.polygons[i].vertices);
+    EXPECT_EQ(a.polygons[i].normal, b.polygons[i].normal);
+    EXPECT_EQ(a.polygons[i].photo, b.polygons[i].photo);
+    EXPECT_EQ(a.polygons[i].material, b.polygons[i].material);
+  }
+}
+
+TEST_P(BinsTest, EnvironmentReturnsToTheLastBit) {
+  const SyntheticSite truth = MakeSyntheticSite("round_trip_" + std::to_string(GetParam()));
+  WriteWhole(
+      truth.site.survey() / "materials.json",
+      R"({"materials": {"gravel": {"specular": "fresnel", "specular_weight": 0.3, "ior": 1.4},
+                               "steel": {"specular": "mirror"}}})");
+  LightOptions options;
+  options.bins = GetParam();
+  const LightMeasurement measured = MeasureDaylight(truth.site, options);
+  WriteEnvironment(truth.site, measured);
+  const NaturalEnvironment& a = measured.environment;
+  const NaturalEnvironment b = ReadEnvironment(truth.site);
+  ExpectSameScene(a.scene, b.scene);
+  EXPECT_EQ(a.spectra.bins().count, b.spectra.bins().count);
+  EXPECT_TRUE((a.air.horizon == b.air.horizon).all());
+  EXPECT_TRUE((a.air.transmittance == b.air.transmittance).all());
+  EXPECT_EQ(a.light.sun_direction, b.light.sun_direction);
+  EXPECT_EQ(a.light.sun_solid_angle, b.light.sun_solid_angle);
+  EXPECT_EQ(a.light.zenith_direction, b.light.zenith_direction);
+  EXPECT_EQ(a.light.polar_facets, b.light.polar_facets);
+  EXPECT_TRUE((a.light.sun_radiance == b.light.sun_radiance).all());
+  EXPECT_TRUE((a.light.sky_radiance == b.light.sky_radiance).all());
+  EXPECT_TRUE((a.light.ambient_radiance == b.light.ambient_radiance).all());
+  ASSERT_EQ(b.materials.size(), 3u);
+  EXPECT_EQ(b.materials.at("gravel").specular->index, 1.4);
+  EXPECT_EQ(b.materials.at("gravel").specular->weight, 0.3);
+  EXPECT_FALSE(b.materials.at("steel").specular->index);
+  EXPECT_FALSE(b.materials.at("concrete").specular);
+}
+
+TEST(WriteEnvironment, SameInputSameBytes) {
+  const SyntheticSite truth = MakeSyntheticSite("bytes");
+  WriteEnvironment(truth.site, MeasureDaylight(truth.site));
+  const std::string first = ReadWhole(truth.site.environment());
+  WriteEnvironment(truth.site, MeasureDaylight(truth.site));
+  EXPECT_EQ(ReadWhole(truth.site.environment()), first);
+}
+
+TEST(ReadEnvironment, FaultsNameFileAndLine) {
+  const SyntheticSite truth = MakeSyntheticSite("bad_environment");
+  const LightMeasurement measured = MeasureDaylight(truth.site);
+  const auto error_after = [&](const std::string& from, const std::string& to) {
+    WriteEnvironment(truth.site, measured);
+    Replace(truth.site.environment(), from, to);
+    return ErrorOf([&] { ReadEnvironment(truth.site); });
+  };
+  EXPECT_NE(error_after("\"version\" : 1", "\"version\" : 2").find("expected 1"),
+            std::string::npos);
+  EXPECT_NE(error_after("natural environment", "scene").find("expected \"insitu natural"),
+            std::string::npos);
+  EXPECT_NE(error_after("\"bins\" : 16", "\"bins\" : 9").find("expected one for each of 9 bins"),
+            std::string::npos);
+  const std::string missing = error_after("\"gravel\" :", "\"grave\" :");
+  EXPECT_NE(missing.find("lacks \"gravel\""), std::string::npos) << missing;
+  EXPECT_NE(missing.find("environment.json:"), std::string::npos) << missing;
+}
+
+TEST(BriefReport, SaysWhatWasFound) {
+  const SyntheticSite truth = MakeSyntheticSite("report");
+  const std::string report = MeasureDaylight(truth.site).BriefReport();
+  EXPECT_NE(report.find("over 200 m, 6 samples"), std::string::npos) << report;
+  EXPECT_NE(report.find("Warning: materials without an entry"), std::string::npos) << report;
+}
+
+}  // namespace
+}  // namespace insitu
