@@ -5,7 +5,6 @@
 #include <cmath>
 #include <cstdio>
 #include <exiv2/exiv2.hpp>
-#include <functional>
 #include <map>
 #include <numbers>
 #include <set>
@@ -24,6 +23,17 @@ namespace {
 constexpr int kFewestBoards = 3;
 constexpr int kGridColumns = 13, kGridRows = 9;  // of the uncertainty over the frame
 constexpr char kCorners[] = "corners.vnl";
+constexpr char kPython[] = "/usr/bin/python3";  // Debian's own, which has mrcal
+constexpr char kMrcalPackage[] = "python3-mrcal";
+constexpr char kPhotos[] = "photos/";
+constexpr char kPhotosGlob[] = "photos/*";  // mrcal takes one pattern a camera
+
+void CheckSquare(const Board& board) {
+  if (board.interior_corners_x == board.interior_corners_y) return;
+  throw InputError(board.path, "a board of " + std::to_string(board.interior_corners_x) + "x" +
+                                   std::to_string(board.interior_corners_y) +
+                                   " interior corners, expected a square one for mrgingham");
+}
 
 // ---- the photographs -----------------------------------------------------------------------
 
@@ -63,16 +73,14 @@ double StartFocal(const fs::path& photo, const Eigen::Vector2i& size) {
 
 // ---- mrcal's programs ----------------------------------------------------------------------
 
-// The photos by their names in one new folder, so that what mrcal stores names no folder of ours.
-std::vector<std::string> LinkPhotos(const std::vector<fs::path>& photos, const fs::path& folder) {
+// Links to the photos in one new folder, so that one pattern names them all and what mrcal stores
+// names no folder of ours.
+void LinkPhotos(const std::vector<fs::path>& photos, const fs::path& folder) {
   fs::remove_all(folder);
-  fs::create_directories(folder);
-  std::vector<std::string> names;
+  fs::create_directories(folder / kPhotos);
   for (const fs::path& photo : photos) {
-    names.push_back(photo.filename().string());
-    fs::create_symlink(fs::absolute(photo), folder / names.back());
+    fs::create_symlink(fs::absolute(photo), folder / kPhotos / photo.filename());
   }
-  return names;
 }
 
 // mrgingham's worker processes report in the order in which they finish.
@@ -91,16 +99,13 @@ void SortByPhoto(const fs::path& corners) {
   WriteWhole(corners, head);
 }
 
-void FindCorners(const std::vector<std::string>& names, const Board& board,
-                 const fs::path& folder) {
-  ExternalProgram program{{"mrgingham", "--jobs", "2", "--gridn"},
-                          "mrgingham",
-                          folder,
-                          folder / kCorners,
-                          folder / "mrgingham.log"};
-  program.command.push_back(std::to_string(board.interior_corners_x));
-  program.command.insert(program.command.end(), names.begin(), names.end());
-  RunExternal(program);
+void FindCorners(const Board& board, const fs::path& folder) {
+  RunExternal({.command = {"mrgingham", "--jobs", "2", "--gridn",
+                           std::to_string(board.interior_corners_x), kPhotosGlob},
+               .package = "mrgingham",
+               .folder = folder,
+               .output = folder / kCorners,
+               .log = folder / "mrgingham.log"});
   SortByPhoto(folder / kCorners);
 }
 
@@ -114,6 +119,22 @@ std::set<std::string> PhotosWithCorners(const fs::path& corners) {
     if (!line.starts_with('#') && cells >> photo >> x && x != "-") photos.insert(photo);
   }
   return photos;
+}
+
+void CountBoards(const std::vector<fs::path>& photos, const fs::path& folder,
+                 BoardCalibration* result) {
+  const std::set<std::string> found = PhotosWithCorners(folder / kCorners);
+  result->board_photos = static_cast<int>(photos.size());
+  result->boards_found = static_cast<int>(found.size());
+  for (const fs::path& photo : photos) {
+    const std::string name = photo.filename().string();
+    if (!found.contains(kPhotos + name)) result->not_found.push_back(name);
+  }
+  if (result->boards_found >= kFewestBoards) return;
+  throw InputError(photos.front().parent_path(),
+                   "whole boards found in " + std::to_string(found.size()) + " of " +
+                       std::to_string(photos.size()) + " photos, expected at least " +
+                       std::to_string(kFewestBoards));
 }
 
 // mrcal's model as it is, but for the comment that holds the date and the command line.
@@ -132,34 +153,33 @@ std::string Digits(double value) {
   return text;
 }
 
-void SolveLens(const std::vector<std::string>& names, const Board& board,
-               const std::string& lens_model, double focal_px, const fs::path& folder,
-               const fs::path& model) {
+void SolveLens(const Board& board, const std::string& lens_model, double focal_px,
+               const fs::path& folder, const fs::path& model) {
   const fs::path made = folder / "made";
   fs::create_directory(made);
   const fs::path log = folder / (model.stem().string() + ".log");
-  ExternalProgram program{
-      {"mrcal-calibrate-cameras", "--corners-cache", kCorners, "--lensmodel", lens_model, "--focal",
-       Digits(focal_px), "--object-spacing", Digits(board.square_m), "--object-width-n",
-       std::to_string(board.interior_corners_x), "--outdir", "made"},
-      "mrcal",
-      folder,
-      log,
-      log};
-  program.command.insert(program.command.end(), names.begin(), names.end());
-  RunExternal(program);
+  RunExternal(
+      {.command = {kPython, INSITU_CALIBRATION_FOLDER "/run_seeded.py", "mrcal-calibrate-cameras",
+                   "--corners-cache", kCorners, "--lensmodel", lens_model, "--focal",
+                   Digits(focal_px), "--object-spacing", Digits(board.square_m), "--object-width-n",
+                   std::to_string(board.interior_corners_x), "--outdir", "made", kPhotosGlob},
+       .package = kMrcalPackage,
+       .folder = folder,
+       .output = log,
+       .log = log});
   CopyModel(made / "camera-0.cameramodel", model);
   fs::remove_all(made);
 }
 
 JsonNode Assess(const fs::path& model, const fs::path& folder) {
   const fs::path output = folder / (model.stem().string() + ".json");
-  RunExternal({{"/usr/bin/python3", INSITU_PROJECTION_UNCERTAINTY_PY, fs::absolute(model).string(),
-                std::to_string(kGridColumns), std::to_string(kGridRows)},
-               "python3-mrcal",
-               folder,
-               output,
-               folder / (model.stem().string() + "_uncertainty.log")});
+  RunExternal({.command = {kPython, INSITU_CALIBRATION_FOLDER "/projection_uncertainty.py",
+                           fs::absolute(model).string(), std::to_string(kGridColumns),
+                           std::to_string(kGridRows)},
+               .package = kMrcalPackage,
+               .folder = folder,
+               .output = output,
+               .log = folder / (model.stem().string() + "_uncertainty.log")});
   return JsonNode::Load(output);
 }
 
@@ -257,37 +277,21 @@ BoardCalibration CalibrateFromBoards(const std::vector<fs::path>& board_photos, 
                                      const fs::path& output_model,
                                      const BoardCalibrationOptions& options) {
   INSITU_CHECK(!board_photos.empty());
-  if (board.interior_corners_x != board.interior_corners_y) {
-    throw InputError(board.path, "a board of " + std::to_string(board.interior_corners_x) + "x" +
-                                     std::to_string(board.interior_corners_y) +
-                                     " interior corners, expected a square one for mrgingham");
-  }
+  CheckSquare(board);
   const Eigen::Vector2i size = CommonSize(board_photos);
   const double focal_px =
       options.focal_px > 0 ? options.focal_px : StartFocal(board_photos.front(), size);
   const fs::path folder = fs::absolute(output_model).parent_path() / "boards";
-  const std::vector<std::string> names = LinkPhotos(board_photos, folder);
-  FindCorners(names, board, folder);
-  const std::set<std::string> found = PhotosWithCorners(folder / kCorners);
+  const fs::path lean = folder / "lean.cameramodel", splined = folder / "splined.cameramodel";
+  LinkPhotos(board_photos, folder);
+  FindCorners(board, folder);
 
   BoardCalibration result;
-  result.board_photos = static_cast<int>(names.size());
-  result.boards_found = static_cast<int>(found.size());
-  std::copy_if(names.begin(), names.end(), std::back_inserter(result.not_found),
-               [&](const std::string& name) { return !found.contains(name); });
-  if (result.boards_found < kFewestBoards) {
-    throw InputError(board_photos.front().parent_path(),
-                     "whole boards found in " + std::to_string(found.size()) + " of " +
-                         std::to_string(names.size()) + " photos, expected at least " +
-                         std::to_string(kFewestBoards));
-  }
-
-  const fs::path lean = folder / "lean.cameramodel";
-  SolveLens(names, board, options.lens_model, focal_px, folder, lean);
+  CountBoards(board_photos, folder, &result);
+  SolveLens(board, options.lens_model, focal_px, folder, lean);
   result.lens_model = options.lens_model;
   result.splined_lens_model = SplinedLensModel(ReadCamera(lean));
-  const fs::path splined = folder / "splined.cameramodel";
-  SolveLens(names, board, result.splined_lens_model, focal_px, folder, splined);
+  SolveLens(board, result.splined_lens_model, focal_px, folder, splined);
 
   const JsonNode assessed = Assess(lean, folder);
   result.points = assessed.At("points").Integer();

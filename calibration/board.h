@@ -35,9 +35,9 @@ struct BoardCalibration {
   std::filesystem::path model;  // the .cameramodel, optimization inputs and all
   std::string lens_model, splined_lens_model;
   int board_photos = 0, boards_found = 0;
-  std::vector<std::string> not_found;         // the photos in which no board was found
-  int points = 0, outliers = 0;               // corners used, corners refused
-  double rms_px = 0;                          // sqrt(sum |residual|^2 / points)
+  std::vector<std::string> not_found;  // the photos in which no board was found
+  int points = 0, outliers = 0;        // corners used, corners refused
+  double rms_px = 0;  // sqrt(sum |residual|^2 / points); mrcal prints it per coordinate, / sqrt(2)
   double worst_px = 0;                        // the largest |residual| of the points used
   ProjectionUncertainty uncertainty;          // of the lens model asked for
   ProjectionUncertainty splined_uncertainty;  // of mrcal's splined model on the same boards

@@ -16,7 +16,7 @@ int main(int argc, char** argv) {
       ->capture_default_str();
   app.add_option("--focal-px", options.focal_px,
                  "focal length to start from [px]; else from EXIF, else a 50 degree field of view")
-      ->check(CLI::PositiveNumber);
+      ->check(CLI::Range(1.0, 1e6));
   app.footer(
       "Example: insitu-calibrate gallery\n"
       "writes gallery/work/calibration/camera.cameramodel and report.json.");

@@ -88,8 +88,8 @@ void RunExternal(const ExternalProgram& program) {
   if (failure != 0) throw InputError(command[0], "cannot be run");
   const int status = WaitFor(process);
   if (status == 0) return;
-  throw InputError(program.log, command[0] + " failed with status " + std::to_string(status) +
-                                    ": " + LastLine(program.log));
+  throw InputError(program.log, "the program failed with status " + std::to_string(status) + ": " +
+                                    LastLine(program.log));
 }
 
 }  // namespace insitu

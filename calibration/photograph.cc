@@ -195,6 +195,7 @@ bool IsClipped(const Photograph& photo, int x, int y) {
 void WriteExr(const fs::path& path, const Raster& linear) {
   ImageSpec spec = SpecOf(linear);
   spec.attribute("compression", "zip");
+  spec.attribute("DateTime", "");  // else the time of writing would change the bytes
   WriteWhole(path, [&](const fs::path& temporary) { WriteImage(temporary, spec, linear.data); });
 }
 
