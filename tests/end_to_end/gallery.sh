@@ -29,17 +29,11 @@ figures() {
     printf 'FAIL: gallery_figures.py ends with an error\n')
 }
 
-untouched_is_photo() {
-  "$COMPARE_IMAGES" identical "$site/photos/IMG_2102.jpg" "$site/montages/IMG_2102.png" \
-    "$gallery/truth/mask_gi_IMG_2102.png"
-}
-
 is_photo() { "$COMPARE_IMAGES" identical "$site/photos/$1.jpg" "$site/montages/$1.png"; }
 
 new_site photographs
 check 'photographs, montage' "$root/scripts/montage" "$site"
 figures gi
-check 'photographs, untouched pixels of IMG_2102' untouched_is_photo
 calibration=$site/work/calibration
 
 new_site direct_light
