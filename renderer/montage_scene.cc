@@ -56,6 +56,28 @@ SpectralMaterial ArtificialSurface(const SpectralBasis& spectra, const SurfaceMa
           spectra.ReflectanceFromRgb(material.diffuse_rgb) / std::numbers::pi, material.specular};
 }
 
+// Within ten degrees of level.
+bool IsLevel(const SceneGeometry& scene, const Polygon& polygon) {
+  return polygon.normal.dot(scene.zenith.unit) > std::cos(10 * std::numbers::pi / 180);
+}
+
+double Area(const Polygon& polygon) {
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  const std::vector<Eigen::Vector3d>& v = polygon.vertices;
+  for (size_t i = 2; i < v.size(); ++i) sum += (v[i - 1] - v[0]).cross(v[i] - v[0]);
+  return sum.norm() / 2;
+}
+
+std::optional<int> LargestLevelPolygon(const SceneGeometry& scene) {
+  std::optional<int> largest;
+  for (size_t i = 0; i < scene.polygons.size(); ++i) {
+    if (!IsLevel(scene, scene.polygons[i])) continue;
+    const bool larger = !largest || Area(scene.polygons[i]) > Area(scene.polygons[*largest]);
+    if (larger) largest = static_cast<int>(i);
+  }
+  return largest;
+}
+
 InputImage LocalInputImage(const PosedCamera& photo, const Camera& pinhole, Raster image,
                            const Eigen::Vector3d& origin) {
   Rigid3 cam_from_local = photo.cam_from_world;
@@ -75,6 +97,7 @@ MontageScene MakeMontageScene(NaturalEnvironment natural, const ArtificialEnviro
                      .natural_rays = RayScene(polygons.mesh),
                      .polygon_of_triangle = std::move(polygons.polygon_of_triangle),
                      .material_of_polygon = {},
+                     .ground = {},
                      .artificial_rays = RayScene(building),
                      .artificial_normals = TriangleNormals(artificial),
                      .material_of_triangle = artificial.material_of_triangle,
@@ -88,6 +111,7 @@ MontageScene MakeMontageScene(NaturalEnvironment natural, const ArtificialEnviro
                      .input_images = {},
                      .mean_brdf_of_polygon = {}};
   const NaturalEnvironment& site = scene.natural;
+  scene.ground = LargestLevelPolygon(site.scene);
   for (const Polygon& polygon : site.scene.polygons) {
     scene.material_of_polygon.push_back(NaturalSurface(site, polygon));
   }

@@ -54,6 +54,7 @@ struct MontageScene {
   RayScene natural_rays;
   std::vector<int> polygon_of_triangle;
   std::vector<SpectralMaterial> material_of_polygon;
+  std::optional<int> ground;  // the largest polygon that lies level; its plane goes on beyond it
 
   RayScene artificial_rays;
   std::vector<Eigen::Vector3d> artificial_normals;  // of each triangle, unit

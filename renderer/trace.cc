@@ -44,6 +44,19 @@ std::optional<SceneHit> FindHit(const MontageScene& scene, Ray ray, World world)
   return found;
 }
 
+// Where a ray that meets no object goes below the horizon: onto the plane of the ground, which is
+// taken to go on beyond its polygon. nullopt: above the horizon, or no ground to go on.
+std::optional<SceneHit> FindGround(const MontageScene& scene, const Ray& ray) {
+  if (!scene.ground || ray.direction.dot(scene.natural.light.zenith_direction) >= 0) {
+    return std::nullopt;
+  }
+  const Polygon& ground = scene.natural.scene.polygons[*scene.ground];
+  const Eigen::Vector3d foot = ground.vertices[0] - scene.natural.scene.origin;
+  const double distance = ground.normal.dot(foot - ray.origin) / ground.normal.dot(ray.direction);
+  if (!(distance > 0)) return std::nullopt;
+  return SceneHit{false, *scene.ground, distance, Facing(ray, distance, ground.normal)};
+}
+
 Ray Reflected(const SurfacePoint& surface, const Eigen::Vector3d& to_viewer, double clearance) {
   const Eigen::Vector3d direction = 2 * surface.normal.dot(to_viewer) * surface.normal - to_viewer;
   return {surface.position + clearance * surface.normal, direction.normalized()};
@@ -157,8 +170,9 @@ Spectrum TraceSecondary(const MontageScene& scene, const Ray& ray, const LightDi
                         World world, int depth) {
   const Atmosphere& air = scene.natural.air;
   if (depth > kMaxMirrors) return air.horizon;
-  const auto hit = FindHit(scene, ray, world);
-  // Case B. Departure: below the horizon too; what lies beyond the polygons is far away in haze.
+  auto hit = FindHit(scene, ray, world);
+  // Case B. Departure: the paper leaves open what a ray below the horizon returns.
+  if (!hit) hit = FindGround(scene, ray);
   if (!hit) return air.horizon;
   const Spectrum L0 = ColorOf(scene, *hit, -ray.direction, light, world, depth);
   return ApparentColor(L0, air, hit->distance);

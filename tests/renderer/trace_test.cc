@@ -50,6 +50,13 @@ TEST(CaseB, SecondaryRayIntoTheSkyReturnsTheHorizonColor) {
   EXPECT_TRUE((L == scene.natural.air.horizon).all());
 }
 
+TEST(CaseB, BelowTheHorizonTheGroundGoesOnBeyondItsPolygon) {
+  const MontageScene scene = MakeSmallSite().With({});
+  const Ray ray = {{150, 0, 2}, Eigen::Vector3d(1, 0, -0.1).normalized()};  // lawn ends at 100 m
+  const Spectrum L = TraceSecondary(scene, ray, WholeSky(scene), World::kWithBuilding, 1);
+  EXPECT_NEAR(Red(scene, L), kLawnRadiance, 0.02);  // no photo shows it: its material's mean
+}
+
 // Open plate: sun 2 cos 45, sky pi 0.3, ambient pi 0.05, albedo over pi.
 TEST(CaseC, OpenHorizontalPlateHasItsClosedForm) {
   const SmallSite site = MakeSmallSite();
