@@ -127,6 +127,7 @@ Json::Value LightToJson(const LightMeasurement& measured) {
   json["sky_radiance_sigma"] = Bins(fit.sky_sigma, spectra.bins());
   json["sky_radiance_rgb"] = Vector(spectra.RgbFromSpectrum(light.sky_radiance));
   json["open_sky_radiance_rgb"] = Vector(measured.OpenSkyRgb());
+  json["surroundings_weight"] = Bins(fit.surroundings_weight, spectra.bins());
   json["reflectance_known"] = measured.reflectance_known;
   json["condition"] = fit.condition;
   json["rms_over_sigma"] = fit.rms;

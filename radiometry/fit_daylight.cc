@@ -18,6 +18,11 @@ constexpr int kRobustPasses = 20;
 constexpr double kSingular = 1e16;  // condition reported for a rank defect
 constexpr double kRankTolerance = 1e-8;
 
+// The ambient column of Eq. (9): pi as in Eq. (4), or what the surroundings really send.
+double AmbientFactor(const DaylightSample& sample, int bin) {
+  return sample.surroundings ? (*sample.surroundings)[bin] : sample.geometry.ambient;
+}
+
 // One bin's weighted equations A x = y for x = (sun, ambient, sky).
 struct Equations {
   Eigen::MatrixX3d A;
@@ -37,7 +42,7 @@ Equations SetUp(const std::vector<DaylightSample>& samples, double brdf, bool ha
   for (int i = 0; i < n; ++i) {
     const LightGeometry& seen = samples[i].geometry;
     const double p = std::sqrt(weights[i]) / samples[i].sigma[bin];
-    equations.A.row(i) << (has_sun ? seen.sun : 0), seen.ambient, seen.sky;
+    equations.A.row(i) << (has_sun ? seen.sun : 0), AmbientFactor(samples[i], bin), seen.sky;
     equations.A.row(i) *= p * brdf;
     equations.y[i] = p * samples[i].true_color[bin];
   }
@@ -125,8 +130,9 @@ Solution Solve(const Equations& equations) {
 DaylightFit SolveBins(const std::vector<DaylightSample>& samples, const Spectrum& brdf,
                       bool has_sun, const SpectralBins& bins, const std::vector<double>& weights) {
   DaylightFit fit;
-  for (Spectrum* part : {&fit.sun_radiance, &fit.ambient_radiance, &fit.sky_radiance,
-                         &fit.sun_sigma, &fit.ambient_sigma, &fit.sky_sigma}) {
+  for (Spectrum* part :
+       {&fit.sun_radiance, &fit.ambient_radiance, &fit.sky_radiance, &fit.sun_sigma,
+        &fit.ambient_sigma, &fit.sky_sigma, &fit.surroundings_weight}) {
     part->setZero();
   }
   for (int bin = 0; bin < bins.count; ++bin) {
@@ -151,9 +157,11 @@ void AverageOverWavelength(Spectrum& radiance, Spectrum& sigma, const SpectralBi
   sigma = (sigma.head(n) / d65.head(n)).mean() * d65;
 }
 
-Spectrum ModelRadiance(const DaylightFit& fit, const Spectrum& brdf, const LightGeometry& seen) {
-  return brdf * (fit.sun_radiance * seen.sun + fit.ambient_radiance * seen.ambient +
-                 fit.sky_radiance * seen.sky);
+Spectrum ModelRadiance(const DaylightFit& fit, const Spectrum& brdf, const DaylightSample& sample) {
+  const Spectrum ambient =
+      sample.surroundings ? *sample.surroundings : Spectrum::Constant(sample.geometry.ambient);
+  return brdf * (fit.sun_radiance * sample.geometry.sun + fit.ambient_radiance * ambient +
+                 fit.sky_radiance * sample.geometry.sky);
 }
 
 // Per sample: root mean square over the bins, in units of sigma.
@@ -162,8 +170,7 @@ std::vector<double> ResidualMagnitudes(const std::vector<DaylightSample>& sample
                                        const SpectralBins& bins) {
   std::vector<double> magnitudes;
   for (const DaylightSample& sample : samples) {
-    const Spectrum residual =
-        (sample.true_color - ModelRadiance(fit, brdf, sample.geometry)) / sample.sigma;
+    const Spectrum residual = (sample.true_color - ModelRadiance(fit, brdf, sample)) / sample.sigma;
     magnitudes.push_back(std::sqrt(residual.head(bins.count).square().mean()));
   }
   return magnitudes;
@@ -175,11 +182,35 @@ void SetResiduals(const std::vector<DaylightSample>& samples, const Spectrum& br
   fit.rms = Eigen::VectorXd::Map(magnitudes.data(), magnitudes.size()).norm() /
             std::sqrt(static_cast<double>(magnitudes.size()));
   for (const DaylightSample& sample : samples) {
-    const Spectrum model = ModelRadiance(fit, brdf, sample.geometry);
+    const Spectrum model = ModelRadiance(fit, brdf, sample);
     const double measured = sample.true_color.head(bins.count).mean();
     fit.residuals.push_back((measured - model.head(bins.count).mean()) /
                             std::max(std::abs(measured), sample.sigma.head(bins.count).mean()));
   }
+}
+
+// From the weight of the surroundings to the terms of Eqs. (4) and (5): see the header.
+void SpreadSurroundings(const std::vector<DaylightSample>& samples, DaylightFit& fit) {
+  Spectrum irradiance = Spectrum::Zero();
+  double hidden = 0;  // projected solid angle that the sky does not fill [sr]
+  for (const DaylightSample& sample : samples) {
+    irradiance += *sample.surroundings;
+    hidden += sample.geometry.ambient - sample.geometry.sky;
+  }
+  const Spectrum mean_radiance = irradiance / std::max(hidden, 1e-9);
+  fit.surroundings_weight = fit.ambient_radiance;
+  fit.ambient_radiance *= mean_radiance;
+  fit.ambient_sigma *= mean_radiance;
+  fit.ambient_radiance = fit.ambient_radiance.min(fit.sky_radiance);
+  fit.sky_radiance -= fit.ambient_radiance;
+  fit.sky_sigma = (fit.sky_sigma.square() + fit.ambient_sigma.square()).sqrt();
+}
+
+bool HaveSurroundings(const std::vector<DaylightSample>& samples) {
+  const auto with = std::count_if(samples.begin(), samples.end(),
+                                  [](const auto& sample) { return sample.surroundings; });
+  INSITU_CHECK(with == 0 || with == static_cast<long>(samples.size()));
+  return with > 0;
 }
 
 }  // namespace
@@ -191,18 +222,20 @@ DaylightFit FitDaylight(const std::vector<DaylightSample>& samples, const Spectr
   for (const DaylightSample& sample : samples) {
     INSITU_CHECK((sample.sigma.head(bins.count) > 0).all());
   }
+  const bool has_surroundings = HaveSurroundings(samples);
   std::vector<double> weights(samples.size(), 1.0);
   DaylightFit fit = SolveBins(samples, brdf, has_sun, bins, weights);
   for (int pass = 0; pass < kRobustPasses; ++pass) {
     weights = HuberWeights(ResidualMagnitudes(samples, fit, brdf, bins));
     fit = SolveBins(samples, brdf, has_sun, bins, weights);
   }
+  SetResiduals(samples, brdf, bins, fit);
+  if (has_surroundings) SpreadSurroundings(samples, fit);
   if (options.average_over_wavelength) {
     AverageOverWavelength(fit.sun_radiance, fit.sun_sigma, bins);
     AverageOverWavelength(fit.ambient_radiance, fit.ambient_sigma, bins);
     AverageOverWavelength(fit.sky_radiance, fit.sky_sigma, bins);
   }
-  SetResiduals(samples, brdf, bins, fit);
   return fit;
 }
 

@@ -22,6 +22,8 @@ int RunLight(int argc, char** argv) {
       ->capture_default_str();
   app.add_flag("--average", options.average_over_wavelength,
                "the paper's one spectrum for sun, sky and ambient light");
+  app.add_flag("--uniform-ambient", options.uniform_ambient,
+               "the paper's ambient light, alike everywhere, instead of photographed surroundings");
   return RunProgram(app, argc, argv, [&] {
     const LightMeasurement measurement = MeasureDaylight(site, options);
     WriteEnvironment(site, measurement);

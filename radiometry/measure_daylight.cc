@@ -7,14 +7,12 @@
 
 #include "calibration/error.h"
 #include "radiometry/natural_environment.h"
+#include "radiometry/surroundings.h"
 #include "reconstruction/ray_scene.h"
 
 namespace insitu {
 namespace {
 
-// Light rays start this far off the surface: survey noise leaves polygons that lie on each other
-// about a centimetre apart, and the lower of two must not be shaded by the upper. [m]
-constexpr double kRayOffset = 0.02;
 constexpr double kPoorCondition = 100;
 constexpr double kReportedDistance = 200;  // [m]
 
@@ -97,21 +95,31 @@ Daylight IlluminationGeometry(const SceneGeometry& scene, int polar_facets) {
   return light;
 }
 
-// What each sample sees of the daylight, on the side of its polygon that faces its camera.
-std::vector<LightGeometry> TraceSamples(const std::vector<PixelSample>& samples,
-                                        const SceneGeometry& scene, const Daylight& light) {
-  const RayScene rays(MeshOfPolygons(scene).mesh);
-  const SkyFacets facets = MakeSkyFacets(light.zenith_direction, light.polar_facets);
-  std::vector<LightGeometry> geometries;
+// The samples' places, on the side of their polygon that faces their camera.
+std::vector<SurfacePoint> SurfacePoints(const std::vector<PixelSample>& samples,
+                                        const SceneGeometry& scene) {
+  std::vector<SurfacePoint> points;
   for (const PixelSample& sample : samples) {
     const Eigen::Vector3d to_camera =
         Center(scene.cameras[sample.photo].cam_from_world) - sample.point;
-    Eigen::Vector3d normal = scene.polygons[*sample.polygon].normal;
-    if (normal.dot(to_camera) < 0) normal = -normal;
-    const Eigen::Vector3d origin = sample.point - scene.origin + kRayOffset * normal;
-    geometries.push_back(MeasureLight(light, facets, normal, [&](const Eigen::Vector3d& to_light) {
-      return !rays.IsOccluded({origin, to_light});
-    }));
+    const Eigen::Vector3d& normal = scene.polygons[*sample.polygon].normal;
+    points.push_back({sample.point, normal.dot(to_camera) < 0 ? Eigen::Vector3d(-normal) : normal});
+  }
+  return points;
+}
+
+// What each point sees of the daylight.
+std::vector<LightGeometry> TraceLight(const std::vector<SurfacePoint>& points,
+                                      const SceneGeometry& scene, const Daylight& light) {
+  const RayScene rays(MeshOfPolygons(scene).mesh);
+  const SkyFacets facets = MakeSkyFacets(light.zenith_direction, light.polar_facets);
+  std::vector<LightGeometry> geometries;
+  for (const SurfacePoint& point : points) {
+    const Eigen::Vector3d origin = point.position - scene.origin + kRayOffset * point.normal;
+    geometries.push_back(
+        MeasureLight(light, facets, point.normal, [&](const Eigen::Vector3d& to_light) {
+          return !rays.IsOccluded({origin, to_light});
+        }));
   }
   return geometries;
 }
@@ -128,10 +136,10 @@ Spectrum SampleBrdf(const LightSamples& samples, const SpectralBasis& spectra,
 }
 
 void WarnOfWeakSamples(const LightMeasurement& measured, bool has_sun,
-                       const std::vector<LightGeometry>& geometries,
+                       const std::vector<DaylightSample>& samples,
                        std::vector<std::string>& warnings) {
-  const bool any_sun = std::any_of(geometries.begin(), geometries.end(),
-                                   [](const LightGeometry& seen) { return seen.sun > 0; });
+  const bool any_sun = std::any_of(samples.begin(), samples.end(),
+                                   [](const auto& sample) { return sample.geometry.sun > 0; });
   if (!has_sun) warnings.push_back("no sun direction was measured: the sky is taken as overcast");
   if (has_sun && !any_sun) warnings.push_back("no daylight sample sees the sun: it stays dark");
   if (measured.daylight_fit.condition > kPoorCondition) {
@@ -141,21 +149,38 @@ void WarnOfWeakSamples(const LightMeasurement& measured, bool has_sun,
   }
 }
 
-void MeasureLightComponents(const LightOptions& options, LightMeasurement& measured) {
+std::vector<DaylightSample> DaylightSamples(const LightMeasurement& measured,
+                                            const std::vector<Photograph>& photos,
+                                            bool uniform_ambient) {
+  const NaturalEnvironment& environment = measured.environment;
+  const std::vector<PixelSample>& pixels = measured.samples.daylight;
+  const std::vector<SurfacePoint> points = SurfacePoints(pixels, environment.scene);
+  const std::vector<LightGeometry> geometries =
+      TraceLight(points, environment.scene, environment.light);
+  std::vector<Spectrum> surroundings;
+  if (!uniform_ambient) {
+    surroundings =
+        GatherSurroundings(points, environment.scene, photos, environment.air, environment.spectra);
+  }
+  std::vector<DaylightSample> samples;
+  for (size_t i = 0; i < pixels.size(); ++i) {
+    const Spectrum apparent = environment.spectra.SpectrumFromRgb(pixels[i].rgb);
+    samples.push_back({TrueColor(apparent, environment.air, pixels[i].distance),
+                       SpectrumSigma(environment.spectra, pixels[i].rgb_sigma) /
+                           TransmittanceOver(environment.air, pixels[i].distance),
+                       geometries[i]});
+    if (!surroundings.empty()) samples.back().surroundings = surroundings[i];
+  }
+  return samples;
+}
+
+void MeasureLightComponents(const std::vector<Photograph>& photos, const LightOptions& options,
+                            LightMeasurement& measured) {
   NaturalEnvironment& environment = measured.environment;
   Daylight& light = environment.light;
   light = IlluminationGeometry(environment.scene, options.polar_facets);
-  const std::vector<LightGeometry> geometries =
-      TraceSamples(measured.samples.daylight, environment.scene, light);
-  std::vector<DaylightSample> samples;
-  for (size_t i = 0; i < geometries.size(); ++i) {
-    const PixelSample& pixel = measured.samples.daylight[i];
-    const Spectrum apparent = environment.spectra.SpectrumFromRgb(pixel.rgb);
-    samples.push_back({TrueColor(apparent, environment.air, pixel.distance),
-                       SpectrumSigma(environment.spectra, pixel.rgb_sigma) /
-                           TransmittanceOver(environment.air, pixel.distance),
-                       geometries[i]});
-  }
+  const std::vector<DaylightSample> samples =
+      DaylightSamples(measured, photos, options.uniform_ambient);
   const bool has_sun = environment.scene.sun.has_value();
   measured.daylight_fit =
       FitDaylight(samples, SampleBrdf(measured.samples, environment.spectra, measured.warnings),
@@ -163,7 +188,7 @@ void MeasureLightComponents(const LightOptions& options, LightMeasurement& measu
   light.sun_radiance = measured.daylight_fit.sun_radiance;
   light.ambient_radiance = measured.daylight_fit.ambient_radiance;
   light.sky_radiance = measured.daylight_fit.sky_radiance;
-  WarnOfWeakSamples(measured, has_sun, geometries, measured.warnings);
+  WarnOfWeakSamples(measured, has_sun, samples, measured.warnings);
 }
 
 std::ostream& operator<<(std::ostream& out, const Eigen::Vector3d& rgb) {
@@ -178,11 +203,12 @@ LightMeasurement MeasureDaylight(const SitePaths& site, const LightOptions& opti
   environment.scene = ReadSceneGeometry(site);
   environment.spectra = SpectralBasis(Rec709(), {options.bins});
   environment.materials = MaterialsOfPolygons(site, environment.scene, measured.warnings);
-  measured.samples = ReadSamples(site, environment.scene, ReadPhotographs(site, environment.scene));
+  const std::vector<Photograph> photos = ReadPhotographs(site, environment.scene);
+  measured.samples = ReadSamples(site, environment.scene, photos);
   measured.reflectance_known = measured.samples.daylight_reflectance.has_value();
   measured.air_fit = MeasureAir(measured.samples, environment.spectra, measured.warnings);
   environment.air = measured.air_fit.air;
-  MeasureLightComponents(options, measured);
+  MeasureLightComponents(photos, options, measured);
   return measured;
 }
 
@@ -215,6 +241,9 @@ std::string LightMeasurement::BriefReport() const {
       << "Sky: radiance       " << spectra.RgbFromSpectrum(light.sky_radiance) << "\n"
       << "Ambient: radiance   " << spectra.RgbFromSpectrum(light.ambient_radiance)
       << ", with the sky " << OpenSkyRgb() << "\n"
+      << "Surroundings send   "
+      << daylight_fit.surroundings_weight.head(spectra.bins().count).mean()
+      << " of what their photographs show (0 with a uniform ambient light)\n"
       << "Daylight: " << samples.daylight.size() << " samples, residuals " << daylight_fit.rms
       << " sigma, condition " << daylight_fit.condition << "\n";
   for (const std::string& warning : warnings) out << "Warning: " << warning << "\n";

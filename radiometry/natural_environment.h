@@ -30,6 +30,8 @@ struct LightOptions {
   int bins = kMaxBins;   // 16, or 9 as the paper's mode
   int polar_facets = 8;  // m_h
   bool average_over_wavelength = false;
+  bool uniform_ambient =
+      false;  // Eq. (4) in the inversion too, instead of photographed surroundings
 };
 
 // What the light inversion found, for the report and the environment file.

@@ -34,7 +34,8 @@ class SpectralBasis {
   Spectrum Ones() const;
 
   // Weights c = W^-1 RGB, then their combination of the basis. [Durisch92, Eqs. (14), (17)]
-  // Linear; non-negative for colours inside the gamut.
+  // Linear; non-negative for colours inside the gamut if all three bases are exact: those of
+  // Rec. 709 are, with 9 and with 16 bins; of NTSC's the red one is not, which leaves up to -0.3 %.
   Spectrum SpectrumFromRgb(const Eigen::Vector3d& rgb) const;
   // RGB = W c and its general form through the tristimulus values. [Durisch92, Eqs. (15), (16)]
   Eigen::Vector3d RgbFromSpectrum(const Spectrum& stimulus) const;
