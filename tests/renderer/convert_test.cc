@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "renderer/convert.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "calibration/error.h"
+#include "tests/renderer/dxf_text.h"
+#include "tests/renderer/temporary_folder.h"
+
+namespace insitu {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+const char kMaterials[] = R"({
+ "layers": {
+  "WALL": {"diffuse_rgb": [0.5, 0.4, 0.3], "diffuse_weight": 0.8, "specular": "none",
+           "specular_weight": 0, "ior": null, "roughness": null},
+  "GLASS": {"diffuse_rgb": [0.03, 0.03, 0.04],
+            "specular": "fresnel",
+            "specular_weight": 0.9,
+            "ior": 1.5,
+            "roughness": 0.0}
+ }
+})";
+
+std::string Replaced(std::string text, const std::string& what, const std::string& with) {
+  return text.replace(text.find(what), what.size(), with);
+}
+
+class Convert : public testing::Test {
+ protected:
+  void Write(const std::string& name, const std::string& content) {
+    folder_.Write("building/" + name, content);
+  }
+  Conversion Converted() const { return ConvertBuilding({folder_.path()}); }
+  std::string Complaint() const {
+    try {
+      Converted();
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "";
+  }
+  // A building of one wall and one pane, with these materials.
+  std::string ComplaintAbout(const std::string& materials) {
+    Write("a.dxf", DrawingText(UnitSquare("WALL") + UnitSquare("GLASS")));
+    Write("materials.json", materials);
+    return Complaint();
+  }
+
+ private:
+  TemporaryFolder folder_;
+};
+
+TEST_F(Convert, LayersGetTheirMaterials) {
+  Write("a.dxf", DrawingText(UnitSquare("GLASS") + UnitSquare("WALL")));
+  Write("materials.json", kMaterials);
+  const Conversion conversion = Converted();
+  const ArtificialEnvironment& building = conversion.environment;
+  EXPECT_THAT(conversion.warnings, IsEmpty());
+  ASSERT_EQ(building.materials.size(), 2u);
+  EXPECT_THAT(building.material_of_triangle, ElementsAre(0, 0, 1, 1));
+  EXPECT_EQ(building.materials[0].name, "GLASS");
+  EXPECT_EQ(building.materials[0].diffuse_weight, 1);
+  EXPECT_EQ(building.materials[0].specular->weight, 0.9);
+  EXPECT_EQ(building.materials[0].specular->index, 1.5);
+  EXPECT_EQ(building.materials[1].diffuse_rgb, Eigen::Vector3d(0.5, 0.4, 0.3));
+  EXPECT_EQ(building.materials[1].diffuse_weight, 0.8);
+  EXPECT_FALSE(building.materials[1].specular);
+  EXPECT_TRUE(building.lights.empty());
+}
+
+TEST_F(Convert, DrawingsJoinInOrderOfTheirNames) {
+  Write("b.DXF", DrawingText(UnitSquare("WALL")));
+  Write("a.dxf", DrawingText(UnitSquare("GLASS") + UnitSquare("WALL")));
+  Write("a.obj", "not a drawing");
+  Write("materials.json", kMaterials);
+  const ArtificialEnvironment building = Converted().environment;
+  EXPECT_THAT(building.material_of_triangle, ElementsAre(0, 0, 1, 1, 1, 1));
+  EXPECT_EQ(building.vertices.size(), 12u);
+  EXPECT_EQ(building.triangles[4].minCoeff(), 8);
+}
+
+TEST_F(Convert, BareMirrorHasNoIndex) {
+  Write("a.dxf", DrawingText(UnitSquare("M")));
+  Write("materials.json",
+        R"({"layers": {"M": {"diffuse_rgb": [0, 0, 0], "specular": "mirror", "ior": null}}})");
+  const SurfaceMaterial mirror = Converted().environment.materials.at(0);
+  EXPECT_EQ(mirror.specular->weight, 1);
+  EXPECT_EQ(mirror.specular->index, std::nullopt);
+}
+
+TEST_F(Convert, Lights) {
+  Write("a.dxf", DrawingText(UnitSquare("WALL")));
+  Write("materials.json", kMaterials);
+  Write("lights.json", R"({"lights": [
+    {"name": "lamp", "position": [1, 2, 3], "intensity_rgb": [4, 5, 6]}]})");
+  const std::vector<PointLight> lights = Converted().environment.lights;
+  ASSERT_EQ(lights.size(), 1u);
+  EXPECT_EQ(lights[0].name, "lamp");
+  EXPECT_EQ(lights[0].position, Eigen::Vector3d(1, 2, 3));
+  EXPECT_EQ(lights[0].intensity_rgb, Eigen::Vector3d(4, 5, 6));
+  Write("lights.json",
+        "{\"lights\": [\n{\"name\": \"lamp\", \"position\": [1, 2, 3],\n"
+        "\"intensity_rgb\": [4, -5, 6]}]}");
+  EXPECT_THAT(Complaint(), HasSubstr("lights.json:3: "));
+  EXPECT_THAT(Complaint(), HasSubstr("is negative"));
+}
+
+TEST_F(Convert, WarnsOfWhatItLeavesOutOrGuesses) {
+  Write("a.dxf", DxfText(EntitiesSection(UnitSquare("DOOR") + "0 LINE\n0 LINE\n0 3DSOLID\n" +
+                                         "0 3DFACE\n10 0\n20 0\n11 1\n21 0\n12 2\n22 0\n") +
+                         "0 EOF"));
+  Write("materials.json", kMaterials);
+  const Conversion conversion = Converted();
+  EXPECT_THAT(
+      conversion.warnings,
+      ElementsAre(HasSubstr("a.dxf: names no unit"), HasSubstr("carry surfaces: 1 3DSOLID"),
+                  HasSubstr("left out: 2 LINE"), HasSubstr("1 faces of no area"),
+                  HasSubstr("materials.json: layer \"DOOR\" of the drawing is not listed"),
+                  HasSubstr("\"GLASS\" is listed but"), HasSubstr("\"WALL\" is listed but")));
+  EXPECT_EQ(conversion.environment.materials[0].diffuse_rgb, Eigen::Vector3d(0.5, 0.5, 0.5));
+  for (const std::string& warning : conversion.warnings) {
+    EXPECT_THAT(conversion.BriefReport(), HasSubstr("warning: " + warning));
+  }
+}
+
+TEST_F(Convert, ReportNamesSizeAndPlace) {
+  Write("a.dxf", DrawingText(UnitSquare("WALL")));
+  Write("materials.json", kMaterials);
+  EXPECT_THAT(Converted().BriefReport(),
+              testing::AllOf(HasSubstr("2 triangles, 0 lights\n"),
+                             HasSubstr("from (0.000, 0.000, 0.000) to (1.000, 1.000, 0.000) m"),
+                             HasSubstr("WALL: 2\n")));
+}
+
+TEST_F(Convert, NeedsADrawingWithSurfaces) {
+  EXPECT_THAT(Complaint(), HasSubstr("building: no drawing, expected at least one *.dxf"));
+  Write("materials.json", kMaterials);
+  Write("a.dxf", DrawingText("0 LINE\n"));
+  EXPECT_THAT(Complaint(), HasSubstr("a.dxf: has no surface to show"));
+  EXPECT_THAT(Complaint(), HasSubstr("it has 1 LINE"));
+}
+
+TEST_F(Convert, BadMaterials) {
+  ASSERT_EQ(ComplaintAbout(kMaterials), "");
+  const auto complaint = [&](const std::string& what, const std::string& with) {
+    return ComplaintAbout(Replaced(kMaterials, what, with));
+  };
+  EXPECT_THAT(complaint("0.4, 0.3]", "1.4, 0.3]"), HasSubstr("materials.json:3: "));
+  EXPECT_THAT(complaint("0.4, 0.3]", "-0.1, 0.3]"), HasSubstr("is no albedo"));
+  EXPECT_THAT(complaint("\"diffuse_weight\": 0.8", "\"diffuse_weight\": 1.8"),
+              HasSubstr("is out of range, expected 0 to 1"));
+  EXPECT_THAT(complaint("\"fresnel\"", "\"shiny\""), HasSubstr("materials.json:6: "));
+  EXPECT_THAT(complaint("\"fresnel\"", "\"shiny\""), HasSubstr("expected none, fresnel or mirror"));
+  EXPECT_THAT(complaint("0.9", "-0.9"), HasSubstr("materials.json:7: "));
+  EXPECT_THAT(complaint("1.5", "0.9"), HasSubstr("materials.json:8: "));
+  EXPECT_THAT(complaint("1.5", "null"), HasSubstr("\"ior\" is missing"));
+  EXPECT_THAT(complaint("0.0}", "0.2}"), HasSubstr("materials.json:9: "));
+  EXPECT_THAT(complaint("0.0}", "0.2}"), HasSubstr("smooth mirrors only"));
+  EXPECT_THAT(complaint("\"layers\"", "\"layer\""), HasSubstr("\"layers\" is missing"));
+  EXPECT_THAT(complaint("{\n", ""), HasSubstr("materials.json:"));
+}
+
+// A rough surface that mirrors nothing is just diffuse.
+TEST_F(Convert, RoughnessOfADiffuseMaterialMeansNothing) {
+  const std::string rough =
+      Replaced(kMaterials, "\"ior\": null, \"roughness\": null", "\"roughness\": 0.5");
+  ASSERT_NE(rough, kMaterials);
+  EXPECT_EQ(ComplaintAbout(rough), "");
+}
+
+}  // namespace
+}  // namespace insitu
