@@ -52,6 +52,7 @@ Eigen::Vector2i CommonSize(const std::vector<fs::path>& photos) {
 
 // The focal length that would give the same field of view on 35 mm film [mm], from EXIF.
 std::optional<double> Focal35mm(const fs::path& photo) {
+  Exiv2::LogMsg::setLevel(Exiv2::LogMsg::mute);  // cameras' own oddities are not the user's
   try {
     const auto image = Exiv2::ImageFactory::open(photo.string());
     image->readMetadata();

@@ -142,6 +142,7 @@ ImageSpec SpecOf(const Raster& raster) {
 
 // The thumbnail is left behind: it shows the photograph before the montage.
 void CopyMetadata(const fs::path& source, const fs::path& target) {
+  Exiv2::LogMsg::setLevel(Exiv2::LogMsg::mute);  // cameras' own oddities are not the user's
   try {
     const auto from = Exiv2::ImageFactory::open(source.string());
     from->readMetadata();
@@ -161,7 +162,10 @@ void CopyMetadata(const fs::path& source, const fs::path& target) {
   }
 }
 
-bool MayHoldMetadata(const fs::path& path) { return path.extension() != ".exr"; }
+bool MayHoldMetadata(const fs::path& path) {
+  if (!fs::is_regular_file(path)) throw InputError(path, "no such file, expected a photograph");
+  return Exiv2::ImageFactory::getType(path.string()) != Exiv2::ImageType::none;
+}
 
 }  // namespace
 
