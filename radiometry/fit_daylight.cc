@@ -148,13 +148,13 @@ DaylightFit SolveBins(const std::vector<DaylightSample>& samples, const Spectrum
   return fit;
 }
 
-// The paper's k, one for all wavelengths, times its L: the mean over the spectrum of radiance over
-// D65, as in §7.
+// The paper's k, one for all wavelengths, times its L, which is D65 as in §7. The mean over the
+// spectrum is weighted by what the eye makes of D65, so that the luminance stays as measured.
 void AverageOverWavelength(Spectrum& radiance, Spectrum& sigma, const SpectralBins& bins) {
   const Spectrum d65 = IlluminantD65(bins);
-  const int n = bins.count;
-  radiance = (radiance.head(n) / d65.head(n)).mean() * d65;
-  sigma = (sigma.head(n) / d65.head(n)).mean() * d65;
+  const double luminance = Tristimulus(d65, bins).y();
+  radiance = Tristimulus(radiance, bins).y() / luminance * d65;
+  sigma = Tristimulus(sigma, bins).y() / luminance * d65;
 }
 
 Spectrum ModelRadiance(const DaylightFit& fit, const Spectrum& brdf, const DaylightSample& sample) {
