@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The surveyor's files of a site folder, with the noise of real measurements.
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "datasets_synthetic/campus.h"
+#include "datasets_synthetic/field_survey.h"
+#include "datasets_synthetic/sample_choice.h"
+#include "datasets_synthetic/spectral_light.h"
+
+namespace insitu::demo {
+
+struct MeasuringNoise {
+  double control_m = 0.005;  // sigma of each coordinate
+  double mark_px = 0.3;      // sigma of each pixel coordinate
+};
+
+// control_points.csv and observations.csv into `folder`.
+void WriteMeasurements(const std::filesystem::path& folder, const Campus& campus,
+                       const FieldSurvey& survey, const MeasuringNoise& noise);
+
+// polygons.json; `best_views` as BestViews gives it.
+void WritePolygons(const std::filesystem::path& path, const Campus& campus,
+                   const std::vector<int>& best_views);
+
+void WriteDirections(const std::filesystem::path& path, const FieldSurvey& survey);
+
+void WriteSamples(const std::filesystem::path& path, const Campus& campus,
+                  const ChosenSamples& samples, const Daylight& daylight);
+
+// survey/materials.json: everything that stands is matt.
+void WriteNaturalMaterials(const std::filesystem::path& path, const Campus& campus);
+
+// site.json: place, time and film.
+void WriteSiteDescription(const std::filesystem::path& path, const Campus& campus);
+
+}  // namespace insitu::demo
