@@ -39,12 +39,16 @@ std::vector<Rigid3> StartPoses(const Camera& camera, const std::vector<Resection
   }
   std::vector<cv::Mat> rotations, translations;
   const cv::Matx33d identity = cv::Matx33d::eye();
-  if (objects.size() == 3) {
-    cv::solveP3P(objects, tangents, identity, cv::noArray(), rotations, translations,
-                 cv::SOLVEPNP_P3P);
-  } else if (objects.size() > 3) {
-    cv::solvePnPGeneric(objects, tangents, identity, cv::noArray(), rotations, translations, false,
-                        cv::SOLVEPNP_SQPNP);
+  try {
+    if (objects.size() == 3) {
+      cv::solveP3P(objects, tangents, identity, cv::noArray(), rotations, translations,
+                   cv::SOLVEPNP_P3P);
+    } else if (objects.size() > 3) {
+      cv::solvePnPGeneric(objects, tangents, identity, cv::noArray(), rotations, translations,
+                          false, cv::SOLVEPNP_SQPNP);
+    }
+  } catch (const cv::Exception&) {
+    return {};  // OpenCV's word for marks that coincide
   }
   std::vector<Rigid3> poses;
   for (size_t i = 0; i < rotations.size(); ++i) {

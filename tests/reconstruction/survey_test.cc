@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "reconstruction/survey.h"
+
+#include <gtest/gtest.h>
+
+#include "calibration/whole_file.h"
+#include "tests/reconstruction/synthetic_network.h"
+
+namespace insitu {
+namespace {
+
+class SurveyFiles : public testing::Test {
+ protected:
+  SurveyFiles() {
+    const auto* test = testing::UnitTest::GetInstance()->current_test_info();
+    site_.root = std::filesystem::path(testing::TempDir()) / "survey_files" / test->name();
+    std::filesystem::remove_all(site_.root);
+    WriteSurvey(site_, network_.survey);
+  }
+
+  // Puts `text` into a file in place of one of its lines, counted from 1.
+  void ReplaceLine(const std::string& file, int line, const std::string& text) const {
+    const std::string content = ReadWhole(site_.survey() / file);
+    size_t begin = 0;
+    for (int i = 1; i < line; ++i) begin = content.find('\n', begin) + 1;
+    const size_t end = content.find('\n', begin);
+    WriteWhole(site_.survey() / file, content.substr(0, begin) + text + content.substr(end));
+  }
+
+  // The message must begin with the file and line and name what is at fault.
+  void ExpectError(const std::string& file, int line, const std::string& subject) const {
+    try {
+      ReadSurvey(site_, network_.photos);
+      ADD_FAILURE() << "expected an error about " << subject;
+    } catch (const InputError& error) {
+      const std::string message = error.what();
+      const std::string place = (site_.survey() / file).string() + ":" + std::to_string(line) + ":";
+      EXPECT_EQ(message.substr(0, place.size()), place) << message;
+      EXPECT_NE(message.find(subject), std::string::npos) << message;
+    }
+  }
+
+  SitePaths site_;
+  SyntheticNetwork network_ = MakeSyntheticNetwork();
+};
+
+TEST_F(SurveyFiles, AreReadAsTheyWereWritten) {
+  const Survey read = ReadSurvey(site_, network_.photos);
+  const Survey& written = network_.survey;
+  ASSERT_EQ(read.control_points.size(), written.control_points.size());
+  for (size_t i = 0; i < read.control_points.size(); ++i) {
+    EXPECT_EQ(read.control_points[i].name, written.control_points[i].name);
+    EXPECT_EQ(read.control_points[i].position, written.control_points[i].position);
+    EXPECT_EQ(read.control_points[i].sigma, written.control_points[i].sigma);
+    EXPECT_EQ(read.control_points[i].role, written.control_points[i].role);
+    EXPECT_EQ(read.control_points[i].place.line, written.control_points[i].place.line);
+  }
+  ASSERT_EQ(read.observations.size(), written.observations.size());
+  for (size_t i = 0; i < read.observations.size(); ++i) {
+    EXPECT_EQ(read.observations[i].point, written.observations[i].point);
+    EXPECT_EQ(read.observations[i].pixel, written.observations[i].pixel);
+    EXPECT_EQ(read.observations[i].place.line, written.observations[i].place.line);
+  }
+  ASSERT_EQ(read.polygons.size(), written.polygons.size());
+  for (size_t i = 0; i < read.polygons.size(); ++i) {
+    EXPECT_EQ(read.polygons[i].vertices, written.polygons[i].vertices);
+    EXPECT_EQ(read.polygons[i].photo, written.polygons[i].photo);
+    EXPECT_EQ(read.polygons[i].place.line, written.polygons[i].place.line);
+  }
+  ASSERT_EQ(read.sun_pairs.size(), written.sun_pairs.size());
+  EXPECT_EQ(read.sun_pairs[1].from, "shadow_a5");
+  EXPECT_EQ(read.sun_pairs[1].to, "a5");
+  EXPECT_EQ(read.sun_pairs[1].place.line, written.sun_pairs[1].place.line);
+  ASSERT_EQ(read.zenith_pairs.size(), written.zenith_pairs.size());
+  EXPECT_EQ(read.zenith_pairs[0].from, "a0");
+  EXPECT_EQ(read.zenith_pairs[0].to, "a4");
+}
+
+TEST_F(SurveyFiles, MayLackDirections) {
+  std::erase_if(network_.survey.observations,
+                [](const auto& mark) { return mark.point.starts_with("shadow"); });
+  WriteSurvey(site_, network_.survey);
+  std::filesystem::remove(site_.survey() / "directions.json");
+  const Survey read = ReadSurvey(site_, network_.photos);
+  EXPECT_TRUE(read.sun_pairs.empty());
+  EXPECT_TRUE(read.zenith_pairs.empty());
+}
+
+TEST_F(SurveyFiles, MustHoldControlMarksAndPolygons) {
+  for (const std::string file : {"control_points.csv", "observations.csv", "polygons.json"}) {
+    const std::string content = ReadWhole(site_.survey() / file);
+    std::filesystem::remove(site_.survey() / file);
+    EXPECT_THROW(ReadSurvey(site_, network_.photos), InputError) << file;
+    WriteWhole(site_.survey() / file, content);
+  }
+  EXPECT_NO_THROW(ReadSurvey(site_, network_.photos));
+}
+
+TEST_F(SurveyFiles, RefuseAMarkOfAnUnknownPoint) {
+  ReplaceLine("observations.csv", 5, "P1,nobody,100,100,0.4");
+  ExpectError("observations.csv", 5, "nobody");
+}
+
+TEST_F(SurveyFiles, RefuseAMarkOnAnUnknownPhoto) {
+  ReplaceLine("observations.csv", 7, "P9,g0,100,100,0.4");
+  ExpectError("observations.csv", 7, "P9");
+}
+
+TEST_F(SurveyFiles, RefuseTwoMarksOfAPointOnAPhoto) {
+  ReplaceLine("observations.csv", 3, "P1,g0,100,100,0.4");
+  ReplaceLine("observations.csv", 4, "P1,g0,101,100,0.4");
+  ExpectError("observations.csv", 4, "line 3");
+}
+
+TEST_F(SurveyFiles, RefuseNaN) {
+  ReplaceLine("observations.csv", 4, "P1,g0,nan,100,0.4");
+  ExpectError("observations.csv", 4, "nan");
+}
+
+TEST_F(SurveyFiles, RefuseNaNInControl) {
+  ReplaceLine("control_points.csv", 3, "g8,1,NaN,3,0.01,0.01,0.01,control");
+  ExpectError("control_points.csv", 3, "NaN");
+}
+
+TEST_F(SurveyFiles, RefuseAMarkOutsideAnyFrame) {
+  ReplaceLine("observations.csv", 4, "P1,g0,-20,100,0.4");
+  ExpectError("observations.csv", 4, "-20");
+}
+
+TEST_F(SurveyFiles, RefuseASigmaOfZero) {
+  ReplaceLine("control_points.csv", 4, "g8,1,2,3,0.01,0,0.01,control");
+  ExpectError("control_points.csv", 4, "sigma_y");
+}
+
+TEST_F(SurveyFiles, RefuseAnUnknownRole) {
+  ReplaceLine("control_points.csv", 4, "g8,1,2,3,0.01,0.01,0.01,chekc");
+  ExpectError("control_points.csv", 4, "chekc");
+}
+
+TEST_F(SurveyFiles, RefuseAPointSurveyedTwice) {
+  ReplaceLine("control_points.csv", 4, "twin,1,2,3,0.01,0.01,0.01,control");
+  ReplaceLine("control_points.csv", 6, "twin,1,2,3,0.01,0.01,0.01,check");
+  ExpectError("control_points.csv", 6, "twin");
+}
+
+TEST_F(SurveyFiles, RefuseAPolygonOfTwoVertices) {
+  ReplaceLine("polygons.json", 4,
+              R"({"name": "slit", "vertices": ["a0", "a1"], "photo": "P1", "material": "m"},)");
+  ExpectError("polygons.json", 4, "slit");
+}
+
+TEST_F(SurveyFiles, RefuseAPolygonThatRepeatsAVertex) {
+  ReplaceLine("polygons.json", 4,
+              R"({"name": "loop", "vertices": ["a0", "a1", "a2", "a1"], "material": "m"},)");
+  ExpectError("polygons.json", 4, "loop");
+}
+
+TEST_F(SurveyFiles, RefuseAPolygonColouredFromAnUnknownPhoto) {
+  ReplaceLine("polygons.json", 4,
+              R"({"name": "w", "vertices": ["a0", "a1", "a2"], "photo": "P7", "material": "m"},)");
+  ExpectError("polygons.json", 4, "P7");
+}
+
+TEST_F(SurveyFiles, RefuseAMissingMask) {
+  ReplaceLine(
+      "polygons.json", 4,
+      R"({"name": "w", "vertices": ["a0", "a1", "a2"], "material": "m", "mask": "w.png"},)");
+  ExpectError("polygons.json", 4, "w.png");
+}
+
+TEST_F(SurveyFiles, RefuseADirectionPairOfOnePoint) {
+  ReplaceLine("directions.json", 2, R"({"shadow": "a4", "object": "a4"},)");
+  ExpectError("directions.json", 2, "a4");
+}
+
+TEST_F(SurveyFiles, RefuseAPolygonsFileCutShort) {
+  const std::string content = ReadWhole(site_.survey() / "polygons.json");
+  WriteWhole(site_.survey() / "polygons.json", content.substr(0, content.size() / 2));
+  EXPECT_THROW(ReadSurvey(site_, network_.photos), InputError);
+}
+
+TEST(PlaceOfPoint, IsItsFirstMark) {
+  const Survey survey = MakeSyntheticNetwork().survey;
+  EXPECT_EQ(PlaceOfPoint(survey, "buried").path, "control_points.csv");
+  const FilePlace place = PlaceOfPoint(survey, "c6");
+  EXPECT_EQ(place.path, "observations.csv");
+  EXPECT_EQ(survey.observations[place.line - 2].point, "c6");
+}
+
+}  // namespace
+}  // namespace insitu
