@@ -44,7 +44,7 @@ Eigen::Vector2i CommonSize(const std::vector<fs::path>& photos) {
     if (other == size) continue;
     std::ostringstream message;
     message << "is " << other.x() << "x" << other.y() << " px, expected " << size.x() << "x"
-            << size.y() << " as " << photos.front().filename().string();
+            << size.y() << " px as " << photos.front().filename().string();
     throw InputError(photo, message.str());
   }
   return size;

@@ -74,9 +74,10 @@ const std::string& CsvRow::Text(const std::string& column) const {
 
 double CsvRow::Number(const std::string& column) const {
   const std::string& text = Text(column);
+  const bool has_plus = text[0] == '+' && text[1] != '-';  // from_chars knows no plus sign
   const char* end = text.data() + text.size();
   double value = 0;
-  const auto parsed = std::from_chars(text.data() + (text[0] == '+'), end, value);
+  const auto parsed = std::from_chars(text.data() + has_plus, end, value);
   if (parsed.ec != std::errc() || parsed.ptr != end || !std::isfinite(value)) {
     throw Error("\"" + text + "\" in column \"" + column + "\", expected a finite number");
   }

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Synthetic photographs of a chessboard, ray by ray, seen through a known lens.
+#pragma once
+
+#include <filesystem>
+
+#include "calibration/board.h"
+#include "calibration/camera.h"
+
+namespace insitu {
+
+// 640x480 px, radial distortion.
+Camera BoardPhotosLens();
+
+// 10x10 interior corners, 0.08 m.
+Board BoardPhotosBoard();
+
+// Writes eight photographs board_1.png ... board_8.png, the whole board visible in each.
+void WriteBoardPhotos(const std::filesystem::path& folder);
+
+}  // namespace insitu

@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "calibration/site_calibration.h"
+
+#include "calibration/json_file.h"
+#include "calibration/photograph.h"
+#include "calibration/undistort.h"
+#include "calibration/whole_file.h"
+#include "tests/calibration/board_photos.h"
+#include "tests/calibration/scratch_folder.h"
+
+namespace insitu {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr char kBoard[] =
+    "type chessboard\ninterior_corners_x 10\ninterior_corners_y 10\nsquare_m 0.08\n";
+
+class Site : public testing::Test {
+ protected:
+  void BringCamera() {
+    WritePosedCamera(site_.brought_camera(), {"", BoardPhotosLens(), Rigid3()}, "brought");
+  }
+  void AddPhoto(const std::string& name, int width = 640, int height = 480) {
+    Raster photo(width, height);
+    for (int x = 0; x < width; ++x) photo.SetRgb(x, height / 2, {0.5, 0.25, 1});
+    WritePng(site_.photos() / name, photo, Encoding::kSrgb8);
+  }
+  ScratchFolder folder_;
+  const SitePaths site_{folder_.path()};
+};
+
+TEST_F(Site, BoardsGiveTheLensBack) {
+  WriteBoardPhotos(site_.boards());
+  folder_.Write("calibration/board.txt", kBoard);
+  const SiteCalibration calibration =
+      CalibrateSite(site_, {.lens_model = "LENSMODEL_OPENCV4", .focal_px = 500});
+  ASSERT_TRUE(calibration.boards);
+  EXPECT_EQ(calibration.boards->boards_found, 8);
+  EXPECT_LT(calibration.boards->rms_px, 0.3);
+  EXPECT_NEAR(calibration.camera.focal_px(), 560, 0.005 * 560);
+  const Camera truth = BoardPhotosLens();
+  for (const Eigen::Vector2d& pixel : {Eigen::Vector2d(320, 240), Eigen::Vector2d(150, 120)}) {
+    const double cosine = calibration.camera.Unproject(pixel).dot(truth.Unproject(pixel));
+    EXPECT_LT(std::acos(std::min(cosine, 1.0)), 1.0 / 560);  // one pixel
+  }
+
+  const JsonNode report = JsonNode::Load(site_.calibration_report());
+  EXPECT_EQ(report.At("source").Text(), "boards");
+  EXPECT_EQ(report.At("boards_found").Integer(), 8);
+  EXPECT_TRUE(report.At("boards_not_found").Items().empty());
+  EXPECT_EQ(report.At("points").Integer() + report.At("outliers").Integer(), 800);
+  const auto grid = report.At("uncertainty").At("sigma_px").Items();
+  EXPECT_EQ(grid.size(), 9u);
+  EXPECT_EQ(grid[0].Numbers().size(), 13u);
+  // The splined model, with its many parameters, never claims to know more than the lean one.
+  EXPECT_GT(report.At("splined_uncertainty").At("center_px").Number(),
+            report.At("uncertainty").At("center_px").Number());
+  EXPECT_NE(ReadWhole(site_.camera()).find("optimization_inputs"), std::string::npos);
+
+  // The same boards give the same bytes: no date, no random start.
+  const std::string first = ReadWhole(site_.camera());
+  CalibrateSite(site_, {.lens_model = "LENSMODEL_OPENCV4", .focal_px = 500});
+  EXPECT_EQ(ReadWhole(site_.camera()), first);
+}
+
+TEST_F(Site, BroughtCameraIsTakenAsItIs) {
+  BringCamera();
+  const SiteCalibration calibration = CalibrateSite(site_);
+  EXPECT_FALSE(calibration.boards);
+  EXPECT_EQ(ReadWhole(site_.camera()), ReadWhole(site_.brought_camera()));
+  EXPECT_EQ(JsonNode::Load(site_.calibration_report()).At("source").Text(), "brought");
+}
+
+TEST_F(Site, BadBroughtCameraWritesNothing) {
+  folder_.Write("calibration/camera.cameramodel", "garbled");
+  EXPECT_EQ(InputErrorOf([&] { CalibrateSite(site_); }).find(site_.brought_camera().string()), 0u);
+  EXPECT_FALSE(fs::exists(folder_.path() / "work"));
+}
+
+TEST_F(Site, NeitherCameraNorBoards) {
+  EXPECT_EQ(InputErrorOf([&] { CalibrateSite(site_); }),
+            site_.boards().string() +
+                ": no calibration, expected camera.cameramodel, or board_* photos and board.txt");
+}
+
+TEST_F(Site, UndistortsEveryPhotograph) {
+  BringCamera();
+  CalibrateSite(site_);
+  AddPhoto("b.png");
+  AddPhoto("a.png");
+  const SiteUndistortion result = UndistortSite(site_);
+  EXPECT_EQ(result.photos, 2);
+  EXPECT_EQ(ReadCamera(site_.pinhole_camera()).intrinsics(), result.pinhole.intrinsics());
+  const Photograph input = ReadPhotograph(site_.input_image("a"));
+  EXPECT_EQ(input.encoding, Encoding::kLinear);
+  const Raster original = ReadPhotograph(site_.photos() / "a.png").linear;
+  EXPECT_EQ(input.linear.data, Reproject(original, BoardPhotosLens(), result.pinhole).data);
+}
+
+TEST_F(Site, PhotographOfAnotherSizeStopsBeforeAnyIsWritten) {
+  BringCamera();
+  CalibrateSite(site_);
+  AddPhoto("a.png");
+  AddPhoto("b.png", 480, 640);
+  EXPECT_EQ(InputErrorOf([&] { UndistortSite(site_); }),
+            (site_.photos() / "b.png").string() +
+                ": is 480x640 px, expected 640x480 px as the camera was calibrated");
+  EXPECT_FALSE(fs::exists(site_.input_image("a")));
+}
+
+TEST_F(Site, UndistortNeedsTheCalibration) {
+  AddPhoto("a.png");
+  EXPECT_EQ(InputErrorOf([&] { UndistortSite(site_); }),
+            site_.camera().string() + ": no such file, expected insitu-calibrate to have made it");
+}
+
+TEST_F(Site, ListsPhotographsByName) {
+  AddPhoto("c.png");
+  AddPhoto("a.PNG");
+  folder_.Write("photos/b.JPG", "");
+  folder_.Write("photos/.hidden.jpg", "");
+  folder_.Write("photos/notes.txt", "");
+  const std::vector<fs::path> expected = {site_.photos() / "a.PNG", site_.photos() / "b.JPG",
+                                          site_.photos() / "c.png"};
+  EXPECT_EQ(ListPhotographs(site_), expected);
+}
+
+TEST_F(Site, FaultsOfThePhotosFolder) {
+  EXPECT_EQ(InputErrorOf([&] { ListPhotographs(site_); }),
+            site_.photos().string() + ": no such folder, expected the site's photographs in it");
+  fs::create_directories(site_.photos());
+  EXPECT_EQ(InputErrorOf([&] { ListPhotographs(site_); }),
+            site_.photos().string() + ": no photographs, expected JPEG, PNG, TIFF or EXR files");
+  folder_.Write("photos/a.jpg", "");
+  folder_.Write("photos/a.png", "");
+  EXPECT_EQ(InputErrorOf([&] { ListPhotographs(site_); }),
+            (site_.photos() / "a.png").string() +
+                ": has the same name as a.jpg, expected each photograph's name once");
+}
+
+}  // namespace
+}  // namespace insitu
