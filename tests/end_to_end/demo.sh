@@ -40,7 +40,7 @@ is_photo_where_untouched() {
 # for what survey, JPEG and light samples leave uncertain.
 is_near_truth() {
   "$COMPARE_IMAGES" error "$site/montages/$1.png" "$site/truth/after_$1.exr" \
-    "$site/truth/before_$1.exr" "$site/truth/mask_$1.png" 0.15
+    "$site/truth/before_$1.exr" "$site/truth/mask_$1.png" 0.12
 }
 
 rm -rf -- "$site"
