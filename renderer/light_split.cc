@@ -2,6 +2,7 @@
 #include "renderer/light_split.h"
 
 #include <array>
+#include <bitset>
 #include <cmath>
 #include <numbers>
 #include <span>
@@ -24,15 +25,17 @@ uint16_t BlockedOf(const RayScene& rays, const Eigen::Vector3d& origin,
   return rays.OcclusionMask(origin, directions, 0);
 }
 
-// Up to 16 sky directions with the weight that each has at a surface.
+// Up to 16 sky facets with the weight that each has at a surface.
 struct FacetPacket {
   std::array<Eigen::Vector3f, kPacket> directions;
   std::array<double, kPacket> cosines;
+  std::array<int, kPacket> facets;
   int size = 0;
 
-  void Add(const Eigen::Vector3f& direction, double cosine) {
+  void Add(int facet, const Eigen::Vector3f& direction, double cosine) {
     directions[size] = direction;
-    cosines[size++] = cosine;
+    cosines[size] = cosine;
+    facets[size++] = facet;
   }
   std::span<const Eigen::Vector3f> Span() const {
     return {directions.data(), static_cast<size_t>(size)};
@@ -48,21 +51,12 @@ void ForFacets(const MontageScene& scene, const SurfacePoint& surface,
   for (int i = directions.first; i < count; i += directions.stride) {
     const double cosine = surface.normal.dot(scene.facets.directions[i]);
     if (cosine <= 0 || !wanted(i)) continue;
-    packet.Add(scene.facet_directions[i], cosine);
+    packet.Add(i, scene.facet_directions[i], cosine);
     if (packet.size < kPacket) continue;
     visit(packet);
     packet.size = 0;
   }
   if (packet.size > 0) visit(packet);
-}
-
-// Sum of the cosines of the packet's directions that are set in `mask`.
-double SumOf(const FacetPacket& packet, unsigned mask) {
-  double sum = 0;
-  for (int i = 0; i < packet.size; ++i) {
-    if (mask >> i & 1) sum += packet.cosines[i];
-  }
-  return sum;
 }
 
 double FacetWeight(const MontageScene& scene, const LightDirections& directions) {
@@ -83,20 +77,22 @@ bool MayMeetBuilding(const MontageScene& scene, const Eigen::Vector3d& origin,
                                     direction.cast<float>().array().inverse());
 }
 
-bool AnyFacetBlocked(const MontageScene& scene, const SurfacePoint& surface,
-                     const Eigen::Vector3d& origin, const LightDirections& directions) {
-  if (scene.building_box.IsEmpty()) return false;
+using FacetSet = std::bitset<kMostFacets>;
+
+// The facets of this ray that the building hides.
+FacetSet FacetsBehindBuilding(const MontageScene& scene, const SurfacePoint& surface,
+                              const Eigen::Vector3d& origin, const LightDirections& directions) {
+  FacetSet hidden;
+  if (scene.building_box.IsEmpty()) return hidden;
   const Eigen::Array3f start = origin.cast<float>().array();
-  bool any = false;
   ForFacets(
       scene, surface, directions,
-      [&](int i) {
-        return !any && scene.building_box.MayMeet(start, scene.inverse_facet_directions[i]);
-      },
+      [&](int i) { return scene.building_box.MayMeet(start, scene.inverse_facet_directions[i]); },
       [&](const FacetPacket& packet) {
-        any = any || BlockedOf(scene.artificial_rays, origin, packet.Span()) != 0;
+        const unsigned blocked = BlockedOf(scene.artificial_rays, origin, packet.Span());
+        for (int i = 0; i < packet.size; ++i) hidden[packet.facets[i]] = blocked >> i & 1;
       });
-  return any;
+  return hidden;
 }
 
 }  // namespace
@@ -122,9 +118,8 @@ SplitLight SplitDaylight(const MontageScene& scene, const SurfacePoint& surface,
   const double sun_cosine = SunCosine(scene, surface, directions);
   const bool sun_blocked = sun_cosine > 0 && MayMeetBuilding(scene, origin, directions.sun) &&
                            IsBlocked(scene.artificial_rays, {origin, directions.sun});
-  if (!natural_needed && !sun_blocked && !AnyFacetBlocked(scene, surface, origin, directions)) {
-    return light;
-  }
+  const FacetSet hidden = FacetsBehindBuilding(scene, surface, origin, directions);
+  if (!natural_needed && !sun_blocked && hidden.none()) return light;
   light.natural.ambient = std::numbers::pi;
   if (sun_cosine > 0 && !IsBlocked(scene.natural_rays, {origin, directions.sun})) {
     light.natural.sun = sun_cosine * scene.natural.light.sun_solid_angle;
@@ -134,10 +129,12 @@ SplitLight SplitDaylight(const MontageScene& scene, const SurfacePoint& surface,
   ForFacets(
       scene, surface, directions, [](int) { return true; },
       [&](const FacetPacket& packet) {
-        const unsigned open = ~BlockedOf(scene.natural_rays, origin, packet.Span());
-        visible += SumOf(packet, open);
-        if (scene.building_box.IsEmpty()) return;
-        blocked += SumOf(packet, open & BlockedOf(scene.artificial_rays, origin, packet.Span()));
+        const unsigned covered = BlockedOf(scene.natural_rays, origin, packet.Span());
+        for (int i = 0; i < packet.size; ++i) {
+          if (covered >> i & 1) continue;
+          visible += packet.cosines[i];
+          if (hidden[packet.facets[i]]) blocked += packet.cosines[i];
+        }
       });
   light.natural.sky = visible * FacetWeight(scene, directions);
   light.blocked.sky = blocked * FacetWeight(scene, directions);
@@ -155,13 +152,15 @@ LightGeometry DaylightOnBuilding(const MontageScene& scene, const SurfacePoint& 
       !IsBlocked(scene.natural_rays, to_sun)) {
     light.sun = sun_cosine * scene.natural.light.sun_solid_angle;
   }
+  const FacetSet hidden = FacetsBehindBuilding(scene, surface, origin, directions);
   double visible = 0;
   ForFacets(
-      scene, surface, directions, [](int) { return true; },
+      scene, surface, directions, [&](int i) { return !hidden[i]; },
       [&](const FacetPacket& packet) {
-        const unsigned blocked = BlockedOf(scene.artificial_rays, origin, packet.Span()) |
-                                 BlockedOf(scene.natural_rays, origin, packet.Span());
-        visible += SumOf(packet, ~blocked);
+        const unsigned covered = BlockedOf(scene.natural_rays, origin, packet.Span());
+        for (int i = 0; i < packet.size; ++i) {
+          if (!(covered >> i & 1)) visible += packet.cosines[i];
+        }
       });
   light.sky = visible * FacetWeight(scene, directions);
   return light;

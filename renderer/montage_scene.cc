@@ -123,6 +123,7 @@ MontageScene MakeMontageScene(NaturalEnvironment natural, const ArtificialEnviro
         {lamp.position - origin, site.spectra.SpectrumFromRgb(lamp.intensity_rgb)});
   }
   scene.facets = MakeSkyFacets(site.light.zenith_direction, site.light.polar_facets);
+  INSITU_CHECK(scene.facets.directions.size() <= kMostFacets);
   for (const Eigen::Vector3d& direction : scene.facets.directions) {
     scene.facet_directions.push_back(direction.cast<float>());
     scene.inverse_facet_directions.push_back(direction.cast<float>().array().inverse());

@@ -49,6 +49,8 @@ struct InfluenceBox {
   }
 };
 
+constexpr int kMostFacets = 4 * 16 * 16;  // m_h up to 16
+
 struct MontageScene {
   NaturalEnvironment natural;
   RayScene natural_rays;
