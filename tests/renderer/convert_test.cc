@@ -13,7 +13,6 @@ namespace {
 
 using testing::ElementsAre;
 using testing::HasSubstr;
-using testing::IsEmpty;
 
 const char kMaterials[] = R"({
  "layers": {
@@ -61,7 +60,7 @@ TEST_F(Convert, LayersGetTheirMaterials) {
   Write("materials.json", kMaterials);
   const Conversion conversion = Converted();
   const ArtificialEnvironment& building = conversion.environment;
-  EXPECT_THAT(conversion.warnings, IsEmpty());
+  EXPECT_TRUE(conversion.warnings.empty());
   ASSERT_EQ(building.materials.size(), 2u);
   EXPECT_THAT(building.material_of_triangle, ElementsAre(0, 0, 1, 1));
   EXPECT_EQ(building.materials[0].name, "GLASS");

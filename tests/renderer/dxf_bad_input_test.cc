@@ -18,7 +18,7 @@ using testing::HasSubstr;
 
 // What ReadDxf says of a drawing; empty if it takes it.
 std::string Complaint(const std::string& text) {
-  const TemporaryFolder folder;
+  static const TemporaryFolder folder;
   try {
     ReadDxf(folder.Write("drawing.dxf", text));
   } catch (const InputError& error) {
@@ -115,12 +115,12 @@ TEST(DxfBadInput, NeverCrashesOnDamagedDrawings) {
       "0 BLOCK\n2 B\n" + Replaced(Replaced(kMesh, "SIZE", "4"), "CORNER", "2") + "0 ENDBLK\n");
   std::mt19937 random(20240601);
   int refused = 0;
-  for (int trial = 0; trial < 2000; ++trial) {
+  for (int trial = 0; trial < 300; ++trial) {
     std::string damaged = whole;
     for (int i = 0; i < 3; ++i) damaged[random() % damaged.size()] = static_cast<char>(random());
     refused += !Complaint(damaged).empty();
   }
-  EXPECT_GT(refused, 1000);
+  EXPECT_GT(refused, 150);
   for (int trial = 0; trial < 100; ++trial) {
     std::string garbage(random() % 2000, '\0');
     for (char& c : garbage) c = static_cast<char>(random());
@@ -207,6 +207,8 @@ TEST(DxfBadInput, TooManyOrTooDeepBlocks) {
               HasSubstr("over 20 million pieces"));
   EXPECT_EQ(Complaint(DrawingText("0 INSERT\n2 B0", NestedBlocks(64, 1))), "");
   EXPECT_THAT(Complaint(DrawingText("0 INSERT\n2 B0", NestedBlocks(65, 1))),
+              HasSubstr("more than 64 deep"));
+  EXPECT_THAT(Complaint(DrawingText("0 INSERT\n2 B40\n0 INSERT\n2 B0", NestedBlocks(65, 1))),
               HasSubstr("more than 64 deep"));
   ExpectFault(DrawingText("0 INSERT\n2 B\n70 1000000\n71 1000000",
                           "0 BLOCK\n2 B\n" + UnitSquare("W") + "0 ENDBLK"),
