@@ -14,10 +14,10 @@
 namespace insitu {
 
 struct SurfaceMaterial {
-  std::string name;                                             // the model's layer
+  std::string name;                                              // the model's layer
   Eigen::Vector3d diffuse_rgb = Eigen::Vector3d::Constant(0.5);  // albedo, linear Rec. 709, 0..1
-  double diffuse_weight = 1;                                    // k_d, 0..1
-  std::optional<Specular> specular;                             // nullopt: purely diffuse
+  double diffuse_weight = 1;                                     // k_d, 0..1
+  std::optional<Specular> specular;                              // nullopt: purely diffuse
 };
 
 // Shines alike in all directions.

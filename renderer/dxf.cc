@@ -5,7 +5,6 @@
 #include <algorithm>
 
 #include "renderer/dxf_drawing.h"
-#include "renderer/dxf_inserts.h"
 #include "renderer/face_triangles.h"
 
 namespace insitu {
@@ -151,7 +150,6 @@ void DropUnused(LayeredMesh* mesh) {
 DxfModel ReadDxf(const std::filesystem::path& path) {
   const DxfFile file(path);
   const DxfDrawing drawing = ReadDxfDrawing(file);
-  CheckInserts(drawing);
   Assembly assembly(drawing);
   const Affine3d metres_from_units(Eigen::Scaling(drawing.metres_per_unit.value_or(1)));
   assembly.Add(drawing.model_space, metres_from_units, "0");

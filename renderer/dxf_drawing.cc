@@ -10,6 +10,9 @@ namespace {
 
 using Records = std::span<const DxfRecord>;
 
+constexpr size_t kDeepest = 64;
+constexpr double kMostPieces = 20e6;  // vertices, entities and copies of blocks
+
 // How many records come before the next one of this kind.
 size_t CountUntil(Records records, std::string_view kind) {
   const auto found = std::ranges::find(records, kind, &DxfRecord::kind);
@@ -57,6 +60,60 @@ void ReadBlocks(Records records, DxfDrawing* drawing) {
   }
 }
 
+// Of a block with all that it inserts.
+struct Extent {
+  double pieces = 0;  // far beyond any integer in a malicious drawing
+  size_t depth = 0;   // of blocks
+};
+
+double OwnPieces(const DxfBlock& block) {
+  double pieces = static_cast<double>(block.content.mesh.vertices.size());
+  for (const auto& [kind, count] : block.content.entities) pieces += count;
+  for (const auto& [kind, count] : block.content.skipped) pieces += count;
+  return pieces;
+}
+
+// Looks at every block that the model space uses, once, before any is copied.
+class InsertCheck {
+ public:
+  explicit InsertCheck(const DxfDrawing& drawing) : drawing_(drawing) {}
+
+  Extent AllInserted(const DxfBlock& holder) {
+    Extent all;
+    for (const DxfInsert& insert : holder.inserts) {
+      const Extent one = Inserted(insert);
+      all.pieces += one.pieces * insert.rows * insert.columns;
+      all.depth = std::max(all.depth, one.depth);
+      if (all.pieces > kMostPieces) {
+        throw insert.record.Error("copies of blocks come to over 20 million pieces");
+      }
+    }
+    return all;
+  }
+
+ private:
+  Extent Inserted(const DxfInsert& insert) {
+    const DxfBlock& block = InsertedBlock(drawing_, insert);
+    if (std::ranges::find(nesting_, &block) != nesting_.end()) {
+      throw insert.record.Error("block \"" + insert.block + "\" inserts itself");
+    }
+    const auto known = extents_.find(&block);
+    const size_t depth = nesting_.size() + (known == extents_.end() ? 1 : known->second.depth);
+    if (depth > kDeepest) {
+      throw insert.record.Error("blocks within blocks, more than 64 deep");
+    }
+    if (known != extents_.end()) return known->second;
+    nesting_.push_back(&block);
+    const Extent inner = AllInserted(block);
+    nesting_.pop_back();
+    return extents_[&block] = {1 + OwnPieces(block) + inner.pieces, 1 + inner.depth};
+  }
+
+  const DxfDrawing& drawing_;
+  std::vector<const DxfBlock*> nesting_;
+  std::map<const DxfBlock*, Extent> extents_;
+};
+
 }  // namespace
 
 std::string DxfKey(const std::string& name) {
@@ -65,6 +122,15 @@ std::string DxfKey(const std::string& name) {
     if (c >= 'a' && c <= 'z') c = static_cast<char>(c - 'a' + 'A');
   }
   return key;
+}
+
+const DxfBlock& InsertedBlock(const DxfDrawing& drawing, const DxfInsert& insert) {
+  const auto found = drawing.blocks.find(DxfKey(insert.block));
+  if (found == drawing.blocks.end()) {
+    throw insert.record.Error("INSERT of block \"" + insert.block +
+                              "\", which the drawing does not define");
+  }
+  return found->second;
 }
 
 DxfDrawing ReadDxfDrawing(const DxfFile& file) {
@@ -86,6 +152,7 @@ DxfDrawing ReadDxfDrawing(const DxfFile& file) {
     if (name == "ENTITIES") drawing.model_space = ReadDxfEntities(content);
     records = records.subspan(count);
   }
+  InsertCheck(drawing).AllInserted(drawing.model_space);
   return drawing;
 }
 

@@ -25,7 +25,12 @@ struct DxfDrawing {
 // Names of layers and blocks that differ in case alone mean the same: their common key.
 std::string DxfKey(const std::string& name);
 
-// Throws InputError: a section that is not closed, an unknown unit, a faulty entity.
+// The block that an INSERT names. Throws InputError: the drawing does not define it.
+const DxfBlock& InsertedBlock(const DxfDrawing& drawing, const DxfInsert& insert);
+
+// Throws InputError: a section that is not closed, an unknown unit, a faulty entity; and, among the
+// blocks that the model space uses, one that is unknown, inserts itself or lies more than 64 deep,
+// or copies that come to over 20 million pieces (vertices, entities and the copies themselves).
 DxfDrawing ReadDxfDrawing(const DxfFile& file);
 
 }  // namespace insitu
