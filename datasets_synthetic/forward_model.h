@@ -54,7 +54,7 @@ struct RenderedView {
 };
 
 struct RenderOptions {
-  int sky_strata = 10;  // squared: directions to the sky for each 2 x 2 pixels of a face
+  int sky_strata = 12;  // squared: directions to the sky for each 2 x 2 pixels of a face
 };
 
 // 2 x 2 samples a pixel. Independent of the number of threads.

@@ -83,7 +83,7 @@ std::optional<ChosenPixel> HorizonPixel(const RenderedView& view, int index) {
 
 std::vector<ChosenPixel> HazePixels(const std::vector<RenderedView>& renderings) {
   constexpr double kNearest = 14, kFarthest = 260;  // [m]
-  constexpr double kBinsPerOctave = 4;
+  constexpr double kBinsPerOctave = 5;
   Lottery lottery;
   ForEachPure(renderings, [&](int view, int x, int y, const PixelRecord& record) {
     if (!record.face || record.face->name != "lawn") return;

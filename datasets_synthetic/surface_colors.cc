@@ -29,7 +29,7 @@ Spectrum Ramp(double at_380, double at_780) { return Spectrum::LinSpaced(kBands,
 // In the order of Material.
 std::array<Surface, kMaterials> MakeSurfaces() {
   const std::vector<Octave> grass = {
-      {0.03, 0.30}, {0.12, 0.26}, {0.5, 0.12}, {2.0, 0.05}, {9.0, 0.04}};
+      {0.03, 0.28}, {0.12, 0.20}, {0.5, 0.08}, {2.0, 0.03}, {9.0, 0.015}};
   const std::vector<Octave> mineral = {{0.05, 0.03}, {0.35, 0.04}, {1.5, 0.03}};
   const std::vector<Octave> gravel = {{0.02, 0.25}, {0.06, 0.25}, {0.8, 0.08}};
   const std::vector<Octave> forest = {{6, 0.35}, {20, 0.30}, {60, 0.2}};
