@@ -10,7 +10,8 @@ namespace insitu {
 namespace {
 
 SitePaths SiteWithMaterials(const std::string& materials) {
-  const SitePaths site{std::filesystem::path(testing::TempDir()) / "material_test"};
+  const SitePaths site{std::filesystem::path(testing::TempDir()) / "insitu_radiometry" /
+                       "materials"};
   std::filesystem::remove_all(site.root);
   if (!materials.empty()) WriteWhole(site.survey() / "materials.json", materials);
   return site;

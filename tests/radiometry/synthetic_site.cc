@@ -144,7 +144,7 @@ std::string SampleEntry(const SyntheticSite& synthetic, const std::string& photo
 
 SyntheticSite MakeSyntheticSite(const std::string& name) {
   SyntheticSite truth;
-  truth.site.root = std::filesystem::path(testing::TempDir()) / name;
+  truth.site.root = std::filesystem::path(testing::TempDir()) / "insitu_radiometry" / name;
   std::filesystem::remove_all(truth.site.root);
   truth.scene = MakeScene();
   WriteSceneGeometry(truth.site, truth.scene);
