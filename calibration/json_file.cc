@@ -6,7 +6,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <regex>
+#include <cstdio>
+#include <sstream>
 
 #include "calibration/whole_file.h"
 
@@ -23,10 +24,13 @@ namespace {
 
 // jsoncpp reports "* Line 3, Column 5\n  message\n..."; the first of them becomes ours.
 InputError SyntaxError(const std::filesystem::path& path, const std::string& report) {
-  static const std::regex kPattern(R"(\* Line (\d+), Column \d+\s+([^\n]*))");
-  std::smatch match;
-  if (!std::regex_search(report, match, kPattern)) return InputError(path, report);
-  return InputError(path, std::stoi(match[1]), "not valid JSON: " + match[2].str());
+  std::istringstream stream(report);
+  std::string position, message;
+  std::getline(stream, position);
+  std::getline(stream >> std::ws, message);
+  int line = 0;
+  std::sscanf(position.c_str(), "* Line %d", &line);
+  return InputError(path, line, "not valid JSON: " + message);
 }
 
 Json::Value Parse(const std::filesystem::path& path, const std::string& text) {

@@ -2,9 +2,6 @@
 #include "calibration/camera.h"
 
 #include <cmath>
-#include <fstream>
-#include <limits>
-#include <random>
 
 #include "calibration/whole_file.h"
 #include "tests/calibration/scratch_folder.h"

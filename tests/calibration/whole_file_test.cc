@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "calibration/whole_file.h"
 
-#include <algorithm>
 #include <stdexcept>
 
 #include "tests/calibration/scratch_folder.h"
