@@ -95,7 +95,7 @@ Daylight IlluminationGeometry(const SceneGeometry& scene, int polar_facets) {
   return light;
 }
 
-// The samples' places, on the side of their polygon that faces their camera.
+// The samples' places in the local frame, on the side of their polygon that faces their camera.
 std::vector<SurfacePoint> SurfacePoints(const std::vector<PixelSample>& samples,
                                         const SceneGeometry& scene) {
   std::vector<SurfacePoint> points;
@@ -103,19 +103,28 @@ std::vector<SurfacePoint> SurfacePoints(const std::vector<PixelSample>& samples,
     const Eigen::Vector3d to_camera =
         Center(scene.cameras[sample.photo].cam_from_world) - sample.point;
     const Eigen::Vector3d& normal = scene.polygons[*sample.polygon].normal;
-    points.push_back({sample.point, normal.dot(to_camera) < 0 ? Eigen::Vector3d(-normal) : normal});
+    points.push_back({sample.point - scene.origin,
+                      normal.dot(to_camera) < 0 ? Eigen::Vector3d(-normal) : normal});
   }
   return points;
 }
 
+std::vector<LocalImage> LocalImages(const SceneGeometry& scene,
+                                    const std::vector<Photograph>& photos) {
+  std::vector<LocalImage> images;
+  for (size_t i = 0; i < photos.size(); ++i) {
+    images.emplace_back(scene.cameras[i], scene.origin, photos[i].linear);
+  }
+  return images;
+}
+
 // What each point sees of the daylight.
-std::vector<LightGeometry> TraceLight(const std::vector<SurfacePoint>& points,
-                                      const SceneGeometry& scene, const Daylight& light) {
-  const RayScene rays(MeshOfPolygons(scene).mesh);
+std::vector<LightGeometry> TraceLight(const std::vector<SurfacePoint>& points, const RayScene& rays,
+                                      const Daylight& light) {
   const SkyFacets facets = MakeSkyFacets(light.zenith_direction, light.polar_facets);
   std::vector<LightGeometry> geometries;
   for (const SurfacePoint& point : points) {
-    const Eigen::Vector3d origin = point.position - scene.origin + kRayOffset * point.normal;
+    const Eigen::Vector3d origin = point.position + kSurveyClearance * point.normal;
     geometries.push_back(
         MeasureLight(light, facets, point.normal, [&](const Eigen::Vector3d& to_light) {
           return !rays.IsOccluded({origin, to_light});
@@ -155,12 +164,15 @@ std::vector<DaylightSample> DaylightSamples(const LightMeasurement& measured,
   const NaturalEnvironment& environment = measured.environment;
   const std::vector<PixelSample>& pixels = measured.samples.daylight;
   const std::vector<SurfacePoint> points = SurfacePoints(pixels, environment.scene);
-  const std::vector<LightGeometry> geometries =
-      TraceLight(points, environment.scene, environment.light);
+  const PolygonMesh polygons = MeshOfPolygons(environment.scene);
+  const RayScene rays(polygons.mesh);
+  const std::vector<LightGeometry> geometries = TraceLight(points, rays, environment.light);
   std::vector<Spectrum> surroundings;
   if (!uniform_ambient) {
+    const std::vector<LocalImage> images = LocalImages(environment.scene, photos);
     surroundings =
-        GatherSurroundings(points, environment.scene, photos, environment.air, environment.spectra);
+        GatherSurroundings(points, {environment.scene, rays, polygons.polygon_of_triangle, images,
+                                    environment.air, environment.spectra});
   }
   std::vector<DaylightSample> samples;
   for (size_t i = 0; i < pixels.size(); ++i) {

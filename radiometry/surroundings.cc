@@ -3,91 +3,38 @@
 
 #include <optional>
 
-#include "calibration/error.h"
 #include "radiometry/daylight.h"
-#include "reconstruction/ray_scene.h"
 
 namespace insitu {
 namespace {
 
-constexpr int kPolarFacets = 16;     // 1024 directions over the hemisphere above a point
-constexpr double kSamePlace = 0.05;  // [m], sights that end within it end on one surface
-
-// The colours of surfaces as the photographs show them.
-class PhotographedSurfaces {
- public:
-  PhotographedSurfaces(const SceneGeometry& scene, const std::vector<Photograph>& photos,
-                       const Atmosphere& air, const SpectralBasis& spectra)
-      : scene_(scene),
-        photos_(photos),
-        air_(air),
-        spectra_(spectra),
-        polygons_(MeshOfPolygons(scene)),
-        rays_(polygons_.mesh) {}
-
-  struct Hit {
-    int polygon;
-    Eigen::Vector3d position;  // [m], world
-  };
-
-  std::optional<Hit> Nearest(const Eigen::Vector3d& from, const Eigen::Vector3d& direction) const {
-    const auto hit = rays_.Nearest({from - scene_.origin, direction});
-    if (!hit) return std::nullopt;
-    return Hit{polygons_.polygon_of_triangle[hit->triangle], from + hit->distance * direction};
-  }
-
-  // True colour of a place, seen from the side that `towards` lies on; nullopt if no photo shows
-  // it.
-  std::optional<Spectrum> TrueColorAt(const Hit& place, const Eigen::Vector3d& towards) const {
-    const std::optional<int> preferred = scene_.polygons[place.polygon].photo;
-    if (preferred) {
-      if (const auto color = TrueColorIn(*preferred, place, towards)) return color;
-    }
-    for (int photo = 0; photo < static_cast<int>(photos_.size()); ++photo) {
-      if (const auto color = TrueColorIn(photo, place, towards)) return color;
-    }
-    return std::nullopt;
-  }
-
- private:
-  std::optional<Spectrum> TrueColorIn(int photo, const Hit& place,
-                                      const Eigen::Vector3d& towards) const {
-    const PosedCamera& posed = scene_.cameras[photo];
-    const Eigen::Vector3d center = Center(posed.cam_from_world);
-    const Eigen::Vector3d& normal = scene_.polygons[place.polygon].normal;
-    const Eigen::Vector3d sight = place.position - center;
-    const bool same_side = normal.dot(-sight) * normal.dot(towards - place.position) > 0;
-    const auto pixel = posed.camera.Project(posed.cam_from_world * place.position);
-    if (!same_side || !pixel || !posed.camera.Sees(*pixel)) return std::nullopt;
-    const auto first = Nearest(center, sight.normalized());
-    if (first && (first->position - center).norm() < sight.norm() - kSamePlace) return std::nullopt;
-    const Eigen::Vector3d rgb = Interpolate(photos_[photo].linear, *pixel);
-    return TrueColor(spectra_.SpectrumFromRgb(rgb), air_, sight.norm());
-  }
-
-  const SceneGeometry& scene_;
-  const std::vector<Photograph>& photos_;
-  const Atmosphere& air_;
-  const SpectralBasis& spectra_;
-  PolygonMesh polygons_;
-  RayScene rays_;
-};
+constexpr int kPolarFacets = 16;  // 1024 directions over the hemisphere above a point
 
 struct Gathered {
   Spectrum irradiance = Spectrum::Zero();  // from what a photograph shows
   double seen = 0, unseen = 0;             // projected solid angles [sr], the sky's left out
 };
 
-Gathered Gather(const SurfacePoint& point, const PhotographedSurfaces& surfaces,
-                const Eigen::Vector3d& zenith) {
+// The true colour of what lies in a direction; nullopt if no photograph shows it.
+std::optional<Spectrum> ColorOfHit(const PhotographedSite& site, const RayHit& hit,
+                                   const Eigen::Vector3d& origin,
+                                   const Eigen::Vector3d& direction) {
+  const int polygon = site.polygon_of_triangle[hit.triangle];
+  Eigen::Vector3d normal = site.scene.polygons[polygon].normal;
+  if (normal.dot(direction) > 0) normal = -normal;
+  const auto seen = LookUpColor(site, polygon, {origin + hit.distance * direction, normal});
+  return seen ? std::optional(seen->true_color) : std::nullopt;
+}
+
+Gathered Gather(const SurfacePoint& point, const PhotographedSite& site) {
   Gathered gathered;
-  const Eigen::Vector3d origin = point.position + kRayOffset * point.normal;
+  const Eigen::Vector3d origin = point.position + kSurveyClearance * point.normal;
   const SkyFacets hemisphere = MakeSkyFacets(point.normal, kPolarFacets);
   for (const Eigen::Vector3d& direction : hemisphere.directions) {
     const double weight = point.normal.dot(direction) * hemisphere.solid_angle;
-    const auto hit = surfaces.Nearest(origin, direction);
-    if (!hit && direction.dot(zenith) > 0) continue;  // sky
-    const auto color = hit ? surfaces.TrueColorAt(*hit, origin) : std::nullopt;
+    const auto hit = site.rays.Nearest({origin, direction});
+    if (!hit && direction.dot(site.scene.zenith.unit) > 0) continue;  // sky
+    const auto color = hit ? ColorOfHit(site, *hit, origin, direction) : std::nullopt;
     (color ? gathered.seen : gathered.unseen) += weight;
     if (color) gathered.irradiance += weight * *color;
   }
@@ -97,16 +44,12 @@ Gathered Gather(const SurfacePoint& point, const PhotographedSurfaces& surfaces,
 }  // namespace
 
 std::vector<Spectrum> GatherSurroundings(const std::vector<SurfacePoint>& points,
-                                         const SceneGeometry& scene,
-                                         const std::vector<Photograph>& photos,
-                                         const Atmosphere& air, const SpectralBasis& spectra) {
-  INSITU_CHECK(photos.size() == scene.cameras.size());
-  const PhotographedSurfaces surfaces(scene, photos, air, spectra);
+                                         const PhotographedSite& site) {
   std::vector<Gathered> gathered;
   Spectrum sum = Spectrum::Zero();
   double seen = 0;
   for (const SurfacePoint& point : points) {
-    gathered.push_back(Gather(point, surfaces, scene.zenith.unit));
+    gathered.push_back(Gather(point, site));
     sum += gathered.back().irradiance;
     seen += gathered.back().seen;
   }
@@ -114,8 +57,7 @@ std::vector<Spectrum> GatherSurroundings(const std::vector<SurfacePoint>& points
   if (seen == 0) return irradiances;
   const Spectrum mean_radiance = sum / seen;
   for (const Gathered& one : gathered) {
-    // Haze taken off a dark pixel may leave less than nothing.
-    irradiances.push_back((one.irradiance + one.unseen * mean_radiance).max(0));
+    irradiances.push_back(one.irradiance + one.unseen * mean_radiance);
   }
   return irradiances;
 }

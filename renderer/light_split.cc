@@ -114,7 +114,7 @@ LightDirections ChooseLightDirections(const MontageScene& scene, const Eigen::Ve
 SplitLight SplitDaylight(const MontageScene& scene, const SurfacePoint& surface,
                          const LightDirections& directions, bool natural_needed) {
   SplitLight light;
-  const Eigen::Vector3d origin = surface.position + kNaturalClearance * surface.normal;
+  const Eigen::Vector3d origin = surface.position + kSurveyClearance * surface.normal;
   const double sun_cosine = SunCosine(scene, surface, directions);
   const bool sun_blocked = sun_cosine > 0 && MayMeetBuilding(scene, origin, directions.sun) &&
                            IsBlocked(scene.artificial_rays, {origin, directions.sun});
@@ -145,7 +145,7 @@ LightGeometry DaylightOnBuilding(const MontageScene& scene, const SurfacePoint& 
                                  const LightDirections& directions) {
   LightGeometry light;
   light.ambient = std::numbers::pi;
-  const Eigen::Vector3d origin = surface.position + kArtificialClearance * surface.normal;
+  const Eigen::Vector3d origin = surface.position + kBuildingClearance * surface.normal;
   const double sun_cosine = SunCosine(scene, surface, directions);
   const Ray to_sun = {origin, directions.sun};
   if (sun_cosine > 0 && !IsBlocked(scene.artificial_rays, to_sun) &&
@@ -168,7 +168,7 @@ LightGeometry DaylightOnBuilding(const MontageScene& scene, const SurfacePoint& 
 
 Spectrum LampIrradiance(const MontageScene& scene, const SurfacePoint& surface) {
   Spectrum irradiance = Spectrum::Zero();
-  const Eigen::Vector3d origin = surface.position + kNaturalClearance * surface.normal;
+  const Eigen::Vector3d origin = surface.position + kSurveyClearance * surface.normal;
   for (const LampSpectrum& lamp : scene.lamps) {
     const Eigen::Vector3d path = lamp.position - origin;
     const double distance = path.norm();

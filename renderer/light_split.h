@@ -21,12 +21,6 @@ struct LightDirections {
 LightDirections ChooseLightDirections(const MontageScene& scene, const Eigen::Vector2d& disc,
                                       int ray);
 
-// A surface element: local position [m], unit normal on the side from which it is looked at.
-struct SurfacePoint {
-  Eigen::Vector3d position;
-  Eigen::Vector3d normal;
-};
-
 // Light at a point of the existing site. `natural` is what reached it before; `blocked` the part of
 // that which the building cuts off, from the same directions, so that 0 <= blocked <= natural.
 // `natural` is left zero where nothing is blocked and `natural_needed` is false: most of a photo.
@@ -44,9 +38,7 @@ LightGeometry DaylightOnBuilding(const MontageScene& scene, const SurfacePoint& 
 // Irradiance of the lamps, what stands between taken into account.
 Spectrum LampIrradiance(const MontageScene& scene, const SurfacePoint& surface);
 
-// How far light rays start off a surface [m]. Survey noise leaves polygons that touch or overlap
-// (a path on a lawn) a centimetre apart; the building's own faces are exact.
-constexpr double kNaturalClearance = 0.02;
-constexpr double kArtificialClearance = 0.001;
+// Light rays start this far off the building's faces, which are exact [m].
+constexpr double kBuildingClearance = 0.001;
 
 }  // namespace insitu

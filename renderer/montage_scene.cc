@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "calibration/error.h"
-#include "renderer/photographed_color.h"
+#include "renderer/mean_brdf.h"
 
 namespace insitu {
 namespace {
@@ -78,13 +78,6 @@ std::optional<int> LargestLevelPolygon(const SceneGeometry& scene) {
   return largest;
 }
 
-InputImage LocalInputImage(const PosedCamera& photo, const Camera& pinhole, Raster image,
-                           const Eigen::Vector3d& origin) {
-  Rigid3 cam_from_local = photo.cam_from_world;
-  cam_from_local.translation = photo.cam_from_world * origin;
-  return {{photo.photo, pinhole, cam_from_local}, Center(cam_from_local), std::move(image)};
-}
-
 }  // namespace
 
 MontageScene MakeMontageScene(NaturalEnvironment natural, const ArtificialEnvironment& artificial,
@@ -108,7 +101,8 @@ MontageScene MakeMontageScene(NaturalEnvironment natural, const ArtificialEnviro
                      .facet_directions = {},
                      .inverse_facet_directions = {},
                      .solar_disc_radius = 0,
-                     .input_images = {},
+                     .input_images = std::move(images),
+                     .images = {},
                      .mean_brdf_of_polygon = {}};
   const NaturalEnvironment& site = scene.natural;
   scene.ground = LargestLevelPolygon(site.scene);
@@ -131,9 +125,10 @@ MontageScene MakeMontageScene(NaturalEnvironment natural, const ArtificialEnviro
   // A cone of half angle a holds 2 pi (1 - cos a) steradians.
   const double cosine = 1 - site.light.sun_solid_angle / (2 * std::numbers::pi);
   scene.solar_disc_radius = std::sqrt(1 - cosine * cosine) / cosine;
-  for (size_t i = 0; i < images.size(); ++i) {
-    scene.input_images.push_back(
-        LocalInputImage(site.scene.cameras[i], pinhole, std::move(images[i]), origin));
+  for (size_t i = 0; i < scene.input_images.size(); ++i) {
+    PosedCamera camera = site.scene.cameras[i];
+    camera.camera = pinhole;
+    scene.images.emplace_back(camera, origin, scene.input_images[i]);
   }
   scene.mean_brdf_of_polygon = MeanBrdfOfPolygons(scene);
   return scene;

@@ -9,6 +9,7 @@
 
 #include "calibration/raster.h"
 #include "radiometry/natural_environment.h"
+#include "radiometry/photographed_color.h"
 #include "reconstruction/ray_scene.h"
 #include "renderer/artificial_environment.h"
 
@@ -24,13 +25,6 @@ struct SpectralMaterial {
 struct LampSpectrum {
   Eigen::Vector3d position;  // [m], local
   Spectrum intensity;        // radiance unit times m^2
-};
-
-// An input image: an undistorted photograph with its pinhole camera. [Durisch92, §4.1]
-struct InputImage {
-  PosedCamera camera;      // local frame
-  Eigen::Vector3d center;  // [m], local
-  Raster linear;
 };
 
 // An axis-aligned box about the planned building; a light ray that misses it is not blocked by it.
@@ -70,9 +64,14 @@ struct MontageScene {
   std::vector<Eigen::Array3f> inverse_facet_directions;  // for the slab test
   double solar_disc_radius = 0;                          // tangent of the sun's half angle
 
-  std::vector<InputImage> input_images;  // in the order of natural.scene.cameras
+  std::vector<Raster> input_images;  // in the order of natural.scene.cameras [Durisch92, §4.1]
+  std::vector<LocalImage> images;    // the same with their pinhole cameras
   // Mean BRDF of each polygon's material over the photographs, for polygons that none shows.
   std::vector<Spectrum> mean_brdf_of_polygon;
+
+  PhotographedSite Photographed() const {
+    return {natural.scene, natural_rays, polygon_of_triangle, images, natural.air, natural.spectra};
+  }
 };
 
 // `artificial` may be empty: the site as it is. The input images are made and owned by the caller's

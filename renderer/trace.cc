@@ -5,7 +5,6 @@
 #include <optional>
 
 #include "radiometry/illumination.h"
-#include "renderer/photographed_color.h"
 #include "renderer/profile.h"
 
 namespace insitu {
@@ -73,7 +72,7 @@ Spectrum Mirrored(const MontageScene& scene, const SurfacePoint& surface,
                   const LightDirections& light, World world, int depth) {
   const double share = MirrorShare(surface, material, to_viewer);
   if (share <= 0) return Spectrum::Zero();
-  const Ray ray = Reflected(surface, to_viewer, kNaturalClearance);
+  const Ray ray = Reflected(surface, to_viewer, kSurveyClearance);
   return share * TraceSecondary(scene, ray, light, world, depth + 1);
 }
 
@@ -107,7 +106,7 @@ Spectrum SiteColor(const MontageScene& scene, const SceneHit& hit, const Eigen::
                    const LightDirections& light, World world, int depth) {
   const SpectralMaterial& material = scene.material_of_polygon[hit.index];
   Spectrum diffuse;
-  if (const auto seen = LookUpColor(scene, hit.index, hit.surface)) {
+  if (const auto seen = LookUpColor(scene.Photographed(), hit.index, hit.surface)) {
     diffuse = (seen->true_color - Mirrored(scene, hit.surface, material, seen->to_camera, light,
                                            World::kSiteOnly, depth))
                   .max(0);
@@ -142,7 +141,7 @@ Spectrum BuildingColor(const MontageScene& scene, const SurfacePoint& surface,
   const double mirror = MirrorShare(surface, material, to_viewer);
   Spectrum L = (1 - mirror) * ReflectedRadiance(material.diffuse_weight, material.brdf, E);
   if (mirror > 0) {
-    const Ray ray = Reflected(surface, to_viewer, kArtificialClearance);
+    const Ray ray = Reflected(surface, to_viewer, kBuildingClearance);
     L += mirror * TraceSecondary(scene, ray, light, World::kWithBuilding, depth + 1);
   }
   return L;

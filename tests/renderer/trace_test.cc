@@ -112,7 +112,7 @@ TEST(CaseD1, BlackLampEqualsD2) {
 TEST(CaseD1, LampAddsInProportionToItsIrradiance) {
   const SmallSite site = MakeSmallSite();
   ArtificialEnvironment lamp;
-  lamp.lights = {{"lamp", site.natural.scene.origin + Eigen::Vector3d(0, 0, 2 + kNaturalClearance),
+  lamp.lights = {{"lamp", site.natural.scene.origin + Eigen::Vector3d(0, 0, 2 + kSurveyClearance),
                   Eigen::Vector3d::Constant(4)}};
   const MontageScene scene = site.With(lamp);
   const RayOutcome outcome = TracePrimary(scene, Primary(scene, {0, -10, 3}, {0, 0, 0}));

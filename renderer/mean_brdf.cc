@@ -1,32 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "renderer/photographed_color.h"
+#include "renderer/mean_brdf.h"
 
+#include <algorithm>
 #include <map>
 #include <string>
 
 #include "radiometry/illumination.h"
-#include "renderer/profile.h"
+#include "renderer/light_split.h"
 
 namespace insitu {
 namespace {
-
-std::optional<PhotographedColor> LookUpIn(const MontageScene& scene, const InputImage& image,
-                                          const SurfacePoint& surface) {
-  const Eigen::Vector3d origin = surface.position + kNaturalClearance * surface.normal;
-  const Eigen::Vector3d path = image.center - origin;
-  const double distance = path.norm();
-  if (surface.normal.dot(path) <= 0) return std::nullopt;
-  const auto pixel = image.camera.camera.Project(image.camera.cam_from_world * surface.position);
-  if (!pixel || !image.camera.camera.Sees(*pixel)) return std::nullopt;
-  {
-    const PhaseScope phase(Phase::kEmbree);
-    if (scene.natural_rays.IsOccluded({origin, path / distance, 0, distance})) return std::nullopt;
-  }
-  const Eigen::Vector3d rgb = Interpolate(image.linear, *pixel);
-  if (rgb.isZero(0)) return std::nullopt;  // beyond what the lens saw
-  const Spectrum L = scene.natural.spectra.SpectrumFromRgb(rgb);
-  return PhotographedColor{TrueColor(L, scene.natural.air, distance).max(0), path / distance};
-}
 
 // A few points spread over a polygon: the centroids of its triangles' halves.
 std::vector<SurfacePoint> PointsOn(const MontageScene& scene, const PolygonMesh& polygons,
@@ -63,7 +46,7 @@ MeanBrdf MeanOver(const MontageScene& scene, const std::vector<SurfacePoint>& po
   MeanBrdf mean;
   const LightDirections all = {scene.natural.light.sun_direction, 0, 1};
   for (const SurfacePoint& point : points) {
-    const auto seen = LookUpColor(scene, polygon, point);
+    const auto seen = LookUpColor(scene.Photographed(), polygon, point);
     if (!seen) continue;
     const SplitLight light = SplitDaylight(scene, point, all, true);
     const Spectrum E = TotalIrradiance(scene.natural.light, light.natural);
@@ -73,19 +56,6 @@ MeanBrdf MeanOver(const MontageScene& scene, const std::vector<SurfacePoint>& po
 }
 
 }  // namespace
-
-std::optional<PhotographedColor> LookUpColor(const MontageScene& scene, int polygon,
-                                             const SurfacePoint& surface) {
-  const std::optional<int> attribute = scene.natural.scene.polygons[polygon].photo;
-  if (attribute) {
-    if (auto color = LookUpIn(scene, scene.input_images[*attribute], surface)) return color;
-  }
-  for (size_t i = 0; i < scene.input_images.size(); ++i) {
-    if (attribute && static_cast<int>(i) == *attribute) continue;
-    if (auto color = LookUpIn(scene, scene.input_images[i], surface)) return color;
-  }
-  return std::nullopt;
-}
 
 std::vector<Spectrum> MeanBrdfOfPolygons(const MontageScene& scene) {
   const std::vector<Polygon>& polygons = scene.natural.scene.polygons;
