@@ -24,6 +24,8 @@ constexpr int kFewestBoards = 3;
 constexpr int kGridColumns = 13, kGridRows = 9;  // of the uncertainty over the frame
 constexpr char kCorners[] = "corners.vnl";
 constexpr char kPython[] = "/usr/bin/python3";  // Debian's own, which has mrcal
+const std::string kRunSeeded = INSITU_CALIBRATION_FOLDER "/run_seeded.py";
+const std::string kProjectionUncertainty = INSITU_CALIBRATION_FOLDER "/projection_uncertainty.py";
 constexpr char kMrcalPackage[] = "python3-mrcal";
 constexpr char kPhotos[] = "photos/";
 constexpr char kPhotosGlob[] = "photos/*";  // mrcal takes one pattern a camera
@@ -38,7 +40,7 @@ void CheckSquare(const Board& board) {
 // ---- the photographs -----------------------------------------------------------------------
 
 Eigen::Vector2i CommonSize(const std::vector<fs::path>& photos) {
-  const Eigen::Vector2i size = ReadPhotographSize(photos.front());
+  Eigen::Vector2i size = ReadPhotographSize(photos.front());
   for (const fs::path& photo : photos) {
     const Eigen::Vector2i other = ReadPhotographSize(photo);
     if (other == size) continue;
@@ -160,9 +162,9 @@ void SolveLens(const Board& board, const std::string& lens_model, double focal_p
   fs::create_directory(made);
   const fs::path log = folder / (model.stem().string() + ".log");
   RunExternal(
-      {.command = {kPython, INSITU_CALIBRATION_FOLDER "/run_seeded.py", "mrcal-calibrate-cameras",
-                   "--corners-cache", kCorners, "--lensmodel", lens_model, "--focal",
-                   Digits(focal_px), "--object-spacing", Digits(board.square_m), "--object-width-n",
+      {.command = {kPython, kRunSeeded, "mrcal-calibrate-cameras", "--corners-cache", kCorners,
+                   "--lensmodel", lens_model, "--focal", Digits(focal_px), "--object-spacing",
+                   Digits(board.square_m), "--object-width-n",
                    std::to_string(board.interior_corners_x), "--outdir", "made", kPhotosGlob},
        .package = kMrcalPackage,
        .folder = folder,
@@ -174,9 +176,8 @@ void SolveLens(const Board& board, const std::string& lens_model, double focal_p
 
 JsonNode Assess(const fs::path& model, const fs::path& folder) {
   const fs::path output = folder / (model.stem().string() + ".json");
-  RunExternal({.command = {kPython, INSITU_CALIBRATION_FOLDER "/projection_uncertainty.py",
-                           fs::absolute(model).string(), std::to_string(kGridColumns),
-                           std::to_string(kGridRows)},
+  RunExternal({.command = {kPython, kProjectionUncertainty, fs::absolute(model).string(),
+                           std::to_string(kGridColumns), std::to_string(kGridRows)},
                .package = kMrcalPackage,
                .folder = folder,
                .output = output,

@@ -38,6 +38,7 @@ std::vector<fs::path> ListPhotographs(const SitePaths& site) {
     throw InputError(site.photos(), "no photographs, expected JPEG, PNG, TIFF or EXR files");
   }
   std::vector<fs::path> photos;
+  photos.reserve(by_name.size());
   for (const auto& [name, path] : by_name) photos.push_back(path);
   return photos;
 }

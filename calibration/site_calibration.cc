@@ -96,9 +96,9 @@ void CheckPhotoSizes(const std::vector<fs::path>& photos, const Camera& camera) 
 }  // namespace
 
 SiteCalibration CalibrateSite(const SitePaths& site, const BoardCalibrationOptions& options) {
-  const SiteCalibration calibration = fs::exists(site.brought_camera())
-                                          ? BroughtCalibration(site)
-                                          : BoardsCalibration(site, options);
+  SiteCalibration calibration = fs::exists(site.brought_camera())
+                                    ? BroughtCalibration(site)
+                                    : BoardsCalibration(site, options);
   WriteJson(site.calibration_report(), CalibrationReport(calibration));
   return calibration;
 }
