@@ -41,7 +41,9 @@ void* NewBuffer(RTCGeometry geometry, RTCBufferType type, RTCFormat format, size
 }
 
 void AttachTriangles(RTCScene scene, const TriangleMesh& mesh) {
-  RTCGeometry geometry = rtcNewGeometry(Device(), RTC_GEOMETRY_TYPE_TRIANGLE);
+  const std::unique_ptr<RTCGeometryTy, decltype(&rtcReleaseGeometry)> owner(
+      rtcNewGeometry(Device(), RTC_GEOMETRY_TYPE_TRIANGLE), &rtcReleaseGeometry);
+  RTCGeometry geometry = owner.get();
   auto* vertices =
       static_cast<float*>(NewBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT3,
                                     3 * sizeof(float), mesh.vertices.size()));
@@ -58,7 +60,6 @@ void AttachTriangles(RTCScene scene, const TriangleMesh& mesh) {
   }
   rtcCommitGeometry(geometry);
   rtcAttachGeometry(scene, geometry);
-  rtcReleaseGeometry(geometry);
 }
 
 RTCRay EmbreeRay(const Ray& ray) {
