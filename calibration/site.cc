@@ -20,6 +20,12 @@ bool IsPhotograph(const fs::path& path) {
   return std::find(kEndings.begin(), kEndings.end(), ending) != kEndings.end();
 }
 
+void RequireResult(const fs::path& result, const std::string& program) {
+  if (!fs::exists(result)) {
+    throw InputError(result, "is not there, expected the result of " + program + "; run it first");
+  }
+}
+
 std::vector<fs::path> ListPhotographs(const SitePaths& site) {
   if (!fs::is_directory(site.photos())) {
     throw InputError(site.photos(), "no such folder, expected the site's photographs in it");

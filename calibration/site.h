@@ -39,6 +39,9 @@ struct SitePaths {
 // Whether a path is a file that ends as JPEG, PNG, TIFF or EXR do and is not hidden.
 bool IsPhotograph(const std::filesystem::path& path);
 
+// Throws InputError naming the program to run first, if a stage's result is not there.
+void RequireResult(const std::filesystem::path& result, const std::string& program);
+
 // The site's photographs, sorted by name (their stem is the photo's name everywhere).
 // Throws InputError: no photos folder, no photographs in it, two with one name.
 std::vector<std::filesystem::path> ListPhotographs(const SitePaths& site);

@@ -107,6 +107,7 @@ SiteUndistortion UndistortSite(const SitePaths& site) {
   if (!fs::exists(site.camera())) {
     throw InputError(site.camera(), "no such file, expected insitu-calibrate to have made it");
   }
+  RequireResult(site.camera(), "insitu-calibrate");
   const Camera camera = ReadCamera(site.camera());
   const std::vector<fs::path> photos = ListPhotographs(site);
   CheckPhotoSizes(photos, camera);

@@ -305,6 +305,7 @@ void WriteEnvironment(const SitePaths& site, const LightMeasurement& measured) {
 }
 
 NaturalEnvironment ReadEnvironment(const SitePaths& site) {
+  RequireResult(site.environment(), "insitu-light");
   const JsonNode root = JsonNode::Load(site.environment());
   const JsonNode format = root.At("format");
   if (format.Text() != kFormat) throw format.Error("expected \"" + std::string(kFormat) + "\"");

@@ -222,6 +222,14 @@ std::string Format(const char* format, ...) {
   return line;
 }
 
+void WarnOfMasks(const Survey& survey, Adjustment* adjustment) {
+  for (const PolygonOutline& polygon : survey.polygons) {
+    if (!polygon.mask) continue;
+    adjustment->warnings.push_back("polygon '" + polygon.name +
+                                   "': its mask is not used, what it covers will be shaded");
+  }
+}
+
 void AddStatistics(const AdjustmentProblem::Linearization& linear, const Eigen::MatrixXd& cofactor,
                    Adjustment* adjustment) {
   adjustment->observations = static_cast<int>(linear.jacobian.rows());
@@ -263,6 +271,7 @@ Adjustment Adjust(const Survey& survey, const std::vector<std::string>& photos,
   if (!network.zenith) {
     adjustment.warnings.push_back("no zenith pairs: the z axis was taken for the zenith");
   }
+  WarnOfMasks(survey, &adjustment);
   AddStatistics(linear, *cofactor, &adjustment);
   const double variance_factor = adjustment.sigma0 * adjustment.sigma0;
   const Solution solution{network, problem, variance_factor * *cofactor};

@@ -43,6 +43,7 @@ Adjustment ReconstructSite(const SitePaths& site, AdjustmentOptions options,
                            const std::filesystem::path& start_poses) {
   std::vector<std::string> photos;
   for (const auto& path : ListPhotographs(site)) photos.push_back(path.stem().string());
+  RequireResult(site.camera(), "insitu-calibrate");
   const std::vector<Camera> cameras(photos.size(), ReadCamera(site.camera()));
   const Survey survey = ReadSurvey(site, photos);
   if (!start_poses.empty()) options.initial_cam_from_world = ReadStartPoses(start_poses, photos);

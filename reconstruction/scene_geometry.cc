@@ -84,6 +84,7 @@ void WriteSceneGeometry(const SitePaths& site, const SceneGeometry& scene) {
 }
 
 SceneGeometry ReadSceneGeometry(const SitePaths& site) {
+  RequireResult(site.scene(), "insitu-reconstruct");
   const JsonNode root = JsonNode::Load(site.scene());
   if (const JsonNode format = root.At("format"); format.Text() != kFormat) {
     throw format.Error("expected \"" + std::string(kFormat) + "\"");

@@ -155,6 +155,7 @@ void WriteArtificialEnvironment(const SitePaths& site, const ArtificialEnvironme
 }
 
 ArtificialEnvironment ReadArtificialEnvironment(const SitePaths& site) {
+  RequireResult(site.artificial(), "insitu-convert");
   const JsonNode root = JsonNode::Load(site.artificial());
   if (root.At("version").Integer() != kVersion) {
     throw root.At("version").Error("is not a version this program reads, expected " +

@@ -46,6 +46,7 @@ MontageScene LoadScene(const SitePaths& site, bool with_building) {
   NaturalEnvironment natural = ReadEnvironment(site);
   const ArtificialEnvironment building =
       with_building ? ReadArtificialEnvironment(site) : ArtificialEnvironment();
+  RequireResult(site.pinhole_camera(), "insitu-undistort");
   std::vector<Raster> images;
   for (const PosedCamera& camera : natural.scene.cameras) {
     images.push_back(ReadPhotograph(site.input_image(camera.photo)).linear);

@@ -5,7 +5,7 @@
 
 #include "calibration/error.h"
 #include "calibration/whole_file.h"
-#include "synthetic_site.h"
+#include "tests/radiometry/synthetic_site.h"
 
 namespace insitu {
 namespace {

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "synthetic_site.h"
+#include "tests/radiometry/synthetic_site.h"
 
 namespace insitu {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "synthetic_site.h"
+#include "tests/radiometry/synthetic_site.h"
 
 #include <gtest/gtest.h>
 
