@@ -6,7 +6,7 @@
 
 #include "calibration/error.h"
 #include "calibration/whole_file.h"
-#include "tests/renderer/temporary_folder.h"
+#include "tests/calibration/scratch_folder.h"
 
 namespace insitu {
 namespace {
@@ -44,7 +44,7 @@ void Edit(const SitePaths& site, const std::string& what, const std::string& wit
 }
 
 TEST(ArtificialEnvironment, ReturnsFromItsFilesToTheLastBit) {
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   const SitePaths site{folder.path()};
   const ArtificialEnvironment written = GlazedTriangle();
   WriteArtificialEnvironment(site, written);
@@ -69,8 +69,8 @@ TEST(ArtificialEnvironment, ReturnsFromItsFilesToTheLastBit) {
 }
 
 TEST(ArtificialEnvironment, SameInputSameBytes) {
-  const TemporaryFolder one, two;
-  for (const TemporaryFolder* folder : {&one, &two}) {
+  const ScratchFolder one, two;
+  for (const ScratchFolder* folder : {&one, &two}) {
     WriteArtificialEnvironment({folder->path()}, GlazedTriangle());
   }
   for (const char* name : {"work/building.json", "work/building.bin"}) {
@@ -79,13 +79,13 @@ TEST(ArtificialEnvironment, SameInputSameBytes) {
 }
 
 TEST(ArtificialEnvironment, EmptyBuildingIsOne) {
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   WriteArtificialEnvironment({folder.path()}, {});
   EXPECT_TRUE(ReadArtificialEnvironment({folder.path()}).triangles.empty());
 }
 
 TEST(ArtificialEnvironment, FilesThatDoNotBelongTogether) {
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   const SitePaths site{folder.path()};
   WriteArtificialEnvironment(site, GlazedTriangle());
   std::string mesh = ReadWhole(folder.path() / "work/building.bin");
@@ -99,7 +99,7 @@ TEST(ArtificialEnvironment, FilesThatDoNotBelongTogether) {
 }
 
 TEST(ArtificialEnvironment, BadInput) {
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   const SitePaths site{folder.path()};
   EXPECT_THAT(Complaint(site), HasSubstr("building.json"));
   WriteArtificialEnvironment(site, GlazedTriangle());
@@ -111,7 +111,7 @@ TEST(ArtificialEnvironment, BadInput) {
 }
 
 TEST(ArtificialEnvironment, IndicesOutOfRange) {
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   const SitePaths site{folder.path()};
   ArtificialEnvironment faulty = GlazedTriangle();
   faulty.triangles[1][2] = 3;

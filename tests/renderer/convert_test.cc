@@ -5,8 +5,8 @@
 #include <gtest/gtest.h>
 
 #include "calibration/error.h"
+#include "tests/calibration/scratch_folder.h"
 #include "tests/renderer/dxf_text.h"
-#include "tests/renderer/temporary_folder.h"
 
 namespace insitu {
 namespace {
@@ -52,7 +52,7 @@ class Convert : public testing::Test {
   }
 
  private:
-  TemporaryFolder folder_;
+  ScratchFolder folder_;
 };
 
 TEST_F(Convert, LayersGetTheirMaterials) {

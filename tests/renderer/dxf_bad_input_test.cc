@@ -7,8 +7,8 @@
 
 #include "calibration/error.h"
 #include "renderer/dxf.h"
+#include "tests/calibration/scratch_folder.h"
 #include "tests/renderer/dxf_text.h"
-#include "tests/renderer/temporary_folder.h"
 
 namespace insitu {
 namespace {
@@ -18,7 +18,7 @@ using testing::HasSubstr;
 
 // What ReadDxf says of a drawing; empty if it takes it.
 std::string Complaint(const std::string& text) {
-  static const TemporaryFolder folder;
+  static const ScratchFolder folder;
   try {
     ReadDxf(folder.Write("drawing.dxf", text));
   } catch (const InputError& error) {

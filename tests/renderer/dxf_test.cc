@@ -9,8 +9,8 @@
 
 #include "renderer/dxf_record.h"
 #include "renderer/face_triangles.h"
+#include "tests/calibration/scratch_folder.h"
 #include "tests/renderer/dxf_text.h"
-#include "tests/renderer/temporary_folder.h"
 
 namespace insitu {
 namespace {
@@ -18,7 +18,7 @@ namespace {
 using Eigen::Vector3d;
 
 DxfModel ReadText(const std::string& text) {
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   return ReadDxf(folder.Write("drawing.dxf", text));
 }
 
