@@ -19,7 +19,7 @@ void PrintReport(const MontageReport& report) {
 }
 
 int RunRender(int argc, char** argv) {
-  CLI::App app("Renders the planned building into the photographs of its site.");
+  CLI::App app("Renders the planned building into the photographs of its site.", "insitu-render");
   app.footer(
       "Example: insitu-render path/to/site --photo IMG_2102\n"
       "Reads work/environment.json, work/building.json and work/input_images/;\n"
@@ -27,7 +27,7 @@ int RunRender(int argc, char** argv) {
   SitePaths site;
   MontageOptions options;
   bool no_building = false, timing = false;
-  app.add_option("site", site.root, "site folder")->required();
+  app.add_option("SITE", site.root, "site folder")->required();
   app.add_option("--photo", options.photos, "only this photograph (may be repeated)");
   const std::map<std::string, Frame> frames = {{"photo", Frame::kPhoto},
                                                {"pinhole", Frame::kPinhole}};
