@@ -14,13 +14,15 @@ namespace insitu {
 // 0.0004 sr is six discs; only k_s Omega_s enters Eq. (3), but soft shadows need the true disc.
 constexpr double kSolarSolidAngle = 6.8e-5;  // [sr]
 
+constexpr int kMostPolarFacets = 16;  // of an environment that is to be rendered
+
 struct Daylight {
   Eigen::Vector3d sun_direction = Eigen::Vector3d::UnitZ();     // unit, world, towards the sun
   double sun_solid_angle = kSolarSolidAngle;                    // [sr]
   Spectrum sun_radiance = Spectrum::Zero();                     // k_s L
   Spectrum ambient_radiance = Spectrum::Zero();                 // k_u L
   Eigen::Vector3d zenith_direction = Eigen::Vector3d::UnitZ();  // unit, world
-  int polar_facets = 8;                                         // m_h >= 1
+  int polar_facets = 8;                                         // m_h, 1 to kMostPolarFacets
   Spectrum sky_radiance = Spectrum::Zero();                     // k_h L
 };
 

@@ -268,7 +268,9 @@ Daylight ReadLight(const JsonNode& node, const SpectralBins& bins) {
   light.sun_solid_angle = node.At("sun_solid_angle").Number();
   light.zenith_direction = ReadUnit(node.At("zenith_direction"));
   light.polar_facets = node.At("polar_facets").Integer();
-  if (light.polar_facets < 1) throw node.At("polar_facets").Error("is below 1");
+  if (light.polar_facets < 1 || light.polar_facets > kMostPolarFacets) {
+    throw node.At("polar_facets").Error("is not within 1 to 16");
+  }
   ReadBins(node.At("sun_radiance"), bins, light.sun_radiance);
   ReadBins(node.At("ambient_radiance"), bins, light.ambient_radiance);
   ReadBins(node.At("sky_radiance"), bins, light.sky_radiance);

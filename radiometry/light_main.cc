@@ -19,7 +19,7 @@ int RunLight(int argc, char** argv) {
       ->check(CLI::IsMember({9, 16}))
       ->capture_default_str();
   app.add_option("--sky-facets", options.polar_facets, "m_h: the sky has 4 m_h^2 facets")
-      ->check(CLI::Range(1, 16))
+      ->check(CLI::Range(1, kMostPolarFacets))
       ->capture_default_str();
   app.add_flag("--average", options.average_over_wavelength,
                "the paper's one spectrum for sun, sky and ambient light");

@@ -43,7 +43,7 @@ struct InfluenceBox {
   }
 };
 
-constexpr int kMostFacets = 4 * 16 * 16;  // m_h up to 16
+constexpr int kMostFacets = 4 * kMostPolarFacets * kMostPolarFacets;
 
 struct MontageScene {
   NaturalEnvironment natural;
