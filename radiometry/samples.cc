@@ -72,9 +72,9 @@ std::vector<Eigen::Vector2i> Patch(const PhotographedScene& scene, const PixelSa
                                    int radius) {
   const auto polygon_at = [&](const Eigen::Vector2d& pixel) {
     const auto hit = scene.First(sample.photo, pixel);
-    return hit ? hit->polygon : -1;
+    return hit ? std::optional(hit->polygon) : std::nullopt;
   };
-  const int center_polygon = polygon_at(sample.pixel);
+  const std::optional<int> center_polygon = polygon_at(sample.pixel);
   const Eigen::Vector2i center = sample.pixel.array().round().cast<int>();
   std::vector<Eigen::Vector2i> patch;
   for (int y = center.y() - radius; y <= center.y() + radius; ++y) {

@@ -74,8 +74,8 @@ struct MontageScene {
   }
 };
 
-// `artificial` may be empty: the site as it is. The input images are made and owned by the caller's
-// site (work/input_images); `images` go with natural.scene.cameras.
+// `artificial` may be empty: the site as it is. `images` are the input images, in the order of
+// natural.scene.cameras, all seen by `pinhole`.
 MontageScene MakeMontageScene(NaturalEnvironment natural, const ArtificialEnvironment& artificial,
                               const Camera& pinhole, std::vector<Raster> images);
 
