@@ -1,105 +1,145 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The unknowns of the joint adjustment and the system of observations over them.
+// What the joint adjustment is about: unknowns and observations, by index, without file names or
+// lines. Surveys, imported projects and tests all become a Network; solve_network.h solves it.
 #pragma once
 
-#include <ceres/manifold.h>
-#include <ceres/problem.h>
-#include <ceres/sphere_manifold.h>
-
+#include <Eigen/Core>
 #include <Eigen/Geometry>
-#include <map>
-#include <optional>
 #include <string>
+#include <variant>
 #include <vector>
 
-#include "reconstruction/adjustment.h"
-#include "reconstruction/start_values.h"
-#include "reconstruction/statistics.h"
+#include "calibration/camera.h"
+#include "calibration/metric_camera.h"
 
 namespace insitu {
 
-struct NetworkPose {
-  std::string photo;
-  Camera camera;
-  Eigen::Quaterniond cam_from_local;
-  Eigen::Vector3d center;  // [m], local
+// ---- unknowns ------------------------------------------------------------------------------
+
+using Lens = std::variant<Camera, MetricCamera>;
+
+// An interior orientation, shared by photos.
+struct NetworkCamera {
+  std::string name;
+  Lens lens;
+  std::vector<bool> is_free;  // by parameter; empty: none is adjusted (no self-calibration)
+  // Of all its parameters, from its calibration; empty: exact. Parameters that are not adjusted are
+  // then considered: their values stay, their uncertainty enters every covariance.
+  Eigen::MatrixXd calibration_covariance;
 };
 
-// The points x with normal . (x - centroid) = offset; the centroid is fixed.
+struct NetworkPhoto {
+  std::string name;
+  int camera = 0;                     // index into Network::cameras
+  Eigen::Quaterniond cam_from_local = Eigen::Quaterniond::Identity();
+  Eigen::Vector3d center = Eigen::Vector3d::Zero();  // [m], local
+  bool is_center_fixed = false;       // a surveyed tripod taken as exact
+};
+
+struct NetworkPoint {
+  std::string name;
+  Eigen::Vector3d position;  // [m], local
+  bool is_fixed = false;     // control taken as exact
+};
+
+// The points x with normal . (x - centroid) = offset; the centroid is a constant.
 struct NetworkPlane {
-  std::string polygon;
-  std::vector<std::string> vertices;
-  Eigen::Vector3d normal;    // unit, outward
+  std::string name;
+  Eigen::Vector3d normal;    // unit
   Eigen::Vector3d centroid;  // [m], local
   double offset = 0;         // [m]
 };
 
+// An unknown unit vector: to the sun, to the zenith.
+struct NetworkDirection {
+  std::string name;
+  Eigen::Vector3d unit;
+};
+
+// ---- observations; every sigma > 0 ---------------------------------------------------------
+
+// A point's image. [Durisch92, §3.5]
+struct MarkObservation {
+  int photo = 0, point = 0;
+  Eigen::Vector2d pixel;
+  double sigma_px = 1;
+};
+
+// A place on the image of the straight edge between two points: its distance from it.
+struct EdgeObservation {
+  int photo = 0, from = 0, to = 0;  // points
+  Eigen::Vector2d pixel;
+  double sigma_px = 1;
+};
+
+struct ControlObservation {
+  int point = 0;
+  Eigen::Vector3d position;  // [m], local
+  Eigen::Vector3d sigma;     // [m], per axis
+};
+
+// A surveyed centre of projection.
+struct CenterObservation {
+  int photo = 0;
+  Eigen::Vector3d position;  // [m], local
+  Eigen::Vector3d sigma;     // [m], per axis
+};
+
+// A vertex on a plane: its distance is 0.
+struct PlaneObservation {
+  int plane = 0, point = 0;
+  double sigma = 0;  // [m]
+};
+
+// Two points on a line along a direction: both parts of (to - from) across it are 0.
+struct DirectionObservation {
+  int direction = 0, from = 0, to = 0;
+  double sigma = 0;  // [m]
+};
+
+struct DistanceObservation {
+  int from = 0, to = 0;
+  double distance = 0, sigma = 0;  // [m]
+};
+
+// (to - from) . direction; 0 for equal heights.
+struct HeightObservation {
+  int direction = 0, from = 0, to = 0;
+  double height = 0, sigma = 0;  // [m]
+};
+
+// A unit vector among the unknowns, or the edge between two points.
+struct PlaneNormal { int plane = 0; };
+struct DirectionUnit { int direction = 0; };
+struct EdgeUnit { int from = 0, to = 0; };
+using UnitReference = std::variant<PlaneNormal, DirectionUnit, EdgeUnit>;
+
+// Parallel: both parts of the one across the other are 0; else perpendicular: their product is 0.
+// A vertical wall: its normal perpendicular to the zenith. A level floor: parallel to it.
+struct AngleObservation {
+  UnitReference first, second;
+  bool is_parallel = false;
+  double sigma = 0;  // [rad]
+};
+
 // All coordinates are world minus `origin`, so that national grids lose nothing.
 struct Network {
-  Eigen::Vector3d origin;
-  std::vector<NetworkPose> poses;
-  std::map<std::string, Eigen::Vector3d> points;
-  std::vector<NetworkPlane> planes;  // of the polygons with four vertices or more
-  std::optional<Eigen::Vector3d> sun, zenith;
-};
+  Eigen::Vector3d origin = Eigen::Vector3d::Zero();  // [m], world
+  std::vector<NetworkCamera> cameras;
+  std::vector<NetworkPhoto> photos;
+  std::vector<NetworkPoint> points;
+  std::vector<NetworkPlane> planes;
+  std::vector<NetworkDirection> directions;
 
-// Throws InputError at a direction pair whose points coincide or that contradicts the others.
-Network MakeNetwork(const Survey& survey, const StartValues& start);
-
-// What an unknown belongs to, to name it.
-struct Unknown {
-  enum class Kind { kPhoto, kPoint, kPolygon, kSun, kZenith };
-  Kind kind;
-  std::string name;
-};
-
-// The observation equations over a network, which must outlive it and not move.
-class AdjustmentProblem {
- public:
-  AdjustmentProblem(const Survey& survey, const AdjustmentOptions& options, Network& network);
-
-  // Moves the network's unknowns to the least-squares solution.
-  struct Termination {
-    bool usable = false, converged = false;
-    int iterations = 0;
-  };
-  Termination Solve();
-
-  // At the present values. The columns of a pose are its left rotation increment [rad] and its
-  // centre [m]; those of a unit vector its two tangents.
-  struct Linearization {
-    std::vector<ObservationResidual> rows;  // all but `redundancy`
-    Eigen::VectorXd residuals;              // in sigmas
-    Jacobian jacobian;
-  };
-  Linearization Linearize();
-
-  // First column of a parameter block, given its address in the network.
-  int ColumnOf(const double* block) const { return column_of_block_.at(block); }
-  // What a column belongs to.
-  const Unknown& UnknownOf(int column) const { return unknown_of_column_[column]; }
-
- private:
-  void AddBlock(double* block, int size, ceres::Manifold* manifold, const Unknown& unknown);
-  void AddUnknowns();
-  void AddMarks(const Survey& survey);
-  void AddControl(const Survey& survey);
-  void AddPlanes(double sigma);
-  void AddPairs(const std::vector<DirectionPair>& pairs, const std::string& group, double sigma,
-                Eigen::Vector3d* direction);
-  void AddObservation(ceres::CostFunction* cost, const std::vector<double*>& blocks,
-                      const std::vector<ObservationResidual>& rows);
-
-  Network& network_;
-  ceres::EigenQuaternionManifold quaternion_manifold_;
-  ceres::SphereManifold<3> sphere_manifold_;
-  ceres::Problem problem_;
-  std::vector<double*> blocks_;
-  std::map<const double*, int> column_of_block_;
-  std::vector<Unknown> unknown_of_column_;
-  std::vector<bool> is_half_angle_;  // by column: Ceres counts rotations in half angles
-  std::vector<ceres::ResidualBlockId> observations_;
-  std::vector<ObservationResidual> rows_;
+  std::vector<MarkObservation> marks;
+  std::vector<EdgeObservation> edges;
+  std::vector<ControlObservation> control;
+  std::vector<CenterObservation> centers;
+  std::vector<PlaneObservation> on_planes;
+  std::vector<DirectionObservation> along_directions;
+  std::vector<DistanceObservation> distances;
+  std::vector<HeightObservation> heights;
+  std::vector<AngleObservation> angles;
 };
 
 }  // namespace insitu

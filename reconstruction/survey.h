@@ -56,12 +56,52 @@ struct DirectionPair {
   FilePlace place;
 };
 
+// camera_positions.csv: photo,x,y,z,sigma_x,sigma_y,sigma_z,role
+// A surveyed centre of projection; role: fixed (taken as exact), weighted, or free (a start value).
+enum class PositionRole { kFixed, kWeighted, kFree };
+struct CameraPosition {
+  std::string photo;
+  Eigen::Vector3d position;  // [m], world
+  Eigen::Vector3d sigma;     // [m], > 0
+  PositionRole role = PositionRole::kWeighted;
+  FilePlace place;
+};
+
+// edges.csv: photo,from,to,x,y,sigma. A pixel anywhere on the image of a straight edge.
+struct EdgeMark {
+  std::string photo, from, to;
+  Eigen::Vector2d pixel;
+  double sigma_px = 0;  // > 0
+  FilePlace place;
+};
+
+// constraints.json: what is known of the site besides coordinates, each with its sigma.
+struct GeometricConstraint {
+  enum class Kind {
+    kDistance,       // points: from, to; value [m]
+    kHeight,         // points: from, to; value [m] along the zenith, 0: equal heights
+    kVertical,       // polygons: one wall; or points: an edge
+    kHorizontal,     // polygons: one floor; or points: an edge
+    kParallel,       // polygons: two; or points: two edges
+    kPerpendicular,  // polygons: two; or points: two edges
+  };
+  Kind kind;
+  std::vector<std::string> polygons;  // one or two, or none
+  std::vector<std::string> points;    // two or four (edge by edge), or none
+  double value = 0;                   // [m], of distances and heights
+  double sigma = 0;                   // [m] of distances and heights, else [rad]; > 0
+  FilePlace place;
+};
+
 struct Survey {
   std::vector<ControlPoint> control_points;
   std::vector<ImageObservation> observations;
   std::vector<PolygonOutline> polygons;
   std::vector<DirectionPair> sun_pairs;
   std::vector<DirectionPair> zenith_pairs;
+  std::vector<CameraPosition> camera_positions;
+  std::vector<EdgeMark> edges;
+  std::vector<GeometricConstraint> constraints;
 };
 
 // Reads the survey folder and resolves every name. Throws InputError at the offending line: a name
