@@ -8,7 +8,7 @@
 #include <set>
 #include <utility>
 
-#include "reconstruction/network.h"
+#include "reconstruction/old_network.h"
 #include "reconstruction/planarity.h"
 #include "reconstruction/plane.h"
 #include "reconstruction/statistics.h"

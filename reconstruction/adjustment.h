@@ -32,11 +32,11 @@ struct ObservationResidual {
   std::string subject;  // point, polygon or pair
   double observed = 0, residual = 0, sigma = 0;
   double redundancy = 0;                // its redundancy number, 0..1
-  std::optional<double> w;              // test value, standard normal; nullopt: not controlled
-  std::optional<double> detectable;     // minimal detectable bias, in sigma's unit
-  std::optional<double> external;       // its effect on any function of the unknowns, in that
+  std::optional<double> w = {};           // test value, standard normal; nullopt: not controlled
+  std::optional<double> detectable = {};  // minimal detectable bias, in sigma's unit
+  std::optional<double> external = {};    // its effect on any function of the unknowns, in that
                                         // function's sigmas: delta0 sqrt((1 - r) / r)
-  std::optional<double> point_shift_m;  // its effect on the position of the point concerned
+  std::optional<double> point_shift_m = {};  // its effect on the position of the point concerned
   bool is_tie_point = false;            // of a point that COLMAP found, not a surveyor
 };
 
@@ -94,9 +94,9 @@ struct PointComparison {
   std::string name;
   Eigen::Vector3d difference;       // adjusted - surveyed [m]
   Eigen::Vector3d sigma;            // [m]
-  Eigen::Vector3d surveyed;         // [m], world
-  Eigen::Vector3d surveyed_sigma;   // [m]
-  Eigen::Vector3d adjusted_sigma;   // [m]
+  Eigen::Vector3d surveyed = Eigen::Vector3d::Zero();        // [m], world
+  Eigen::Vector3d surveyed_sigma = Eigen::Vector3d::Zero();  // [m]
+  Eigen::Vector3d adjusted_sigma = Eigen::Vector3d::Zero();  // [m]
 };
 
 struct GlobalTest {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "reconstruction/network.h"
+#include "reconstruction/old_network.h"
 
 #include <ceres/solver.h>
 
