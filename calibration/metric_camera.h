@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Interior orientations as photogrammetric programs state them: millimetres on the image plane, x
-// right, y up, about the principal point. Their coefficients are not interchangeable with mrcal's.
+// right, y up. Their coefficients are not interchangeable with mrcal's.
+//
+// A pixel (u, v) of ours is at x_measured = (u - origin_px.x) pixel_mm.x, y_measured =
+// -(v - origin_px.y) pixel_mm.y; a point (X, Y, Z) of the camera frame (y down) is ideally at
+// x = c X / Z, y = -c Y / Z about the principal point.
 #pragma once
 
 #include <Eigen/Core>
@@ -28,6 +32,8 @@ struct MetricCamera {
   MetricModel model = MetricModel::kBackwardBrown;
   int width = 0, height = 0;                         // [px]
   Eigen::Vector2d pixel_mm = Eigen::Vector2d::Zero();  // width and height of a pixel [mm], > 0
+  Eigen::Vector2d origin_px = Eigen::Vector2d::Zero();  // where measured mm count from: DBAT the
+                                                        // top-left corner, AICON the middle
   double balanced_radius_mm = 0;                     // r0, of kBalancedRadial only
   std::vector<double> parameters;                    // c > 0; ten, in the order above [mm, mm^-2 ...]
 };
