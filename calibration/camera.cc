@@ -147,17 +147,36 @@ Camera Camera::Pinhole(double focal_x, double focal_y, double center_x, double c
 
 std::optional<Eigen::Vector2d> Camera::Project(
     const Eigen::Vector3d& point_in_cam, Eigen::Matrix<double, 2, 3>* pixel_from_point) const {
+  return ProjectWith(intrinsics_.data(), point_in_cam, pixel_from_point, nullptr);
+}
+
+std::optional<Eigen::Vector2d> Camera::ProjectWith(const double* intrinsics,
+                                                   const Eigen::Vector3d& point_in_cam,
+                                                   Eigen::Matrix<double, 2, 3>* pixel_from_point,
+                                                   double* pixel_from_intrinsics) const {
   if (!(point_in_cam.z() > 0)) return std::nullopt;
   const mrcal_point3_t point = {{point_in_cam.x(), point_in_cam.y(), point_in_cam.z()}};
   mrcal_point2_t pixel;
   mrcal_point3_t gradient[2];
-  INSITU_CHECK(mrcal_project(&pixel, pixel_from_point ? gradient : nullptr, nullptr, &point, 1,
-                             &lens_->model, intrinsics_.data()));
+  INSITU_CHECK(mrcal_project(&pixel, pixel_from_point ? gradient : nullptr, pixel_from_intrinsics,
+                             &point, 1, &lens_->model, intrinsics));
   if (pixel_from_point) {
     *pixel_from_point << gradient[0].x, gradient[0].y, gradient[0].z,  //
         gradient[1].x, gradient[1].y, gradient[1].z;
   }
   return Eigen::Vector2d(pixel.x, pixel.y);
+}
+
+std::vector<std::string> Camera::IntrinsicsNames() const {
+  std::vector<std::string> names = {"fx", "fy", "cx", "cy", "k1", "k2", "p1", "p2",
+                                    "k3", "k4", "k5", "k6", "s1", "s2", "s3", "s4"};
+  const bool is_opencv = lens_model_.find("OPENCV") != std::string::npos;
+  if (!is_opencv) names.resize(4);
+  for (size_t i = names.size(); i < intrinsics_.size(); ++i) {
+    names.push_back("distortion " + std::to_string(i - 3));
+  }
+  names.resize(intrinsics_.size());
+  return names;
 }
 
 Eigen::Vector3d Camera::Unproject(const Eigen::Vector2d& pixel) const {

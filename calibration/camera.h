@@ -36,6 +36,17 @@ class Camera {
       const Eigen::Vector3d& point_in_cam,
       Eigen::Matrix<double, 2, 3>* pixel_from_point = nullptr) const;
 
+  // As Project, with other values of the intrinsics, for their adjustment. `pixel_from_intrinsics`,
+  // if given, receives d pixel / d intrinsics, 2 x n, row by row.
+  std::optional<Eigen::Vector2d> ProjectWith(const double* intrinsics,
+                                             const Eigen::Vector3d& point_in_cam,
+                                             Eigen::Matrix<double, 2, 3>* pixel_from_point,
+                                             double* pixel_from_intrinsics) const;
+
+  // The names of intrinsics(): "fx", "fy", "cx", "cy", then those of the model's distortion, as
+  // OpenCV calls them where it knows the model.
+  std::vector<std::string> IntrinsicsNames() const;
+
   // Unit direction of sight of a pixel, camera frame. Iterative, inverts Project to about 1e-12.
   Eigen::Vector3d Unproject(const Eigen::Vector2d& pixel) const;
 

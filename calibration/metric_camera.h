@@ -30,12 +30,12 @@ enum class MetricModel {
 
 struct MetricCamera {
   MetricModel model = MetricModel::kBackwardBrown;
-  int width = 0, height = 0;                         // [px]
-  Eigen::Vector2d pixel_mm = Eigen::Vector2d::Zero();  // width and height of a pixel [mm], > 0
+  int width = 0, height = 0;                            // [px]
+  Eigen::Vector2d pixel_mm = Eigen::Vector2d::Zero();   // width and height of a pixel [mm], > 0
   Eigen::Vector2d origin_px = Eigen::Vector2d::Zero();  // where measured mm count from: DBAT the
                                                         // top-left corner, AICON the middle
-  double balanced_radius_mm = 0;                     // r0, of kBalancedRadial only
-  std::vector<double> parameters;                    // c > 0; ten, in the order above [mm, mm^-2 ...]
+  double balanced_radius_mm = 0;                        // r0, of kBalancedRadial only
+  std::vector<double> parameters;  // c > 0; ten, in the order above [mm, mm^-2 ...]
 };
 
 // "c", "xp", ... in the order of MetricCamera::parameters.

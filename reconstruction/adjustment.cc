@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "reconstruction/adjustment.h"
 
+#include <ceres/sphere_manifold.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdarg>
@@ -8,162 +10,127 @@
 #include <set>
 #include <utility>
 
-#include "reconstruction/old_network.h"
+#include "reconstruction/adjusted_observations.h"
 #include "reconstruction/planarity.h"
 #include "reconstruction/plane.h"
-#include "reconstruction/statistics.h"
 
 namespace insitu {
 namespace {
 
-// The solution with what its statistics need.
-struct Solution {
-  const Network& network;
-  const AdjustmentProblem& problem;
-  Eigen::MatrixXd covariance;  // of all unknowns, scaled by sigma0^2
-};
-
-std::string NameOf(const Unknown& unknown) {
+std::string NameOf(const Unknown& unknown, const Network& network) {
   switch (unknown.kind) {
+    case Unknown::Kind::kCamera:
+      return "lens of camera '" + network.cameras[unknown.index].name + "'";
     case Unknown::Kind::kPhoto:
-      return "photo '" + unknown.name + "'";
+      return "photo '" + network.photos[unknown.index].name + "'";
     case Unknown::Kind::kPoint:
-      return "point '" + unknown.name + "'";
-    case Unknown::Kind::kPolygon:
-      return "plane of polygon '" + unknown.name + "'";
-    case Unknown::Kind::kSun:
-    case Unknown::Kind::kZenith:
+      return "point '" + network.points[unknown.index].name + "'";
+    case Unknown::Kind::kPlane:
+      return "plane of polygon '" + network.planes[unknown.index].name + "'";
+    case Unknown::Kind::kDirection:
       break;
   }
-  return "direction '" + unknown.name + "'";
+  return "direction '" + network.directions[unknown.index].name + "'";
 }
 
-FilePlace PlaceOf(const Unknown& unknown, const Survey& survey) {
-  if (unknown.kind == Unknown::Kind::kPoint) return PlaceOfPoint(survey, unknown.name);
-  if (unknown.kind == Unknown::Kind::kSun) return survey.sun_pairs[0].place;
-  if (unknown.kind == Unknown::Kind::kZenith) return survey.zenith_pairs[0].place;
+FilePlace PlaceOf(const Unknown& unknown, const Network& network, const Survey& survey) {
+  if (unknown.kind == Unknown::Kind::kPoint) {
+    return PlaceOfPoint(survey, network.points[unknown.index].name);
+  }
+  if (unknown.kind == Unknown::Kind::kDirection) {
+    const bool is_sun = network.directions[unknown.index].name == "sun";
+    return (is_sun ? survey.sun_pairs : survey.zenith_pairs).at(0).place;
+  }
   for (const PolygonOutline& polygon : survey.polygons) {
-    if (unknown.kind == Unknown::Kind::kPolygon && polygon.name == unknown.name) {
+    if (unknown.kind == Unknown::Kind::kPlane &&
+        polygon.name == network.planes[unknown.index].name) {
       return polygon.place;
     }
   }
   for (const ImageObservation& mark : survey.observations) {
-    if (mark.photo == unknown.name) return mark.place;
+    if (unknown.kind == Unknown::Kind::kPhoto && mark.photo == network.photos[unknown.index].name) {
+      return mark.place;
+    }
   }
-  return survey.observations[0].place;
+  return survey.observations.empty() ? FilePlace{} : survey.observations[0].place;
 }
 
-InputError RankDefect(const AdjustmentProblem& problem, const Jacobian& jacobian,
-                      const Survey& survey) {
-  std::vector<Unknown> unknowns;
+InputError RankDefectError(const RankDefect& defect, const Network& network, const Survey& survey) {
+  constexpr size_t kShown = 8;
   std::set<std::string> names;
-  for (const int column : UndeterminedColumns(jacobian)) {
-    const Unknown& unknown = problem.UnknownOf(column);
-    if (names.insert(NameOf(unknown)).second) unknowns.push_back(unknown);
-  }
+  for (const Unknown& unknown : defect.unknowns) names.insert(NameOf(unknown, network));
   std::string list;
-  for (const std::string& name : names) list += (list.empty() ? "" : ", ") + name;
-  const FilePlace place = PlaceOf(unknowns.front(), survey);
+  size_t shown = 0;
+  for (const std::string& name : names) {
+    if (shown++ < kShown) list += (list.empty() ? "" : ", ") + name;
+  }
+  if (names.size() > kShown) list += " and " + std::to_string(names.size() - kShown) + " more";
+  const FilePlace place = PlaceOf(defect.unknowns.front(), network, survey);
   return InputError(place.path, place.line,
                     "the observations do not determine " + list +
                         "; expected more marks, control points or polygons that hold them");
 }
 
-std::vector<AdjustedPose> AdjustedPoses(const Solution& solution) {
-  std::vector<AdjustedPose> poses;
-  for (const NetworkPose& pose : solution.network.poses) {
-    const Eigen::Vector3d center = pose.center + solution.network.origin;
-    const int column = solution.problem.ColumnOf(pose.cam_from_local.coeffs().data());
-    AdjustedPose adjusted;
-    adjusted.photo = pose.photo;
-    adjusted.cam_from_world = {pose.cam_from_local, -(pose.cam_from_local * center)};
-    adjusted.covariance = solution.covariance.block<6, 6>(column, column);
-    poses.push_back(adjusted);
-  }
-  return poses;
-}
-
-std::vector<AdjustedPoint> AdjustedPoints(const Solution& solution) {
-  std::vector<AdjustedPoint> points;
-  for (const auto& [name, position] : solution.network.points) {
-    const int column = solution.problem.ColumnOf(position.data());
-    points.push_back({name, position + solution.network.origin,
-                      solution.covariance.block<3, 3>(column, column)});
-  }
-  return points;
-}
-
-// Counts of marks and root mean squares, sqrt(sum(vx^2 + vy^2) / marks), of photos and points.
-void AddImageResiduals(Adjustment* adjustment) {
-  std::map<std::string, std::pair<int, double>> of_photo, of_point;  // rows, sum of squares
-  for (const ObservationResidual& row : adjustment->residuals) {
-    if (row.photo.empty()) continue;
-    for (auto* sums : {&of_photo[row.photo], &of_point[row.subject]}) {
-      sums->first += 1;
-      sums->second += row.residual * row.residual;
-    }
-  }
-  for (AdjustedPose& pose : adjustment->poses) {
-    const auto [rows, squares] = of_photo[pose.photo];
-    pose.points = rows / 2;
-    pose.rms_px = std::sqrt(squares / pose.points);
-  }
-  for (AdjustedPoint& point : adjustment->points) {
-    const auto [rows, squares] = of_point[point.name];
-    point.rays = rows / 2;
-    point.rms_px = point.rays > 0 ? std::sqrt(squares / point.rays) : 0;
-  }
-}
-
 void CompareWithSurvey(const Survey& survey, Adjustment* adjustment) {
   std::map<std::string, const AdjustedPoint*> adjusted;
   for (const AdjustedPoint& point : adjustment->points) adjusted[point.name] = &point;
-  double squares = 0;
   for (const ControlPoint& surveyed : survey.control_points) {
     const auto point = adjusted.find(surveyed.name);
     if (point == adjusted.end()) continue;
-    PointComparison comparison{surveyed.name, point->second->position - surveyed.position,
-                               surveyed.sigma};
+    PointComparison comparison{surveyed.name,  point->second->position - surveyed.position,
+                               surveyed.sigma, surveyed.position,
+                               surveyed.sigma, point->second->covariance.diagonal().cwiseSqrt()};
     if (surveyed.role == ControlRole::kControl) {
       adjustment->control.push_back(comparison);
       continue;
     }
     const Eigen::Array3d variance = point->second->covariance.diagonal();
     comparison.sigma = (surveyed.sigma.array().square() + variance).sqrt();
-    squares += comparison.difference.cwiseQuotient(comparison.sigma).squaredNorm();
     adjustment->check.push_back(comparison);
   }
-  const size_t coordinates = 3 * adjustment->check.size();
-  if (coordinates > 0) {
-    adjustment->check_rms_over_sigma = std::sqrt(squares / static_cast<double>(coordinates));
+}
+
+// Root mean square of differences over their sigmas.
+double RmsOverSigma(const std::vector<PointComparison>& comparisons) {
+  double squares = 0;
+  for (const PointComparison& point : comparisons) {
+    squares += point.difference.cwiseQuotient(point.sigma).squaredNorm();
   }
+  return comparisons.empty() ? 0 : std::sqrt(squares / (3.0 * comparisons.size()));
 }
 
-Direction AdjustedDirection(const Solution& solution, const Eigen::Vector3d& unit) {
-  const int column = solution.problem.ColumnOf(unit.data());
+Direction AdjustedDirection(const SurveyNetwork& survey_network, const NetworkSolution& solution,
+                            int index) {
+  const NetworkDirection& direction = survey_network.network.directions[index];
+  const std::optional<int> column = solution.columns.direction[index];
+  if (!column) return {direction.unit, Eigen::Matrix3d::Zero()};
   Eigen::Matrix<double, 3, 2, Eigen::RowMajor> unit_from_tangent;
-  ceres::SphereManifold<3>().PlusJacobian(unit.data(), unit_from_tangent.data());
-  return {unit, unit_from_tangent * solution.covariance.block<2, 2>(column, column) *
-                    unit_from_tangent.transpose()};
+  ceres::SphereManifold<3>().PlusJacobian(direction.unit.data(), unit_from_tangent.data());
+  return {direction.unit, unit_from_tangent *
+                              Covariance(survey_network.network, solution, *column, 2, *column, 2) *
+                              unit_from_tangent.transpose()};
 }
 
-std::vector<Polygon> AdjustedPolygons(const Survey& survey, const Network& network) {
-  std::map<std::string, Eigen::Vector3d> normal_of_polygon;
-  for (const NetworkPlane& plane : network.planes) normal_of_polygon[plane.polygon] = plane.normal;
+std::vector<Polygon> AdjustedPolygons(const Survey& survey, const SurveyNetwork& survey_network) {
+  const Network& network = survey_network.network;
   std::vector<Polygon> polygons;
   for (const PolygonOutline& outline : survey.polygons) {
     Polygon polygon;
     polygon.name = outline.name;
     polygon.material = outline.material;
     for (const std::string& vertex : outline.vertices) {
-      polygon.vertices.push_back(network.points.at(vertex) + network.origin);
+      polygon.vertices.push_back(network.points[survey_network.index_of_point.at(vertex)].position +
+                                 network.origin);
     }
-    for (size_t i = 0; i < network.poses.size(); ++i) {
-      if (outline.photo == network.poses[i].photo) polygon.photo = static_cast<int>(i);
+    if (outline.photo) {
+      const auto photo = survey_network.index_of_photo.find(*outline.photo);
+      if (photo != survey_network.index_of_photo.end()) polygon.photo = photo->second;
     }
     const Eigen::Vector3d newell = OutlineNormal(polygon.vertices);
-    const auto adjusted = normal_of_polygon.find(outline.name);
-    polygon.normal = adjusted == normal_of_polygon.end() ? newell : adjusted->second;
+    const auto plane = survey_network.index_of_plane.find(outline.name);
+    polygon.normal = plane == survey_network.index_of_plane.end()
+                         ? newell
+                         : network.planes[plane->second].normal;
     if (polygon.normal.dot(newell) < 0) polygon.normal = -polygon.normal;
     polygons.push_back(std::move(polygon));
   }
@@ -189,19 +156,21 @@ double MedianVertexSigma(const Survey& survey, const std::vector<AdjustedPoint>&
   return *middle;
 }
 
-SceneGeometry AdjustedScene(const Survey& survey, const Solution& solution,
-                            const Adjustment& adjustment) {
-  const Network& network = solution.network;
+SceneGeometry AdjustedScene(const Survey& survey, const SurveyNetwork& survey_network,
+                            const NetworkSolution& solution, const Adjustment& adjustment) {
+  const Network& network = survey_network.network;
   SceneGeometry scene;
   scene.origin = network.origin;
-  for (size_t i = 0; i < network.poses.size(); ++i) {
-    const NetworkPose& pose = network.poses[i];
-    scene.cameras.push_back({pose.photo, pose.camera, adjustment.poses[i].cam_from_world});
+  for (size_t i = 0; i < network.photos.size(); ++i) {
+    const NetworkPhoto& photo = network.photos[i];
+    scene.cameras.push_back({photo.name, std::get<Camera>(network.cameras[photo.camera].lens),
+                             adjustment.poses[i].cam_from_world});
   }
-  scene.polygons = AdjustedPolygons(survey, network);
-  if (network.sun) scene.sun = AdjustedDirection(solution, *network.sun);
-  scene.zenith = network.zenith ? AdjustedDirection(solution, *network.zenith)
-                                : Direction{Eigen::Vector3d::UnitZ(), Eigen::Matrix3d::Zero()};
+  scene.polygons = AdjustedPolygons(survey, survey_network);
+  if (survey_network.sun) {
+    scene.sun = AdjustedDirection(survey_network, solution, *survey_network.sun);
+  }
+  scene.zenith = AdjustedDirection(survey_network, solution, *survey_network.zenith);
   scene.vertex_sigma = MedianVertexSigma(survey, adjustment.points);
   return scene;
 }
@@ -230,19 +199,44 @@ void WarnOfMasks(const Survey& survey, Adjustment* adjustment) {
   }
 }
 
-void AddStatistics(const AdjustmentProblem::Linearization& linear, const Eigen::MatrixXd& cofactor,
+void AddStatistics(const NetworkSolution& solution, const AdjustmentOptions& options,
                    Adjustment* adjustment) {
-  adjustment->observations = static_cast<int>(linear.jacobian.rows());
-  adjustment->unknowns = static_cast<int>(linear.jacobian.cols());
-  adjustment->redundancy = adjustment->observations - adjustment->unknowns;
-  const double square_sum = linear.residuals.squaredNorm();
-  adjustment->sigma0 =
-      adjustment->redundancy > 0 ? std::sqrt(square_sum / adjustment->redundancy) : 1;
-  adjustment->chi_square_p = ChiSquareTwoSided(square_sum, adjustment->redundancy);
-  adjustment->residuals = linear.rows;
-  const Eigen::VectorXd redundancy = RedundancyNumbers(linear.jacobian, cofactor);
-  for (int row = 0; row < redundancy.size(); ++row) {
-    adjustment->residuals[row].redundancy = redundancy[row];
+  adjustment->iterations = solution.iterations;
+  adjustment->observations = solution.observations;
+  adjustment->unknowns = solution.unknowns;
+  adjustment->datum_defect = solution.datum.defect();
+  adjustment->redundancy = solution.redundancy;
+  adjustment->datum = DatumInWords(solution.datum);
+  adjustment->sigma0 = solution.sigma0;
+  adjustment->critical_w = CriticalTestValue(options.significance);
+  adjustment->chi_square_p = ChiSquareTwoSided(solution.square_sum, solution.redundancy);
+  GlobalTest& test = adjustment->global_test;
+  test.statistic = solution.square_sum;
+  test.p = adjustment->chi_square_p;
+  if (solution.redundancy == 0) return;
+  test.low = ChiSquareQuantile(solution.redundancy, test.alpha / 2);
+  test.high = ChiSquareQuantile(solution.redundancy, 1 - test.alpha / 2);
+}
+
+void Warn(const NetworkSolution& solution, const SurveyNetwork& survey_network,
+          Adjustment* adjustment) {
+  if (!solution.is_converged) adjustment->warnings.push_back("the adjustment has not converged");
+  if (survey_network.network.directions[*survey_network.zenith].is_fixed) {
+    adjustment->warnings.push_back("no zenith pairs: the z axis was taken for the zenith");
+  }
+  if (solution.datum.defect() > 0) {
+    adjustment->warnings.push_back("the datum is " + adjustment->datum);
+  }
+}
+
+NetworkSolution Solve(const Survey& survey, Network* network) {
+  const FilePlace place = survey.observations.empty() ? FilePlace{} : survey.observations[0].place;
+  try {
+    return SolveNetwork(network);
+  } catch (const NoSolution&) {
+    throw InputError(place.path, "the adjustment fails, expected marks that fit their points");
+  } catch (const RankDefect& defect) {
+    throw RankDefectError(defect, *network, survey);
   }
 }
 
@@ -251,37 +245,31 @@ void AddStatistics(const AdjustmentProblem::Linearization& linear, const Eigen::
 Adjustment Adjust(const Survey& survey, const std::vector<std::string>& photos,
                   const std::vector<Camera>& cameras, const AdjustmentOptions& options) {
   INSITU_CHECK(options.plane_sigma > 0 && options.zenith_sigma > 0 && options.sun_sigma > 0);
+  INSITU_CHECK(options.calibrations.empty() || options.calibrations.size() == photos.size());
   const StartValues start = FindStartValues(survey, photos, cameras, options);
   RequirePlanar(survey, start.points, options.plane_sigma);
-  Network network = MakeNetwork(survey, start);
-  AdjustmentProblem problem(survey, options, network);
-  const AdjustmentProblem::Termination termination = problem.Solve();
-  if (!termination.usable) {
-    throw InputError(survey.observations[0].place.path,
-                     "the adjustment fails, expected marks that fit their points");
-  }
-  const AdjustmentProblem::Linearization linear = problem.Linearize();
-  const std::optional<Eigen::MatrixXd> cofactor = Cofactor(linear.jacobian);
-  if (!cofactor) throw RankDefect(problem, linear.jacobian, survey);
+  SurveyNetwork survey_network = MakeSurveyNetwork(survey, start, options);
+  const NetworkSolution solution = Solve(survey, &survey_network.network);
+  const Network& network = survey_network.network;
 
   Adjustment adjustment;
-  adjustment.iterations = termination.iterations;
   adjustment.warnings = start.warnings;
-  if (!termination.converged) adjustment.warnings.push_back("the adjustment has not converged");
-  if (!network.zenith) {
-    adjustment.warnings.push_back("no zenith pairs: the z axis was taken for the zenith");
-  }
+  AddStatistics(solution, options, &adjustment);
+  Warn(solution, survey_network, &adjustment);
   WarnOfMasks(survey, &adjustment);
-  AddStatistics(linear, *cofactor, &adjustment);
-  const double variance_factor = adjustment.sigma0 * adjustment.sigma0;
-  const Solution solution{network, problem, variance_factor * *cofactor};
-  adjustment.poses = AdjustedPoses(solution);
-  adjustment.points = AdjustedPoints(solution);
-  AddImageResiduals(&adjustment);
+  adjustment.residuals = AdjustedObservations(survey_network, solution, options.significance);
+  adjustment.cameras = AdjustedCameras(network, solution);
+  adjustment.poses = AdjustedPoses(network, solution);
+  adjustment.points = AdjustedPoints(network, solution);
+  adjustment.planes = AdjustedPlanes(survey_network, solution);
+  adjustment.correlations = HighCorrelations(network, solution);
   CompareWithSurvey(survey, &adjustment);
+  adjustment.left_out = LeaveOneOut(survey_network, solution);
+  adjustment.check_rms_over_sigma = RmsOverSigma(adjustment.check);
+  adjustment.left_out_rms_over_sigma = RmsOverSigma(adjustment.left_out);
   RequirePlanar(survey, JudgedPoints(adjustment.points), options.plane_sigma);
   RequireSimpleOutlines(survey, JudgedPoints(adjustment.points));
-  adjustment.scene = AdjustedScene(survey, solution, adjustment);
+  adjustment.scene = AdjustedScene(survey, survey_network, solution, adjustment);
   return adjustment;
 }
 
@@ -298,6 +286,10 @@ std::string Adjustment::BriefReport() const {
   }
   if (check.empty()) {
     text += "no check points: accuracy not verified\n";
+    if (!left_out.empty()) {
+      text += Format("leaving out one control point at a time: RMS %.2f of the expected sigma\n",
+                     left_out_rms_over_sigma);
+    }
   } else {
     text += Format("check points: %zu, RMS %.2f of their combined sigma\n", check.size(),
                    check_rms_over_sigma);

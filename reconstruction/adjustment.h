@@ -14,30 +14,37 @@
 
 namespace insitu {
 
+// What is known of a photo's camera besides its lens.
+struct CameraCalibration {
+  std::string camera = "camera";  // photos of one name share their lens
+  Eigen::MatrixXd covariance;     // of its intrinsics, from its calibration; empty: exact
+};
+
 struct AdjustmentOptions {
-  double plane_sigma = 0.005;    // [m], distance of a vertex from its polygon's plane
-  bool has_hard_planes = false;  // planes hold their vertices to a hundredth of a millimetre
-  double zenith_sigma = 0.005;   // [m], across, of a vertical edge's ends
-  double sun_sigma = 0.02;       // [m], across, of a shadow point from the line to the sun
+  double plane_sigma = 0.005;        // [m], distance of a vertex from its polygon's plane
+  bool has_hard_planes = false;      // planes hold their vertices to a hundredth of a millimetre
+  double zenith_sigma = 0.005;       // [m], across, of a vertical edge's ends
+  double sun_sigma = 0.02;           // [m], across, of a shadow point from the line to the sun
   bool is_self_calibrating = false;  // the lens parameters are unknowns too
   double significance = 0.001;       // alpha0 of each w-test (Baarda); its power is 80 %
+  std::vector<CameraCalibration> calibrations;           // as `photos`; empty: one exact camera
   std::map<std::string, Rigid3> initial_cam_from_world;  // user's estimates, by photo; none needed
 };
 
 // One scalar observation after the adjustment; residual = adjusted - observed, in sigma's unit.
 struct ObservationResidual {
-  std::string group;  // "image x", "image y", "edge", "control x" ..., "camera x" ..., "plane",
-                      // "sun", "zenith", "distance", "height", "angle"
+  std::string group;    // "image x", "image y", "edge", "control x" ..., "camera x" ..., "plane",
+                        // "sun", "zenith", "distance", "height", "angle"
   std::string photo;    // of image observations and camera positions, else empty
   std::string subject;  // point, polygon or pair
   double observed = 0, residual = 0, sigma = 0;
-  double redundancy = 0;                // its redundancy number, 0..1
-  std::optional<double> w = {};           // test value, standard normal; nullopt: not controlled
-  std::optional<double> detectable = {};  // minimal detectable bias, in sigma's unit
-  std::optional<double> external = {};    // its effect on any function of the unknowns, in that
-                                        // function's sigmas: delta0 sqrt((1 - r) / r)
+  double redundancy = 0;                     // its redundancy number, 0..1
+  std::optional<double> w = {};              // test value, standard normal; nullopt: not controlled
+  std::optional<double> detectable = {};     // minimal detectable bias, in sigma's unit
+  std::optional<double> external = {};       // its effect on any function of the unknowns, in that
+                                             // function's sigmas: delta0 sqrt((1 - r) / r)
   std::optional<double> point_shift_m = {};  // its effect on the position of the point concerned
-  bool is_tie_point = false;            // of a point that COLMAP found, not a surveyor
+  bool is_tie_point = false;                 // of a point that COLMAP found, not a surveyor
 };
 
 // An interior orientation after the adjustment.
@@ -85,22 +92,23 @@ struct AdjustedPlane {
   Eigen::Matrix3d normal_covariance;  // rank 2
   double offset_sigma = 0;            // [m]
   double planarity_rms = 0;           // [m], of its vertices
-  std::optional<double> off_vertical, off_vertical_sigma;  // [rad], angle of the plane to the zenith
+  std::optional<double> off_vertical,
+      off_vertical_sigma;  // [rad], angle of the plane to the zenith
 };
 
 // A surveyed point against the adjustment; for a check point the combined sigma is that of the
 // difference, sqrt(survey^2 + adjusted^2).
 struct PointComparison {
   std::string name;
-  Eigen::Vector3d difference;       // adjusted - surveyed [m]
-  Eigen::Vector3d sigma;            // [m]
+  Eigen::Vector3d difference;                                // adjusted - surveyed [m]
+  Eigen::Vector3d sigma;                                     // [m]
   Eigen::Vector3d surveyed = Eigen::Vector3d::Zero();        // [m], world
   Eigen::Vector3d surveyed_sigma = Eigen::Vector3d::Zero();  // [m]
   Eigen::Vector3d adjusted_sigma = Eigen::Vector3d::Zero();  // [m]
 };
 
 struct GlobalTest {
-  double statistic = 0;    // sum (v / sigma)^2
+  double statistic = 0;      // sum (v / sigma)^2
   double low = 0, high = 0;  // two-sided bounds at `alpha`
   double alpha = 0.05;
   double p = 1;  // two-sided
@@ -119,15 +127,16 @@ struct Adjustment {
   SceneGeometry scene;
   double sigma0 = 0;  // a posteriori, a priori 1
   int observations = 0, unknowns = 0, datum_defect = 0, redundancy = 0, iterations = 0;
-  std::string datum;  // in words: "control", or what is free and how it was fixed
+  std::string datum;        // in words: "control", or what is free and how it was fixed
   double chi_square_p = 0;  // two-sided p of the global test
   GlobalTest global_test;
   double critical_w = 3.29;  // of each w-test, at AdjustmentOptions::significance
   std::vector<ObservationResidual> residuals;
   std::vector<PointComparison> control, check;
-  std::vector<PointComparison> left_out;  // each control point predicted without its own coordinates
+  std::vector<PointComparison>
+      left_out;                     // each control point predicted without its own coordinates
   double check_rms_over_sigma = 0;  // sqrt(mean((difference/sigma)^2)) over the check coordinates
-  double left_out_rms_over_sigma = 0;  // the same over left_out
+  double left_out_rms_over_sigma = 0;     // the same over left_out
   std::vector<Correlation> correlations;  // above 0.95, largest first
   std::vector<std::string> warnings;
   std::string BriefReport() const;

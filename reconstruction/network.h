@@ -30,16 +30,17 @@ struct NetworkCamera {
 
 struct NetworkPhoto {
   std::string name;
-  int camera = 0;                     // index into Network::cameras
+  int camera = 0;  // index into Network::cameras
   Eigen::Quaterniond cam_from_local = Eigen::Quaterniond::Identity();
   Eigen::Vector3d center = Eigen::Vector3d::Zero();  // [m], local
-  bool is_center_fixed = false;       // a surveyed tripod taken as exact
+  bool is_center_fixed = false;                      // a surveyed tripod taken as exact
 };
 
 struct NetworkPoint {
   std::string name;
-  Eigen::Vector3d position;  // [m], local
-  bool is_fixed = false;     // control taken as exact
+  Eigen::Vector3d position;   // [m], local
+  bool is_fixed = false;      // control taken as exact
+  bool is_tie_point = false;  // found by image matching
 };
 
 // The points x with normal . (x - centroid) = offset; the centroid is a constant.
@@ -54,6 +55,7 @@ struct NetworkPlane {
 struct NetworkDirection {
   std::string name;
   Eigen::Vector3d unit;
+  bool is_fixed = false;  // the z axis taken for the zenith
 };
 
 // ---- observations; every sigma > 0 ---------------------------------------------------------
@@ -109,9 +111,15 @@ struct HeightObservation {
 };
 
 // A unit vector among the unknowns, or the edge between two points.
-struct PlaneNormal { int plane = 0; };
-struct DirectionUnit { int direction = 0; };
-struct EdgeUnit { int from = 0, to = 0; };
+struct PlaneNormal {
+  int plane = 0;
+};
+struct DirectionUnit {
+  int direction = 0;
+};
+struct EdgeUnit {
+  int from = 0, to = 0;
+};
 using UnitReference = std::variant<PlaneNormal, DirectionUnit, EdgeUnit>;
 
 // Parallel: both parts of the one across the other are 0; else perpendicular: their product is 0.

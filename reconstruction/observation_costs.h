@@ -1,85 +1,63 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The observation equations of resection and joint adjustment as Ceres residuals, each divided by
-// its sigma. Coordinates are about a local origin near the site.
+// its sigma. Coordinates are about a local origin near the site. Rotations are quaternions
+// cam_from_local (x, y, z, w).
 #pragma once
 
 #include <ceres/autodiff_cost_function.h>
-#include <ceres/cost_function_to_functor.h>
-#include <ceres/sized_cost_function.h>
+#include <ceres/cost_function.h>
 
 #include <Eigen/Geometry>
+#include <vector>
 
-#include "calibration/camera.h"
+#include "reconstruction/lens_residual.h"
 
 namespace insitu {
 
-// Pixel of a point in the camera frame, through the lens; infeasible behind the camera.
-class PixelOfPoint : public ceres::SizedCostFunction<2, 3> {
+// A mark on a photograph: residual of R (X - C) through the lens, over sigma. Unknowns: R, camera
+// centre C, point X, and all parameters of the lens if it is adjusted. [Durisch92, §3.5]
+class MarkCost : public ceres::CostFunction {
  public:
-  explicit PixelOfPoint(const Camera& camera) : camera_(camera) {}
-
+  // `held_parameters`: of a lens that is not adjusted, else null. Both must outlive the cost.
+  MarkCost(const Lens& lens, const std::vector<double>* held_parameters,
+           const Eigen::Vector2d& observed_px, double sigma_px);
   bool Evaluate(double const* const* parameters, double* residuals,
-                double** jacobians) const override {
-    const Eigen::Vector3d point_in_cam(parameters[0]);
-    Eigen::Matrix<double, 2, 3> pixel_from_point;
-    const auto pixel = camera_.Project(point_in_cam, &pixel_from_point);
-    if (!pixel) return false;
-    Eigen::Map<Eigen::Vector2d>(residuals, 2) = *pixel;
-    if (jacobians != nullptr && jacobians[0] != nullptr) {
-      Eigen::Map<Eigen::Matrix<double, 2, 3, Eigen::RowMajor>>(jacobians[0], 2, 3) =
-          pixel_from_point;
-    }
-    return true;
-  }
+                double** jacobians) const override;
 
  private:
-  Camera camera_;
-};
-
-// A mark on a photograph: (pixel(R (X - C)) - observed) / sigma. Unknowns: R as a quaternion
-// (x, y, z, w), camera centre C, point X. [Durisch92, §3.5]
-class MarkCost {
- public:
-  MarkCost(const Camera& camera, const Eigen::Vector2d& observed_px, double sigma_px)
-      : pixel_of_point_(new PixelOfPoint(camera)), observed_(observed_px), sigma_(sigma_px) {}
-
-  template <typename T>
-  bool operator()(const T* rotation, const T* center, const T* point, T* residual) const {
-    using Vector3 = Eigen::Matrix<T, 3, 1>;
-    const Eigen::Map<const Eigen::Quaternion<T>> cam_from_world(rotation);
-    const Vector3 point_in_cam =
-        cam_from_world * (Eigen::Map<const Vector3>(point) - Eigen::Map<const Vector3>(center));
-    T pixel[2];
-    if (!pixel_of_point_(point_in_cam.data(), pixel)) return false;
-    for (int i = 0; i < 2; ++i) residual[i] = (pixel[i] - observed_[i]) / sigma_;
-    return true;
-  }
-
-  static ceres::CostFunction* Create(const Camera& camera, const Eigen::Vector2d& observed_px,
-                                     double sigma_px) {
-    return new ceres::AutoDiffCostFunction<MarkCost, 2, 4, 3, 3>(
-        new MarkCost(camera, observed_px, sigma_px));
-  }
-
- private:
-  ceres::CostFunctionToFunctor<2, 3> pixel_of_point_;
+  const Lens& lens_;
+  const std::vector<double>* held_parameters_;
   Eigen::Vector2d observed_;
   double sigma_;
 };
 
-// A surveyed point: (X - surveyed) / sigma, per axis.
-struct ControlCost {
+// A pixel on the image of the edge from A to B: the angle between its line of sight and the plane
+// of C, A, B, times the pixels per radian there, over sigma. Unknowns: R, C, A, B.
+struct EdgeCost {
+  Eigen::Vector3d sight_in_cam;  // unit
+  double px_per_radian = 0;
+  double sigma_px = 0;
+
+  template <typename T>
+  bool operator()(const T* rotation, const T* center, const T* from, const T* to,
+                  T* residual) const {
+    using Vector3 = Eigen::Matrix<T, 3, 1>;
+    const Eigen::Map<const Eigen::Quaternion<T>> cam_from_local(rotation);
+    const Eigen::Map<const Vector3> c(center), a(from), b(to);
+    const Vector3 normal = cam_from_local * (a - c).cross(b - c).normalized();
+    residual[0] = normal.dot(sight_in_cam.cast<T>()) * T(px_per_radian / sigma_px);
+    return true;
+  }
+};
+
+// A surveyed place, of a point or of a camera's centre: (X - surveyed) / sigma, per axis.
+struct PositionCost {
   Eigen::Vector3d surveyed, sigma;  // [m]
 
   template <typename T>
   bool operator()(const T* point, T* residual) const {
     for (int i = 0; i < 3; ++i) residual[i] = (point[i] - surveyed[i]) / sigma[i];
     return true;
-  }
-
-  static ceres::CostFunction* Create(const Eigen::Vector3d& surveyed,
-                                     const Eigen::Vector3d& sigma) {
-    return new ceres::AutoDiffCostFunction<ControlCost, 3, 3>(new ControlCost{surveyed, sigma});
   }
 };
 
@@ -95,10 +73,6 @@ struct PlaneCost {
     for (int i = 0; i < 3; ++i) residual[0] += normal[i] * (point[i] - centroid[i]);
     residual[0] /= T(sigma);
     return true;
-  }
-
-  static ceres::CostFunction* Create(const Eigen::Vector3d& centroid, double sigma) {
-    return new ceres::AutoDiffCostFunction<PlaneCost, 1, 3, 1, 3>(new PlaneCost{centroid, sigma});
   }
 };
 
@@ -118,14 +92,64 @@ struct DirectionCost {
     result = axes.cast<T>() * across / T(sigma);
     return true;
   }
+};
 
-  static ceres::CostFunction* Create(const Eigen::Vector3d& start, double sigma) {
-    const Eigen::Vector3d first = start.unitOrthogonal();
-    Eigen::Matrix<double, 2, 3> axes;
-    axes << first.transpose(), start.cross(first).transpose();
-    return new ceres::AutoDiffCostFunction<DirectionCost, 2, 3, 3, 3>(
-        new DirectionCost{axes, sigma});
+// (|to - from| - distance) / sigma.
+struct DistanceCost {
+  double distance = 0, sigma = 0;  // [m]
+
+  template <typename T>
+  bool operator()(const T* from, const T* to, T* residual) const {
+    using Vector3 = Eigen::Matrix<T, 3, 1>;
+    const Vector3 step = Eigen::Map<const Vector3>(to) - Eigen::Map<const Vector3>(from);
+    residual[0] = (step.norm() - T(distance)) / T(sigma);
+    return true;
   }
 };
+
+// ((to - from) . u - height) / sigma.
+struct HeightCost {
+  double height = 0, sigma = 0;  // [m]
+
+  template <typename T>
+  bool operator()(const T* direction, const T* from, const T* to, T* residual) const {
+    residual[0] = T(-height);
+    for (int i = 0; i < 3; ++i) residual[0] += direction[i] * (to[i] - from[i]);
+    residual[0] /= T(sigma);
+    return true;
+  }
+};
+
+// Angle between two unit vectors a and b [rad]: parallel, the parts of b across a along two fixed
+// axes; perpendicular, their product; over sigma. A vector is one unknown, or the edge between two
+// points, which are then two.
+struct AngleCost {
+  bool is_edge_first = false, is_edge_second = false;
+  bool is_parallel = false;
+  Eigen::Matrix<double, 2, 3> axes;  // rows: unit, orthogonal to the start of a
+  double sigma = 0;                  // [rad]
+
+  template <typename T>
+  bool operator()(T const* const* blocks, T* residual) const {
+    using Vector3 = Eigen::Matrix<T, 3, 1>;
+    int next = 0;
+    const auto unit = [&](bool is_edge) -> Vector3 {
+      const Vector3 first = Eigen::Map<const Vector3>(blocks[next++]);
+      if (!is_edge) return first;
+      return (Eigen::Map<const Vector3>(blocks[next++]) - first).normalized();
+    };
+    const Vector3 a = unit(is_edge_first), b = unit(is_edge_second);
+    if (is_parallel) {
+      Eigen::Map<Eigen::Matrix<T, 2, 1>> result(residual);
+      result = axes.cast<T>() * a.cross(b) / T(sigma);
+    } else {
+      residual[0] = a.dot(b) / T(sigma);
+    }
+    return true;
+  }
+};
+
+// Two rows orthogonal to `unit` and to one another.
+Eigen::Matrix<double, 2, 3> AxesAcross(const Eigen::Vector3d& unit);
 
 }  // namespace insitu

@@ -68,14 +68,14 @@ class Refinement {
  public:
   Refinement(const Camera& camera, const std::vector<ResectionPoint>& points,
              const Eigen::Vector3d& origin, const Rigid3& start)
-      : rotation_(start.rotation), center_(Center(start)) {
+      : lens_(camera), rotation_(start.rotation), center_(Center(start)) {
     for (const ResectionPoint& point : points) local_.push_back(point.world - origin);
     problem_.AddParameterBlock(rotation_.coeffs().data(), 4, new ceres::EigenQuaternionManifold);
     problem_.AddParameterBlock(center_.data(), 3);
     for (size_t i = 0; i < points.size(); ++i) {
-      problem_.AddResidualBlock(MarkCost::Create(camera, points[i].pixel, points[i].sigma_px),
-                                nullptr, rotation_.coeffs().data(), center_.data(),
-                                local_[i].data());
+      problem_.AddResidualBlock(
+          new MarkCost(lens_, &camera.intrinsics(), points[i].pixel, points[i].sigma_px), nullptr,
+          rotation_.coeffs().data(), center_.data(), local_[i].data());
       problem_.SetParameterBlockConstant(local_[i].data());
     }
   }
@@ -112,6 +112,7 @@ class Refinement {
   }
 
  private:
+  const Lens lens_;
   Eigen::Quaterniond rotation_;
   Eigen::Vector3d center_;
   std::vector<Eigen::Vector3d> local_;

@@ -6,6 +6,7 @@
 #include <Eigen/Core>
 #include <array>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -48,10 +49,12 @@ struct NetworkColumns {
   std::vector<Unknown> unknowns;  // by column
 };
 
-// The seven motions of a free network: three translations, three rotations, scale.
-struct DatumDefect {
-  int defect = 0;  // of the observations, 0..7
-  std::array<bool, 7> is_free{};  // tx ty tz rx ry rz scale: not held by any observation
+// What the observations leave free of position, orientation and scale.
+struct Datum {
+  Eigen::MatrixXd motions;  // unknowns x defect: the motions that no observation sees; 0..7 columns
+  std::array<bool, 7> is_free{};  // which of tx ty tz rx ry rz scale take part in them
+
+  int defect() const { return static_cast<int>(motions.cols()); }
 };
 
 struct NetworkSolution {
@@ -59,19 +62,31 @@ struct NetworkSolution {
   int iterations = 0;
 
   NetworkColumns columns;
-  DatumDefect datum;  // where it is free: inner constraints over all points, about the start values
-  int observations = 0, unknowns = 0, redundancy = 0;  // redundancy = n - u + datum.defect
-  double square_sum = 0;  // sum (v / sigma)^2
-  double sigma0 = 1;      // a posteriori, a priori 1; 1 without redundancy
+  Datum datum;  // where it is free: inner constraints over all points, about the start values
+  int observations = 0, unknowns = 0, redundancy = 0;  // redundancy = n - u + datum.defect()
+  double square_sum = 0;                               // sum (v / sigma)^2
+  double sigma0 = 1;  // a posteriori, a priori 1; 1 without redundancy
 
   // By row. residual = adjusted - observed, in the unit of sigma.
   std::vector<ObservationRow> rows;
   Eigen::VectorXd residuals, sigmas, redundancy_numbers;
 
-  Jacobian jacobian;         // rows over sigma; for what else one wants to know
+  Jacobian jacobian;         // rows over sigma
   SelectedInverse cofactor;  // of the unknowns, unit weight; covariance = sigma0^2 cofactor
   // Per camera: d unknowns / d considered parameters (count x parameters), else empty.
   std::vector<Eigen::MatrixXd> lens_sensitivity;
+};
+
+// The observations do not determine these.
+class RankDefect : public std::runtime_error {
+ public:
+  explicit RankDefect(std::vector<Unknown> unknowns_in);
+  std::vector<Unknown> unknowns;  // each once
+};
+
+// The solver could not start or diverges: a point behind its camera, no finite value.
+class NoSolution : public std::runtime_error {
+  using std::runtime_error::runtime_error;
 };
 
 struct SolveOptions {
@@ -79,7 +94,13 @@ struct SolveOptions {
 };
 
 // Moves the network's unknowns to the least-squares solution.
-// Throws RankDefect if the observations do not determine every unknown but for the datum.
+// Throws RankDefect if the observations do not determine every unknown but for the datum;
+// NoSolution.
 NetworkSolution SolveNetwork(Network* network, const SolveOptions& options = {});
+
+// Covariance between unknowns of consecutive columns, scaled by sigma0^2, with what the considered
+// lens parameters add. Both must occur together in some observation, or be of one unknown.
+Eigen::MatrixXd Covariance(const Network& network, const NetworkSolution& solution, int row,
+                           int rows, int column, int columns);
 
 }  // namespace insitu

@@ -18,7 +18,7 @@ struct TiePointMark {
 };
 
 struct TiePoint {
-  Eigen::Vector3d position;  // in the model's frame
+  Eigen::Vector3d position;         // in the model's frame
   std::vector<TiePointMark> marks;  // two or more photos
 };
 

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What the surveyor reads of a solved network: every observation with its test and reliability,
+// every unknown with its covariance, control and check points.
+#pragma once
+
+#include "reconstruction/adjustment.h"
+#include "reconstruction/solve_network.h"
+#include "reconstruction/survey_network.h"
+
+namespace insitu {
+
+// By row, with names, test values and reliability. [Baarda 1968]
+std::vector<ObservationResidual> AdjustedObservations(const SurveyNetwork& survey_network,
+                                                      const NetworkSolution& solution,
+                                                      double significance);
+
+std::vector<AdjustedCamera> AdjustedCameras(const Network& network,
+                                            const NetworkSolution& solution);
+std::vector<AdjustedPose> AdjustedPoses(const Network& network, const NetworkSolution& solution);
+std::vector<AdjustedPoint> AdjustedPoints(const Network& network, const NetworkSolution& solution);
+std::vector<AdjustedPlane> AdjustedPlanes(const SurveyNetwork& survey_network,
+                                          const NetworkSolution& solution);
+
+// Of one unknown with another of the same camera, photo or point, above `limit`; largest first.
+std::vector<Correlation> HighCorrelations(const Network& network, const NetworkSolution& solution,
+                                          double limit = 0.95);
+
+// "control", or what is free of position, orientation and scale and how it was fixed.
+std::string DatumInWords(const Datum& datum);
+
+// Each control point as the rest of the network predicts it, from its own residuals v and their
+// cofactors R: R^-1 v. Those that the rest does not determine are left out.
+std::vector<PointComparison> LeaveOneOut(const SurveyNetwork& survey_network,
+                                         const NetworkSolution& solution);
+
+}  // namespace insitu

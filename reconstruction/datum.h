@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Position, orientation and scale of a network that its observations leave free.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "reconstruction/solve_network.h"
+
+namespace insitu {
+
+// The free motions at the network's present values.
+Datum FindDatum(const Network& network, const NetworkColumns& columns, const Jacobian& jacobian);
+
+// As many columns as motions, whose values would fix the datum as well as any.
+std::vector<int> DatumPins(const Network& network, const NetworkColumns& columns,
+                           const Datum& datum);
+
+// B of the inner constraints B^T x = 0 over all points. [Meissl 1965; Granshaw 1980]
+Eigen::MatrixXd InnerConstraints(const Network& network, const NetworkColumns& columns,
+                                 const Datum& datum);
+
+// Moves the whole network along the datum's motions so that its points lie as near as possible to
+// `start_points` (as network->points, local).
+void MoveToStart(const NetworkColumns& columns, const std::vector<Eigen::Vector3d>& start_points,
+                 Network* network, Datum* datum);
+
+}  // namespace insitu
