@@ -17,6 +17,12 @@ std::vector<ObservationResidual> AdjustedObservations(const SurveyNetwork& surve
 std::vector<AdjustedCamera> AdjustedCameras(const Network& network,
                                             const NetworkSolution& solution);
 std::vector<AdjustedPose> AdjustedPoses(const Network& network, const NetworkSolution& solution);
+
+// By photo: of its left rotation increment [rad], centre [m] and all intrinsics of its lens if that
+// is adjusted or considered. What is fixed has variance 0.
+std::vector<Eigen::MatrixXd> CameraCovariances(const Network& network,
+                                               const NetworkSolution& solution);
+
 std::vector<AdjustedPoint> AdjustedPoints(const Network& network, const NetworkSolution& solution);
 std::vector<AdjustedPlane> AdjustedPlanes(const SurveyNetwork& survey_network,
                                           const NetworkSolution& solution);

@@ -35,10 +35,47 @@ Eigen::Matrix<double, 6, 6> PoseCovariance(const Network& network, const Network
                                            size_t photo) {
   Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();
   const int rotation = *solution.columns.rotation[photo];
-  if (solution.columns.center[photo])
-    return Covariance(network, solution, rotation, 6, rotation, 6);
-  covariance.topLeftCorner<3, 3>() = Covariance(network, solution, rotation, 3, rotation, 3);
+  const int size = solution.columns.center[photo] ? 6 : 3;
+  covariance.topLeftCorner(size, size) =
+      Covariance(network, solution, rotation, size, rotation, size);
   return covariance;
+}
+
+int FreeParameters(const NetworkCamera& camera) {
+  return static_cast<int>(std::count(camera.is_free.begin(), camera.is_free.end(), true));
+}
+
+// Of the pose with its adjusted lens: the free parameters among all.
+void AddAdjustedLens(const Network& network, const NetworkSolution& solution, size_t photo,
+                     Eigen::MatrixXd* covariance) {
+  const NetworkCamera& camera = network.cameras[network.photos[photo].camera];
+  const int lens = *solution.columns.camera[network.photos[photo].camera];
+  const int free = FreeParameters(camera), rotation = *solution.columns.rotation[photo];
+  const int size = solution.columns.center[photo] ? 6 : 3;
+  const Eigen::MatrixXd joint = Covariance(network, solution, rotation, size, lens, free);
+  const Eigen::MatrixXd own = Covariance(network, solution, lens, free, lens, free);
+  std::vector<int> place;  // of a free parameter in the covariance
+  for (size_t k = 0; k < camera.is_free.size(); ++k) {
+    if (camera.is_free[k]) place.push_back(6 + static_cast<int>(k));
+  }
+  for (int i = 0; i < free; ++i) {
+    covariance->col(place[i]).head(size) = joint.col(i);
+    covariance->row(place[i]).head(size) = joint.col(i).transpose();
+    for (int j = 0; j < free; ++j) (*covariance)(place[i], place[j]) = own(i, j);
+  }
+}
+
+// Of the pose with its considered lens: the pose moves with it as the sensitivity says.
+void AddConsideredLens(const Network& network, const NetworkSolution& solution, size_t photo,
+                       Eigen::MatrixXd* covariance) {
+  const int camera = network.photos[photo].camera;
+  const Eigen::MatrixXd& lens = network.cameras[camera].calibration_covariance;
+  const int size = solution.columns.center[photo] ? 6 : 3;
+  const Eigen::MatrixXd joint =
+      solution.lens_sensitivity[camera].middleRows(*solution.columns.rotation[photo], size) * lens;
+  covariance->block(0, 6, size, lens.cols()) = joint;
+  covariance->block(6, 0, lens.cols(), size) = joint.transpose();
+  covariance->bottomRightCorner(lens.rows(), lens.cols()) = lens;
 }
 
 Eigen::MatrixXd LensCorrelation(const Network& network, const NetworkSolution& solution,
@@ -46,8 +83,7 @@ Eigen::MatrixXd LensCorrelation(const Network& network, const NetworkSolution& s
   const int camera = network.photos[photo].camera;
   const std::optional<int> lens = solution.columns.camera[camera];
   if (!lens || !solution.columns.center[photo]) return {};
-  const auto free = static_cast<int>(std::count(network.cameras[camera].is_free.begin(),
-                                                network.cameras[camera].is_free.end(), true));
+  const int free = FreeParameters(network.cameras[camera]);
   const Eigen::MatrixXd joint =
       Covariance(network, solution, *solution.columns.rotation[photo], 6, *lens, free);
   const Eigen::VectorXd lens_sigma =
@@ -100,8 +136,7 @@ std::vector<AdjustedCamera> AdjustedCameras(const Network& network,
     const std::vector<std::string> names = LensParameterNames(camera.lens);
     Eigen::MatrixXd covariance;
     if (const auto column = solution.columns.camera[i]) {
-      const auto free =
-          static_cast<int>(std::count(camera.is_free.begin(), camera.is_free.end(), true));
+      const int free = FreeParameters(camera);
       covariance = Covariance(network, solution, *column, free, *column, free);
       adjusted.correlation = CorrelationOf(covariance);
     }
@@ -156,6 +191,24 @@ std::vector<AdjustedPose> AdjustedPoses(const Network& network, const NetworkSol
     pose.coverage = Coverage(marks[i], SizeOf(network.cameras[photo.camera].lens));
   }
   return poses;
+}
+
+std::vector<Eigen::MatrixXd> CameraCovariances(const Network& network,
+                                               const NetworkSolution& solution) {
+  std::vector<Eigen::MatrixXd> covariances;
+  for (size_t photo = 0; photo < network.photos.size(); ++photo) {
+    const int camera = network.photos[photo].camera;
+    const bool is_adjusted = solution.columns.camera[camera].has_value();
+    const bool is_considered = solution.lens_sensitivity[camera].size() > 0;
+    const auto lens_size = static_cast<Eigen::Index>(
+        is_adjusted || is_considered ? LensParameters(network.cameras[camera].lens).size() : 0);
+    Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(6 + lens_size, 6 + lens_size);
+    covariance.topLeftCorner<6, 6>() = PoseCovariance(network, solution, photo);
+    if (is_adjusted) AddAdjustedLens(network, solution, photo, &covariance);
+    if (is_considered) AddConsideredLens(network, solution, photo, &covariance);
+    covariances.push_back(covariance);
+  }
+  return covariances;
 }
 
 std::vector<AdjustedPoint> AdjustedPoints(const Network& network, const NetworkSolution& solution) {

@@ -166,6 +166,7 @@ SceneGeometry AdjustedScene(const Survey& survey, const SurveyNetwork& survey_ne
     scene.cameras.push_back({photo.name, std::get<Camera>(network.cameras[photo.camera].lens),
                              adjustment.poses[i].cam_from_world});
   }
+  scene.camera_covariances = CameraCovariances(network, solution);
   scene.polygons = AdjustedPolygons(survey, survey_network);
   if (survey_network.sun) {
     scene.sun = AdjustedDirection(survey_network, solution, *survey_network.sun);

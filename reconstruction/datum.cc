@@ -6,6 +6,7 @@
 #include <Eigen/LU>
 #include <Eigen/QR>
 #include <Eigen/SVD>
+#include <algorithm>
 #include <cmath>
 
 #include "calibration/error.h"
@@ -14,7 +15,7 @@ namespace insitu {
 namespace {
 
 constexpr int kMotions = 7;                  // tx ty tz rx ry rz scale
-constexpr double kFreeSingularValue = 1e-9;  // of motions scaled to 1 without cancellation
+constexpr double kFreeSingularValue = 1e-9;  // of motions scaled to 1
 
 using PointMotions = Eigen::Matrix<double, 3, kMotions>;
 
@@ -86,26 +87,71 @@ Eigen::MatrixXd SimilarityMotions(const Network& network, const NetworkColumns& 
   return g;
 }
 
+bool IsReferredTo(const Network& network, int direction) {
+  const auto refers = [&](const auto& observation) { return observation.direction == direction; };
+  const auto is_unit = [&](const UnitReference& reference) {
+    const auto* unit = std::get_if<DirectionUnit>(&reference);
+    return unit && unit->direction == direction;
+  };
+  return std::any_of(network.along_directions.begin(), network.along_directions.end(), refers) ||
+         std::any_of(network.heights.begin(), network.heights.end(), refers) ||
+         std::any_of(network.angles.begin(), network.angles.end(), [&](const auto& angle) {
+           return is_unit(angle.first) || is_unit(angle.second);
+         });
+}
+
 // How what is fixed would move: three rows a fixed point, centre or direction.
-Eigen::MatrixXd MotionsOfFixed(const Network& network) {
+std::vector<PointMotions> MotionsOfFixed(const Network& network) {
   const Extent extent = ExtentOf(network);
   std::vector<PointMotions> motions;
-  for (const NetworkDirection& direction : network.directions) {
-    if (!direction.is_fixed) continue;
-    motions.emplace_back(PointMotions::Zero());
-    motions.back().middleCols<3>(3) = -CrossMatrix(direction.unit);
-  }
   for (const NetworkPoint& point : network.points) {
-    if (point.is_fixed) motions.push_back(MotionsOf(extent, point.position));
+    if (point.is_fixed) motions.push_back(MotionsOf(extent, point.position) / extent.radius);
   }
   for (const NetworkPhoto& photo : network.photos) {
-    if (photo.is_center_fixed) motions.push_back(MotionsOf(extent, photo.center));
+    if (photo.is_center_fixed) motions.push_back(MotionsOf(extent, photo.center) / extent.radius);
   }
-  Eigen::MatrixXd rows(3 * motions.size(), kMotions);
-  for (size_t i = 0; i < motions.size(); ++i) {
-    rows.middleRows<3>(3 * static_cast<Eigen::Index>(i)) = motions[i];
+  for (int i = 0; i < static_cast<int>(network.directions.size()); ++i) {
+    if (!network.directions[i].is_fixed || !IsReferredTo(network, i)) continue;
+    motions.emplace_back(PointMotions::Zero());
+    motions.back().middleCols<3>(3) = -CrossMatrix(network.directions[i].unit);
   }
-  return rows;
+  return motions;
+}
+
+bool HoldsDatum(const Network& network, const ObservationRow& row) {
+  switch (row.kind) {
+    case ObservationKind::kControl:
+    case ObservationKind::kCenter:
+    case ObservationKind::kDistance:
+      return true;
+    case ObservationKind::kHeight:
+      return network.heights[row.index].height != 0;
+    default:
+      return false;
+  }
+}
+
+// Rows over sigma, each scaled so that without cancellation it would be about 1.
+Eigen::MatrixXd HeldMotions(const Network& network, const std::vector<ObservationRow>& rows,
+                            const Jacobian& jacobian, const Eigen::MatrixXd& g) {
+  const std::vector<PointMotions> fixed = MotionsOfFixed(network);
+  std::vector<Eigen::Matrix<double, 1, kMotions>> held;
+  for (const PointMotions& motions : fixed) {
+    for (int axis = 0; axis < 3; ++axis) held.emplace_back(motions.row(axis));
+  }
+  for (int row = 0; row < static_cast<int>(rows.size()); ++row) {
+    if (!HoldsDatum(network, rows[row])) continue;
+    Eigen::Matrix<double, 1, kMotions> seen = Eigen::Matrix<double, 1, kMotions>::Zero();
+    double magnitude = 0;
+    for (Jacobian::InnerIterator entry(jacobian, row); entry; ++entry) {
+      seen += entry.value() * g.row(entry.col());
+      magnitude += std::abs(entry.value()) * g.row(entry.col()).norm();
+    }
+    if (magnitude > 0) held.emplace_back(seen / magnitude);
+  }
+  Eigen::MatrixXd matrix(static_cast<Eigen::Index>(held.size()), kMotions);
+  for (size_t i = 0; i < held.size(); ++i) matrix.row(static_cast<Eigen::Index>(i)) = held[i];
+  return matrix;
 }
 
 bool IsPointColumn(const NetworkColumns& columns, int column) {
@@ -114,34 +160,33 @@ bool IsPointColumn(const NetworkColumns& columns, int column) {
 
 }  // namespace
 
-Datum FindDatum(const Network& network, const NetworkColumns& columns, const Jacobian& jacobian) {
+Datum FindDatum(const Network& network, const NetworkColumns& columns,
+                const std::vector<ObservationRow>& rows, const Jacobian& jacobian) {
   const Eigen::MatrixXd g = SimilarityMotions(network, columns);
-  const Eigen::MatrixXd seen = jacobian * g;
-  const Jacobian magnitudes = jacobian.cwiseAbs();
-  const Eigen::MatrixXd without_cancellation = magnitudes * g.cwiseAbs();
-  const Eigen::MatrixXd fixed =
-      MotionsOfFixed(network) * jacobian.norm() / std::sqrt(jacobian.nonZeros() + 1.0);
-  Eigen::MatrixXd rows(seen.rows() + fixed.rows(), kMotions);
-  rows << seen, fixed;
-  Eigen::VectorXd scales(kMotions);
-  for (int k = 0; k < kMotions; ++k) {
-    scales[k] = std::hypot(without_cancellation.col(k).norm(), fixed.col(k).norm());
-    INSITU_CHECK(scales[k] > 0);
-    rows.col(k) /= scales[k];
-  }
-  const Eigen::MatrixXd triangle =
-      Eigen::HouseholderQR<Eigen::MatrixXd>(rows).matrixQR().topRows<kMotions>();
-  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(triangle.triangularView<Eigen::Upper>(),
-                                              Eigen::ComputeFullV);
+  Eigen::MatrixXd held = Eigen::MatrixXd::Zero(kMotions, kMotions);
+  const Eigen::MatrixXd seen = HeldMotions(network, rows, jacobian, g);
+  held.conservativeResize(kMotions + seen.rows(), kMotions);
+  held.bottomRows(seen.rows()) = seen;
+  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(held, Eigen::ComputeThinU | Eigen::ComputeFullV);
   const auto defect = static_cast<int>((svd.singularValues().array() < kFreeSingularValue).count());
-  const Eigen::MatrixXd free = scales.cwiseInverse().asDiagonal() * svd.matrixV().rightCols(defect);
+  const Eigen::MatrixXd free = svd.matrixV().rightCols(defect);
   Datum datum;
   datum.motions = g * free;
-  for (int k = 0; k < kMotions && defect > 0; ++k) {
-    datum.is_free[k] = free.row(k).norm() > 1e-6 * free.norm();
-  }
+  for (int k = 0; k < kMotions && defect > 0; ++k) datum.is_free[k] = free.row(k).norm() > 1e-6;
   for (int k = 0; k < defect; ++k) datum.motions.col(k).normalize();
   return datum;
+}
+
+std::pair<int, int> FarApart(const Network& network) {
+  const auto farthest = [&](const Eigen::Vector3d& from) {
+    const auto distance = [&](const NetworkPoint& p) { return (p.position - from).squaredNorm(); };
+    const auto found =
+        std::max_element(network.points.begin(), network.points.end(),
+                         [&](const auto& a, const auto& b) { return distance(a) < distance(b); });
+    return static_cast<int>(found - network.points.begin());
+  };
+  const int first = farthest(ExtentOf(network).middle);
+  return {first, farthest(network.points[first].position)};
 }
 
 std::vector<int> DatumPins(const Network& network, const NetworkColumns& columns,

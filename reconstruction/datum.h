@@ -3,14 +3,21 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <utility>
 #include <vector>
 
 #include "reconstruction/solve_network.h"
 
 namespace insitu {
 
-// The free motions at the network's present values.
-Datum FindDatum(const Network& network, const NetworkColumns& columns, const Jacobian& jacobian);
+// The free motions at the network's present values: those that no surveyed coordinate, distance or
+// height, nothing fixed holds. Marks, planes and directions are taken not to see them. `rows` are
+// those of the Jacobian.
+Datum FindDatum(const Network& network, const NetworkColumns& columns,
+                const std::vector<ObservationRow>& rows, const Jacobian& jacobian);
+
+// Two points far from one another, whose distance stands for the scale.
+std::pair<int, int> FarApart(const Network& network);
 
 // As many columns as motions, whose values would fix the datum as well as any.
 std::vector<int> DatumPins(const Network& network, const NetworkColumns& columns,

@@ -22,10 +22,10 @@ using Lens = std::variant<Camera, MetricCamera>;
 struct NetworkCamera {
   std::string name;
   Lens lens;
-  std::vector<bool> is_free;  // by parameter; empty: none is adjusted (no self-calibration)
+  std::vector<bool> is_free = {};  // by parameter; empty: none is adjusted (no self-calibration)
   // Of all its parameters, from its calibration; empty: exact. Parameters that are not adjusted are
   // then considered: their values stay, their uncertainty enters every covariance.
-  Eigen::MatrixXd calibration_covariance;
+  Eigen::MatrixXd calibration_covariance = {};
 };
 
 struct NetworkPhoto {
@@ -87,16 +87,20 @@ struct CenterObservation {
   Eigen::Vector3d sigma;     // [m], per axis
 };
 
-// A vertex on a plane: its distance is 0.
+// What a survey states without measuring it is observed as 0; a simulation adds its error there.
+
+// A vertex on a plane, or at a distance along its normal.
 struct PlaneObservation {
   int plane = 0, point = 0;
-  double sigma = 0;  // [m]
+  double sigma = 0;     // [m]
+  double distance = 0;  // [m]
 };
 
-// Two points on a line along a direction: both parts of (to - from) across it are 0.
+// Two points on a line along a direction: both parts of (to - from) across it.
 struct DirectionObservation {
   int direction = 0, from = 0, to = 0;
-  double sigma = 0;  // [m]
+  double sigma = 0;                                  // [m]
+  Eigen::Vector2d across = Eigen::Vector2d::Zero();  // [m], along AxesAcross the start direction
 };
 
 struct DistanceObservation {
@@ -122,12 +126,13 @@ struct EdgeUnit {
 };
 using UnitReference = std::variant<PlaneNormal, DirectionUnit, EdgeUnit>;
 
-// Parallel: both parts of the one across the other are 0; else perpendicular: their product is 0.
+// Parallel: both parts of the one across the other; else perpendicular: their product.
 // A vertical wall: its normal perpendicular to the zenith. A level floor: parallel to it.
 struct AngleObservation {
   UnitReference first, second;
   bool is_parallel = false;
-  double sigma = 0;  // [rad]
+  double sigma = 0;                                     // [rad]
+  Eigen::Vector2d departure = Eigen::Vector2d::Zero();  // [rad], its second part if parallel
 };
 
 // All coordinates are world minus `origin`, so that national grids lose nothing.

@@ -172,18 +172,17 @@ void NetworkProblem::AddMarks() {
 void NetworkProblem::AddEdges() {
   for (int i = 0; i < static_cast<int>(network_.edges.size()); ++i) {
     const EdgeObservation& edge = network_.edges[i];
-    const Lens& lens = network_.cameras[network_.photos[edge.photo].camera].lens;
-    const auto* camera = std::get_if<Camera>(&lens);
-    INSITU_CHECK(camera != nullptr);
-    EdgeCost cost;
-    cost.sight_in_cam = camera->Unproject(edge.pixel);
-    Eigen::Matrix<double, 2, 3> pixel_from_point;
-    INSITU_CHECK(camera->Project(cost.sight_in_cam, &pixel_from_point));
-    cost.px_per_radian = pixel_from_point.norm() / std::sqrt(2.0);
-    cost.sigma_px = edge.sigma_px;
-    AddResidual(ObservationKind::kEdge, i, AutoDiff<1, 4, 3, 3, 3>(cost),
-                {Rotation(edge.photo), Center(edge.photo), Point(edge.from), Point(edge.to)},
-                {edge.sigma_px});
+    const int camera = network_.photos[edge.photo].camera;
+    const auto* lens = std::get_if<Camera>(&network_.cameras[camera].lens);
+    INSITU_CHECK(lens != nullptr);
+    std::vector<double*> blocks = {Rotation(edge.photo), Center(edge.photo), Point(edge.from),
+                                   Point(edge.to)};
+    const bool is_adjusted = columns_.camera[camera].has_value();
+    if (is_adjusted) blocks.push_back(lens_parameters_[camera].data());
+    AddResidual(ObservationKind::kEdge, i,
+                new EdgeCost(*lens, is_adjusted ? nullptr : &lens_parameters_[camera], edge.pixel,
+                             edge.sigma_px),
+                blocks, {edge.sigma_px});
   }
 }
 
@@ -207,14 +206,14 @@ void NetworkProblem::AddPlanesAndDirections() {
     const PlaneObservation& on_plane = network_.on_planes[i];
     NetworkPlane& plane = network_.planes[on_plane.plane];
     AddResidual(ObservationKind::kPlane, i,
-                AutoDiff<1, 3, 1, 3>(PlaneCost{plane.centroid, on_plane.sigma}),
+                AutoDiff<1, 3, 1, 3>(PlaneCost{plane.centroid, on_plane.distance, on_plane.sigma}),
                 {plane.normal.data(), &plane.offset, Point(on_plane.point)}, {on_plane.sigma});
   }
   for (int i = 0; i < static_cast<int>(network_.along_directions.size()); ++i) {
     const DirectionObservation& pair = network_.along_directions[i];
     Eigen::Vector3d& unit = network_.directions[pair.direction].unit;
     AddResidual(ObservationKind::kDirection, i,
-                AutoDiff<2, 3, 3, 3>(DirectionCost{AxesAcross(unit), pair.sigma}),
+                AutoDiff<2, 3, 3, 3>(DirectionCost{AxesAcross(unit), pair.across, pair.sigma}),
                 {unit.data(), Point(pair.from), Point(pair.to)}, {pair.sigma, pair.sigma});
   }
 }
@@ -241,6 +240,7 @@ void NetworkProblem::AddAngle(int index) {
   cost.is_edge_second = std::holds_alternative<EdgeUnit>(angle.second);
   cost.is_parallel = angle.is_parallel;
   cost.axes = AxesAcross(UnitOf(network_, angle.first));
+  cost.observed = angle.departure;
   cost.sigma = angle.sigma;
   auto function =
       std::make_unique<ceres::DynamicAutoDiffCostFunction<AngleCost>>(new AngleCost(cost));
@@ -257,6 +257,12 @@ void NetworkProblem::AddAngle(int index) {
   function->SetNumResiduals(components);
   AddResidual(ObservationKind::kAngle, index, function.release(), blocks,
               std::vector<double>(components, angle.sigma));
+}
+
+void NetworkProblem::HoldDistance(int from, int to) {
+  const double distance = (network_.points[to].position - network_.points[from].position).norm();
+  problem_.AddResidualBlock(AutoDiff<1, 3, 3>(DistanceCost{distance, 1e-6 * distance}), nullptr,
+                            Point(from), Point(to));
 }
 
 ceres::Solver::Summary NetworkProblem::Solve(const SolveOptions& options) {

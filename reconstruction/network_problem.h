@@ -20,6 +20,9 @@ class NetworkProblem {
  public:
   explicit NetworkProblem(Network* network);
 
+  // Keeps the distance between two points as it is while solving; no observation.
+  void HoldDistance(int from, int to);
+
   // Moves the network's unknowns to the least-squares solution.
   ceres::Solver::Summary Solve(const SolveOptions& options);
 

@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "reconstruction/observation_costs.h"
 
+#include <Eigen/LU>
+#include <cmath>
+
+#include "calibration/error.h"
+
 namespace insitu {
 namespace {
 
@@ -17,6 +22,27 @@ Eigen::Matrix<double, 4, 3> QuaternionFromHalfAngle(const Eigen::Quaterniond& q)
   matrix.topRows<3>() = q.w() * Eigen::Matrix3d::Identity() - CrossMatrix(q.vec());
   matrix.row(3) = -q.vec().transpose();
   return matrix;
+}
+
+struct SightOffEdge {
+  double px_per_radian, sigma_px;
+
+  template <typename T>
+  bool operator()(const T* rotation, const T* center, const T* from, const T* to, const T* sight,
+                  T* residual) const {
+    using Vector3 = Eigen::Matrix<T, 3, 1>;
+    const Eigen::Map<const Eigen::Quaternion<T>> cam_from_local(rotation);
+    const Eigen::Map<const Vector3> c(center), a(from), b(to), sight_in_cam(sight);
+    const Vector3 normal = cam_from_local * (a - c).cross(b - c).normalized();
+    residual[0] = normal.dot(sight_in_cam) * T(px_per_radian / sigma_px);
+    return true;
+  }
+};
+
+double PixelsPerRadian(const Camera& camera, const Eigen::Vector2d& pixel) {
+  Eigen::Matrix<double, 2, 3> pixel_from_point;
+  INSITU_CHECK(camera.Project(camera.Unproject(pixel), &pixel_from_point));
+  return pixel_from_point.norm() / std::sqrt(2.0);
 }
 
 }  // namespace
@@ -73,6 +99,44 @@ bool MarkCost::Evaluate(double const* const* parameters, double* residuals,
     Eigen::Map<Eigen::Matrix<double, 2, Eigen::Dynamic, Eigen::RowMajor>>(
         jacobians[3], 2, by_lens.cols()) = by_lens / sigma_;
   }
+  return true;
+}
+
+EdgeCost::EdgeCost(const Camera& camera, const std::vector<double>* held_parameters,
+                   const Eigen::Vector2d& observed_px, double sigma_px)
+    : camera_(camera),
+      held_parameters_(held_parameters),
+      observed_(observed_px),
+      residual_of_sight_(new ceres::AutoDiffCostFunction<SightOffEdge, 1, 4, 3, 3, 3, 3>(
+          new SightOffEdge{PixelsPerRadian(camera, observed_px), sigma_px})) {
+  set_num_residuals(1);
+  *mutable_parameter_block_sizes() = {4, 3, 3, 3};
+  if (!held_parameters) {
+    mutable_parameter_block_sizes()->push_back(static_cast<int>(camera.intrinsics().size()));
+  }
+}
+
+bool EdgeCost::Evaluate(double const* const* parameters, double* residuals,
+                        double** jacobians) const {
+  const double* lens = held_parameters_ ? held_parameters_->data() : parameters[4];
+  const auto lens_size = static_cast<Eigen::Index>(camera_.intrinsics().size());
+  const Camera camera(camera_.lens_model(), std::vector<double>(lens, lens + lens_size),
+                      camera_.width(), camera_.height());
+  const Eigen::Vector3d sight = camera.Unproject(observed_);
+  const double* blocks[] = {parameters[0], parameters[1], parameters[2], parameters[3],
+                            sight.data()};
+  if (!jacobians) return residual_of_sight_->Evaluate(blocks, residuals, nullptr);
+  Eigen::RowVector3d by_sight;
+  double* derivatives[] = {jacobians[0], jacobians[1], jacobians[2], jacobians[3], by_sight.data()};
+  if (!residual_of_sight_->Evaluate(blocks, residuals, derivatives)) return false;
+  if (held_parameters_ || !jacobians[4]) return true;
+  // The pixel stays while the lens changes, so its sight turns: dv = -(dq/dv)^+ dq/dl.
+  Eigen::Matrix<double, 2, 3> pixel_from_sight;
+  Eigen::Matrix<double, 2, Eigen::Dynamic, Eigen::RowMajor> pixel_from_lens(2, lens_size);
+  INSITU_CHECK(camera.ProjectWith(lens, sight, &pixel_from_sight, pixel_from_lens.data()));
+  const Eigen::Matrix2d gram = pixel_from_sight * pixel_from_sight.transpose();
+  Eigen::Map<Eigen::RowVectorXd>(jacobians[4], lens_size) =
+      -by_sight * pixel_from_sight.transpose() * gram.inverse() * pixel_from_lens;
   return true;
 }
 

@@ -8,6 +8,7 @@
 #include <ceres/cost_function.h>
 
 #include <Eigen/Geometry>
+#include <memory>
 #include <vector>
 
 #include "reconstruction/lens_residual.h"
@@ -32,22 +33,21 @@ class MarkCost : public ceres::CostFunction {
 };
 
 // A pixel on the image of the edge from A to B: the angle between its line of sight and the plane
-// of C, A, B, times the pixels per radian there, over sigma. Unknowns: R, C, A, B.
-struct EdgeCost {
-  Eigen::Vector3d sight_in_cam;  // unit
-  double px_per_radian = 0;
-  double sigma_px = 0;
+// of C, A, B, times the pixels per radian there, over sigma. Unknowns: R, C, A, B, and all
+// parameters of the lens if it is adjusted.
+class EdgeCost : public ceres::CostFunction {
+ public:
+  // As MarkCost.
+  EdgeCost(const Camera& camera, const std::vector<double>* held_parameters,
+           const Eigen::Vector2d& observed_px, double sigma_px);
+  bool Evaluate(double const* const* parameters, double* residuals,
+                double** jacobians) const override;
 
-  template <typename T>
-  bool operator()(const T* rotation, const T* center, const T* from, const T* to,
-                  T* residual) const {
-    using Vector3 = Eigen::Matrix<T, 3, 1>;
-    const Eigen::Map<const Eigen::Quaternion<T>> cam_from_local(rotation);
-    const Eigen::Map<const Vector3> c(center), a(from), b(to);
-    const Vector3 normal = cam_from_local * (a - c).cross(b - c).normalized();
-    residual[0] = normal.dot(sight_in_cam.cast<T>()) * T(px_per_radian / sigma_px);
-    return true;
-  }
+ private:
+  const Camera& camera_;
+  const std::vector<double>* held_parameters_;
+  Eigen::Vector2d observed_;
+  std::unique_ptr<ceres::CostFunction> residual_of_sight_;  // of R, C, A, B and the sight in cam
 };
 
 // A surveyed place, of a point or of a camera's centre: (X - surveyed) / sigma, per axis.
@@ -61,15 +61,16 @@ struct PositionCost {
   }
 };
 
-// A vertex on its polygon's plane: (n . (X - centroid) - d) / sigma. The offset d is counted about
-// the polygon's centroid, so that it hardly correlates with the normal n.
+// A vertex on its polygon's plane: (n . (X - centroid) - d - distance) / sigma. The offset d is
+// counted about the polygon's centroid, so that it hardly correlates with the normal n.
 struct PlaneCost {
   Eigen::Vector3d centroid;  // [m], fixed
+  double distance = 0;       // [m]
   double sigma = 0;          // [m]
 
   template <typename T>
   bool operator()(const T* normal, const T* offset, const T* point, T* residual) const {
-    residual[0] = -offset[0];
+    residual[0] = -offset[0] - T(distance);
     for (int i = 0; i < 3; ++i) residual[0] += normal[i] * (point[i] - centroid[i]);
     residual[0] /= T(sigma);
     return true;
@@ -80,6 +81,7 @@ struct PlaneCost {
 // axes orthogonal to the start direction, over sigma. [Durisch92, §4.1]
 struct DirectionCost {
   Eigen::Matrix<double, 2, 3> axes;  // rows: unit, orthogonal
+  Eigen::Vector2d observed;          // [m]
   double sigma = 0;                  // [m]
 
   template <typename T>
@@ -89,7 +91,7 @@ struct DirectionCost {
     const Vector3 step = Eigen::Map<const Vector3>(to) - Eigen::Map<const Vector3>(from);
     const Vector3 across = step - u * u.dot(step);
     Eigen::Map<Eigen::Matrix<T, 2, 1>> result(residual);
-    result = axes.cast<T>() * across / T(sigma);
+    result = (axes.cast<T>() * across - observed.cast<T>()) / T(sigma);
     return true;
   }
 };
@@ -127,6 +129,7 @@ struct AngleCost {
   bool is_edge_first = false, is_edge_second = false;
   bool is_parallel = false;
   Eigen::Matrix<double, 2, 3> axes;  // rows: unit, orthogonal to the start of a
+  Eigen::Vector2d observed;          // [rad]
   double sigma = 0;                  // [rad]
 
   template <typename T>
@@ -141,9 +144,9 @@ struct AngleCost {
     const Vector3 a = unit(is_edge_first), b = unit(is_edge_second);
     if (is_parallel) {
       Eigen::Map<Eigen::Matrix<T, 2, 1>> result(residual);
-      result = axes.cast<T>() * a.cross(b) / T(sigma);
+      result = (axes.cast<T>() * a.cross(b) - observed.cast<T>()) / T(sigma);
     } else {
-      residual[0] = a.dot(b) / T(sigma);
+      residual[0] = (a.dot(b) - T(observed[0])) / T(sigma);
     }
     return true;
   }

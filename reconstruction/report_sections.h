@@ -42,6 +42,6 @@ Json::Value LensResidualsSection(const Adjustment& adjustment, const std::vector
 Json::Value ResidualGrid(const std::vector<ImageMark>& marks, int width, int height, int cells);
 
 // report_montage.cc
-Json::Value MontageSection(const std::vector<ProjectedPoint>& points);
+Json::Value MontageSection(const Adjustment& adjustment, const std::vector<MontagePoint>& points);
 
 }  // namespace insitu

@@ -60,7 +60,7 @@ Json::Value ResidualReport(const Adjustment& adjustment, const Survey& survey,
   report["observations"] = ObservationsSection(adjustment);
   report["histogram"] = HistogramSection(adjustment);
   report["lens_residuals"] = LensResidualsSection(adjustment, marks);
-  report["montage"] = MontageSection(context.montage);
+  report["montage"] = MontageSection(adjustment, context.montage);
   DropNonFinite(&report);
   return report;
 }

@@ -20,17 +20,10 @@ struct InputFile {
   std::string sha256;  // hexadecimal
 };
 
-// How well a point that is not part of the adjustment can be drawn on the photographs.
-struct ProjectedPoint {
-  struct View {
-    std::string photo;
-    Eigen::Vector2d pixel;
-    double sigma_major_px = 0, sigma_minor_px = 0;  // semi-axes of the standard ellipse
-    double sigma_mm = 0;                            // the major one, at the point's distance
-  };
+// A point of the montage, such as a planned building's corner; not part of the adjustment.
+struct MontagePoint {
   std::string name;
   Eigen::Vector3d position;  // [m], world
-  std::vector<View> views;   // of the photos that see it
 };
 
 // What the report says besides the adjustment; everything may be missing, and is then said to be.
@@ -42,7 +35,7 @@ struct ReportContext {
   Json::Value calibration;  // the content of the calibration's report.json, or null
   // By camera (index into Adjustment::cameras): the outline within which boards calibrated it [px].
   std::map<int, std::vector<Eigen::Vector2d>> calibrated_region;
-  std::vector<ProjectedPoint> montage;
+  std::vector<MontagePoint> montage;
 };
 
 Json::Value ResidualReport(const Adjustment& adjustment, const Survey& survey,

@@ -62,6 +62,23 @@ Polygon PolygonFromJson(const JsonNode& node, const std::vector<PosedCamera>& ca
   return polygon;
 }
 
+Eigen::MatrixXd CovarianceFromJson(const JsonNode& node, const Camera& camera) {
+  const std::vector<JsonNode> rows = node.Items();
+  const auto size = static_cast<Eigen::Index>(rows.size());
+  if (size != 6 && size != 6 + static_cast<Eigen::Index>(camera.intrinsics().size())) {
+    throw node.Error("expected a covariance of six rows, or six and the lens's");
+  }
+  Eigen::MatrixXd covariance(size, size);
+  for (Eigen::Index row = 0; row < size; ++row) {
+    const std::vector<double> numbers = rows[row].Numbers();
+    if (static_cast<Eigen::Index>(numbers.size()) != size) {
+      throw rows[row].Error("expected as many numbers as the covariance has rows");
+    }
+    covariance.row(row) = Eigen::Map<const Eigen::RowVectorXd>(numbers.data(), size);
+  }
+  return covariance;
+}
+
 }  // namespace
 
 void WriteSceneGeometry(const SitePaths& site, const SceneGeometry& scene) {
@@ -72,6 +89,9 @@ void WriteSceneGeometry(const SitePaths& site, const SceneGeometry& scene) {
   for (const PosedCamera& camera : scene.cameras) {
     WritePosedCamera(site.posed_camera(camera.photo), camera, "exterior orientation by insitu");
     json["cameras"].append(camera.photo);
+  }
+  for (size_t i = 0; i < scene.camera_covariances.size(); ++i) {
+    json["camera_covariances"][scene.cameras[i].photo] = ToJson(scene.camera_covariances[i]);
   }
   json["polygons"] = Json::Value(Json::arrayValue);
   for (const Polygon& polygon : scene.polygons) {
@@ -93,6 +113,12 @@ SceneGeometry ReadSceneGeometry(const SitePaths& site) {
   scene.origin = root.At("origin").Vector3();
   for (const JsonNode& photo : root.At("cameras").Items()) {
     scene.cameras.push_back(ReadPosedCamera(site.posed_camera(photo.Text())));
+  }
+  if (const auto covariances = root.Find("camera_covariances")) {
+    for (const PosedCamera& camera : scene.cameras) {
+      scene.camera_covariances.push_back(
+          CovarianceFromJson(covariances->At(camera.photo), camera.camera));
+    }
   }
   for (const JsonNode& polygon : root.At("polygons").Items()) {
     scene.polygons.push_back(PolygonFromJson(polygon, scene.cameras));

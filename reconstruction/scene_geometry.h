@@ -30,6 +30,9 @@ struct Direction {
 struct SceneGeometry {
   Eigen::Vector3d origin;  // a round point near the site; single-precision work is about it
   std::vector<PosedCamera> cameras;
+  // As cameras, of left rotation increment [rad], centre [m] and, of a lens that is not exactly
+  // known, its intrinsics; empty where nothing is known.
+  std::vector<Eigen::MatrixXd> camera_covariances;
   std::vector<Polygon> polygons;
   std::optional<Direction> sun;  // nullopt: overcast, no sun pairs
   Direction zenith;

@@ -48,42 +48,27 @@ SelectedInverse CofactorOf(const Network& network, const NetworkSolution& soluti
   return *std::move(cofactor);
 }
 
-// d residuals / d parameters of one camera's lens, over sigma.
-Eigen::MatrixXd LensJacobian(const Network& network, const NetworkSolution& solution, int camera) {
-  const Lens& lens = network.cameras[camera].lens;
-  const std::vector<double> parameters = LensParameters(lens);
-  Eigen::MatrixXd jacobian = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(solution.rows.size()),
-                                                   static_cast<Eigen::Index>(parameters.size()));
-  for (size_t row = 0; row < solution.rows.size(); ++row) {
-    if (solution.rows[row].kind != ObservationKind::kMark || solution.rows[row].component) continue;
-    const MarkObservation& mark = network.marks[solution.rows[row].index];
-    const NetworkPhoto& photo = network.photos[mark.photo];
-    if (photo.camera != camera) continue;
-    Eigen::Vector2d residual;
-    Eigen::Matrix<double, 2, Eigen::Dynamic, Eigen::RowMajor> by_parameters;
-    LensDerivatives derivatives;
-    derivatives.by_parameters = &by_parameters;
-    INSITU_CHECK(
-        LensResidual(lens, parameters.data(),
-                     photo.cam_from_local * (network.points[mark.point].position - photo.center),
-                     mark.pixel, &residual, derivatives));
-    jacobian.middleRows<2>(static_cast<Eigen::Index>(row)) = by_parameters / mark.sigma_px;
-  }
-  return jacobian;
+bool IsConsidered(const Network& network, const NetworkColumns& columns, size_t camera) {
+  return network.cameras[camera].calibration_covariance.size() > 0 && !columns.camera[camera];
 }
 
 // How the solution would move with the lens: dx/dl = -Q A^T P B. ["Consider" parameters:
 // Tapley, Schutz & Born, Statistical Orbit Determination, 2004, ch. 6]
 std::vector<Eigen::MatrixXd> LensSensitivity(const Network& network,
                                              const NetworkSolution& solution) {
-  std::vector<Eigen::MatrixXd> sensitivity;
+  std::vector<Eigen::MatrixXd> sensitivity(network.cameras.size());
+  Network free = network;
   for (size_t i = 0; i < network.cameras.size(); ++i) {
-    sensitivity.emplace_back();
-    if (network.cameras[i].calibration_covariance.size() == 0 || solution.columns.camera[i]) {
-      continue;
-    }
-    const Eigen::MatrixXd by_lens = LensJacobian(network, solution, static_cast<int>(i));
-    sensitivity.back() = -solution.cofactor.Times(solution.jacobian.transpose() * by_lens);
+    if (!IsConsidered(network, solution.columns, i)) continue;
+    free.cameras[i].is_free.assign(LensParameters(network.cameras[i].lens).size(), true);
+  }
+  NetworkProblem problem(&free);
+  const Eigen::SparseMatrix<double> jacobian = problem.Linearize().jacobian;
+  for (size_t i = 0; i < network.cameras.size(); ++i) {
+    if (!IsConsidered(network, solution.columns, i)) continue;
+    const Eigen::MatrixXd by_lens = jacobian.middleCols(
+        *problem.columns().camera[i], static_cast<Eigen::Index>(free.cameras[i].is_free.size()));
+    sensitivity[i] = -solution.cofactor.Times(solution.jacobian.transpose() * by_lens);
   }
   return sensitivity;
 }
@@ -97,19 +82,27 @@ RankDefect::RankDefect(std::vector<Unknown> unknowns_in)
 NetworkSolution SolveNetwork(Network* network, const SolveOptions& options) {
   const std::vector<Eigen::Vector3d> start = Positions(*network);
   NetworkProblem problem(network);
+  NetworkProblem::Linearization linear = problem.Linearize();
+  const bool is_scale_free =
+      FindDatum(*network, problem.columns(), problem.rows(), linear.jacobian).is_free[6];
+  if (is_scale_free) {  // else pseudo-observations in metres would shrink the network
+    const auto [from, to] = FarApart(*network);
+    problem.HoldDistance(from, to);
+  }
   const ceres::Solver::Summary summary = problem.Solve(options);
   if (!summary.IsSolutionUsable()) throw NoSolution(summary.message);
+  linear = problem.Linearize();
 
   NetworkSolution solution;
   solution.is_converged = summary.termination_type == ceres::CONVERGENCE;
   solution.iterations = static_cast<int>(summary.iterations.size()) - 1;
   solution.columns = problem.columns();
   solution.rows = problem.rows();
-  solution.datum = FindDatum(*network, solution.columns, problem.Linearize().jacobian);
+  solution.datum = FindDatum(*network, solution.columns, solution.rows, linear.jacobian);
   if (solution.datum.defect() > 0) {
     MoveToStart(solution.columns, start, network, &solution.datum);
+    linear = problem.Linearize();
   }
-  NetworkProblem::Linearization linear = problem.Linearize();
   solution.jacobian = std::move(linear.jacobian);
   solution.sigmas = Eigen::Map<const Eigen::VectorXd>(
       problem.sigmas().data(), static_cast<Eigen::Index>(problem.sigmas().size()));
@@ -123,7 +116,12 @@ NetworkSolution SolveNetwork(Network* network, const SolveOptions& options) {
   }
   solution.cofactor = CofactorOf(*network, solution);
   solution.redundancy_numbers = RedundancyNumbers(solution.jacobian, solution.cofactor);
-  solution.lens_sensitivity = LensSensitivity(*network, solution);
+  solution.lens_sensitivity.resize(network->cameras.size());
+  for (size_t i = 0; i < network->cameras.size(); ++i) {
+    if (!IsConsidered(*network, solution.columns, i)) continue;
+    solution.lens_sensitivity = LensSensitivity(*network, solution);
+    break;
+  }
   return solution;
 }
 

@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "reconstruction/solve_network.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "network_statistics.h"
+#include "random_network.h"
+
+namespace insitu {
+namespace {
+
+TEST(SolveNetwork, ReturnsToTheTruthFromARoughStart) {
+  for (unsigned seed = 1; seed <= 5; ++seed) {
+    const Network truth = MakeRandomNetwork(seed);
+    Network network = WithRoughStart(truth, seed);
+    const NetworkSolution solution = SolveNetwork(&network);
+    EXPECT_TRUE(solution.is_converged);
+    EXPECT_EQ(solution.datum.defect(), 0);
+    EXPECT_NEAR(solution.sigma0, 0, 1e-4);
+    for (size_t i = 0; i < truth.points.size(); ++i) {
+      EXPECT_LT((network.points[i].position - truth.points[i].position).norm(), 1e-5);
+    }
+    for (size_t i = 0; i < truth.directions.size(); ++i) {
+      EXPECT_LT((network.directions[i].unit - truth.directions[i].unit).norm(), 1e-5);
+    }
+  }
+}
+
+TEST(SolveNetwork, RedundancyNumbersSumToTheRedundancy) {
+  Network network = WithNoise(MakeRandomNetwork(3), 1);
+  const NetworkSolution solution = SolveNetwork(&network);
+  EXPECT_NEAR(solution.redundancy_numbers.sum(), solution.redundancy, 1e-6);
+}
+
+// Marks and edges alone, of the points on all photos: nothing that knows a metre.
+Network ImagesOnly(const Network& whole) {
+  Network images;
+  images.cameras = whole.cameras;
+  images.photos = whole.photos;
+  std::vector<int> rays(whole.points.size(), 0), index(whole.points.size(), -1);
+  for (const MarkObservation& mark : whole.marks) ++rays[mark.point];
+  for (size_t i = 0; i < whole.points.size(); ++i) {
+    if (rays[i] < static_cast<int>(whole.photos.size())) continue;
+    index[i] = static_cast<int>(images.points.size());
+    images.points.push_back(whole.points[i]);
+  }
+  for (const MarkObservation& mark : whole.marks) {
+    if (index[mark.point] < 0) continue;
+    images.marks.push_back(mark);
+    images.marks.back().point = index[mark.point];
+  }
+  return images;
+}
+
+// Whatever the datum, residuals, redundancy and shape are the same.
+TEST(SolveNetwork, OfAFreeNetworkHasTheSameShapeAsOneHeldByControl) {
+  Network held = ImagesOnly(WithNoise(MakeRandomNetwork(4), 1));
+  ASSERT_GT(held.points.size(), 30u);
+  for (const int point : {0, 10, 20}) {
+    held.control.push_back({point, held.points[point].position, Eigen::Vector3d::Constant(10)});
+  }
+  Network free = held;
+  free.control.clear();
+  const NetworkSolution with_control = SolveNetwork(&held), without = SolveNetwork(&free);
+  EXPECT_EQ(without.datum.defect(), 7);
+  EXPECT_NEAR(without.redundancy_numbers.sum(), without.redundancy, 1e-6);
+  const int marks = 2 * static_cast<int>(held.marks.size());
+  EXPECT_LT((with_control.residuals.head(marks) - without.residuals.head(marks)).norm(), 1e-3);
+  EXPECT_LT((with_control.redundancy_numbers.head(marks) - without.redundancy_numbers.head(marks))
+                .cwiseAbs()
+                .maxCoeff(),
+            1e-4);
+  const auto ratio = [&](int a, int b) {
+    return (free.points[a].position - free.points[b].position).norm() /
+           (held.points[a].position - held.points[b].position).norm();
+  };
+  EXPECT_NEAR(ratio(4, 9) / ratio(12, 20), 1, 1e-6);
+}
+
+// The datum stays where the start values put it.
+TEST(SolveNetwork, OfAFreeNetworkFitsItsStartValuesAsNearlyAsItCan) {
+  Network network = WithNoise(MakeRandomNetwork(5), 1);
+  network.control.clear();
+  network.centers.clear();
+  const Network start = network;
+  const NetworkSolution solution = SolveNetwork(&network);
+  EXPECT_EQ(solution.datum.defect(), 6);  // a distance holds the scale
+  EXPECT_FALSE(solution.datum.is_free[6]);
+  Eigen::Vector3d shift = Eigen::Vector3d::Zero(), turn = Eigen::Vector3d::Zero();
+  for (size_t i = 0; i < start.points.size(); ++i) {
+    const Eigen::Vector3d away = network.points[i].position - start.points[i].position;
+    shift += away;
+    turn += start.points[i].position.cross(away);
+  }
+  EXPECT_LT(shift.norm(), 1e-6);
+  EXPECT_LT(turn.norm(), 1e-3);
+}
+
+TEST(SolveNetwork, OneFixedPointLeavesRotationsAndScale) {
+  Network network = WithNoise(MakeRandomNetwork(6), 1);
+  network.points[network.control[0].point].is_fixed = true;
+  network.control.clear();
+  network.centers.clear();
+  network.distances.clear();
+  network.heights.clear();
+  const NetworkSolution solution = SolveNetwork(&network);
+  EXPECT_EQ(solution.datum.defect(), 4);
+}
+
+TEST(SolveNetwork, NamesWhatNothingDetermines) {
+  Network network = MakeRandomNetwork(7);
+  network.points.push_back({"lonely", {1, 2, 3}});
+  const int lonely = static_cast<int>(network.points.size()) - 1;
+  network.distances.push_back({0, lonely, network.points[0].position.norm() + 1, 0.01});
+  try {
+    SolveNetwork(&network);
+    FAIL() << "expected a rank defect";
+  } catch (const RankDefect& defect) {
+    ASSERT_EQ(defect.unknowns.size(), 1u);
+    EXPECT_EQ(defect.unknowns[0].kind, Unknown::Kind::kPoint);
+    EXPECT_EQ(defect.unknowns[0].index, lonely);
+  }
+}
+
+TEST(SolveNetwork, SelfCalibrationFindsTheLens) {
+  const Network truth = MakeRandomNetwork(8);
+  Network network = WithRoughStart(truth, 1);
+  const auto& lens = std::get<Camera>(truth.cameras[0].lens);
+  std::vector<double> wrong = lens.intrinsics();
+  wrong[0] *= 1.01;
+  wrong[4] += 0.01;
+  network.cameras[0].lens = Camera(lens.lens_model(), wrong, lens.width(), lens.height());
+  network.cameras[0].is_free = {true, true, true, true, true, true, true, false};
+  const NetworkSolution solution = SolveNetwork(&network);
+  const auto& adjusted = std::get<Camera>(network.cameras[0].lens);
+  for (size_t i = 0; i < wrong.size(); ++i) {
+    EXPECT_NEAR(adjusted.intrinsics()[i], lens.intrinsics()[i], 1e-3) << i;
+  }
+  EXPECT_NEAR(solution.redundancy_numbers.sum(), solution.redundancy, 1e-6);
+}
+
+// A lens known as well as nothing is a lens adjusted; one known exactly adds nothing.
+TEST(SolveNetwork, ConsideredLensAddsWhatItsErrorWouldDo) {
+  const Network truth = MakeRandomNetwork(9);
+  Network network = truth;
+  Eigen::VectorXd sigma(8);
+  sigma << 2, 2, 2, 2, 1e-3, 1e-3, 1e-4, 1e-4;
+  network.cameras[0].calibration_covariance = sigma.cwiseAbs2().asDiagonal();
+  const NetworkSolution solution = SolveNetwork(&network);
+  // The same change of the lens, made: the pose moves as the sensitivity says.
+  Network changed = truth;
+  const auto& lens = std::get<Camera>(truth.cameras[0].lens);
+  std::vector<double> intrinsics = lens.intrinsics();
+  intrinsics[0] += 0.5;
+  intrinsics[1] += 0.5;
+  intrinsics[2] -= 0.3;
+  changed.cameras[0].lens = Camera(lens.lens_model(), intrinsics, lens.width(), lens.height());
+  SolveNetwork(&changed);
+  Eigen::VectorXd step = Eigen::VectorXd::Zero(8);
+  step.head<3>() = Eigen::Vector3d(0.5, 0.5, -0.3);
+  const Eigen::VectorXd moved = solution.lens_sensitivity[0] * step;
+  const Eigen::Vector3d center = changed.photos[1].center - network.photos[1].center;
+  EXPECT_LT((center - moved.segment<3>(*solution.columns.center[1])).norm(), 0.02 * center.norm());
+}
+
+TEST(SolveNetwork, ItsStatisticsHoldOverManyNetworks) {
+  const NetworkStatistics statistics = SampleNetworkStatistics(40);
+  EXPECT_NEAR(statistics.mean_sigma0, 1, 0.01);
+  EXPECT_NEAR(statistics.false_alarm_share, 0.05, 0.005);
+  EXPECT_NEAR(statistics.coverage_95.pose, 0.95, 0.03);
+  EXPECT_NEAR(statistics.coverage_95.vertex, 0.95, 0.02);
+  EXPECT_NEAR(statistics.coverage_95.plane, 0.95, 0.03);
+  EXPECT_NEAR(statistics.coverage_95.sun, 0.95, 0.06);
+  EXPECT_NEAR(statistics.coverage_95.zenith, 0.95, 0.06);
+  EXPECT_GE(statistics.found_blunder_share, 0.95);
+}
+
+}  // namespace
+}  // namespace insitu
