@@ -104,11 +104,14 @@ void JudgeFrames(const Adjustment& adjustment, const std::vector<ImageMark>& mar
                            Listing("photos whose marks span less than a tenth of the frame", small),
                            "spread marks over the frame, towards its corners"});
   }
-  if (!outside.empty()) {
-    objections->push_back({Severity::kReview,
-                           Listing("marks outside the region that the boards calibrated", outside),
-                           "photograph boards there, or mark other points"});
-  }
+  if (outside.empty()) return;
+  // Where the calibration's report maps the lens's uncertainty, that says how much this matters.
+  const bool is_mapped = context.calibration.isObject() && context.calibration["uncertainty"];
+  objections->push_back(
+      {is_mapped ? Severity::kNote : Severity::kReview,
+       Listing("marks outside the region that mrcal calls valid for the lens", outside, 3),
+       is_mapped ? "see the lens's uncertainty there, and photograph boards there"
+                 : "photograph boards there, or mark other points"});
 }
 
 }  // namespace

@@ -39,6 +39,15 @@ Json::Value CalibrationFacts(const Json::Value& calibration) {
   return json;
 }
 
+// The outline within which the boards calibrated a camera [px]; null: not known.
+Json::Value Region(int camera, const ReportContext& context) {
+  const auto region = context.calibrated_region.find(camera);
+  if (region == context.calibrated_region.end()) return Json::Value();
+  Json::Value json(Json::arrayValue);
+  for (const Eigen::Vector2d& corner : region->second) json.append(ToJson(Eigen::VectorXd(corner)));
+  return json;
+}
+
 // Viewing direction: azimuth clockwise from +y, elevation above the xy plane; roll clockwise of
 // the picture about it.
 Json::Value AnglesDeg(const Eigen::Matrix3d& axes) {  // rows: the camera's axes
@@ -143,7 +152,8 @@ Json::Value PhotoReport(const AdjustedPose& pose, const Camera& camera,
 
 Json::Value CamerasSection(const Adjustment& adjustment, const ReportContext& context) {
   Json::Value json(Json::arrayValue);
-  for (const AdjustedCamera& adjusted : adjustment.cameras) {
+  for (size_t i = 0; i < adjustment.cameras.size(); ++i) {
+    const AdjustedCamera& adjusted = adjustment.cameras[i];
     Json::Value camera;
     camera["name"] = adjusted.name;
     camera["lens_model"] = adjusted.lens_model;
@@ -152,6 +162,7 @@ Json::Value CamerasSection(const Adjustment& adjustment, const ReportContext& co
         adjusted.correlation.size() > 0 ? ToJson(adjusted.correlation) : Json::Value();
     camera["is_considered"] = adjusted.is_considered;
     camera["calibration"] = CalibrationFacts(context.calibration);
+    camera["calibrated_region"] = Region(static_cast<int>(i), context);
     json.append(camera);
   }
   return json;

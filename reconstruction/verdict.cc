@@ -68,7 +68,7 @@ void JudgeCorrelations(const Adjustment& adjustment, std::vector<Objection>* obj
   for (const Correlation& pair : adjustment.correlations) {
     pairs.push_back(pair.first + " with " + pair.second + " " + Number("%.3f", pair.value));
   }
-  objections->push_back({Severity::kReview, Listing("correlations above 0.95", pairs),
+  objections->push_back({Severity::kReview, Listing("correlations above 0.95", pairs, 3),
                          "the observations hardly tell these apart: take photos from other sides, "
                          "some turned by 90 degrees, and spread control in depth"});
 }
@@ -148,11 +148,10 @@ std::string Number(const char* format, double value) {
   return text;
 }
 
-std::string Listing(const std::string& what, const std::vector<std::string>& names) {
-  constexpr size_t kShown = 8;
+std::string Listing(const std::string& what, const std::vector<std::string>& names, size_t shown) {
   std::string text = what + " (" + std::to_string(names.size()) + "): ";
-  for (size_t i = 0; i < std::min(names.size(), kShown); ++i) text += (i ? ", " : "") + names[i];
-  if (names.size() > kShown) text += " and " + std::to_string(names.size() - kShown) + " more";
+  for (size_t i = 0; i < std::min(names.size(), shown); ++i) text += (i ? ", " : "") + names[i];
+  if (names.size() > shown) text += " and " + std::to_string(names.size() - shown) + " more";
   return text;
 }
 

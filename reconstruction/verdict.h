@@ -46,8 +46,9 @@ std::string Describe(const ObservationResidual& row);
 void JudgeGeometry(const Adjustment& adjustment, const ReportContext& context,
                    std::vector<Objection>* objections);
 
-// "what (n): a, b, c and m more", at most eight names.
-std::string Listing(const std::string& what, const std::vector<std::string>& names);
+// "what (n): a, b, c and m more", at most `shown` names.
+std::string Listing(const std::string& what, const std::vector<std::string>& names,
+                    size_t shown = 8);
 
 // printf's way with one number.
 std::string Number(const char* format, double value);

@@ -6,7 +6,7 @@ function showMontage() {
     "semi-axes in pixels, and the longer one in mm at the point.");
   const rows = report.montage.flatMap(p => p.views.map(v => ({name: p.name, ...v})));
   if (rows.length === 0) return element(node, "p", "No points were given.", "faint");
-  const photos = d3.groups(rows, r => r.photo).map(([photo, seen]) => ({photo, seen}));
+  const photos = report.photos.map(p => ({photo: p.photo, seen: rows.filter(r => r.photo === p.photo)}));
   table(node, photos, [
     ["photo", p => p.photo, "long"],
     ["points", p => p.seen.length, 0],

@@ -50,7 +50,7 @@ function mapPlot(parent, caption, view, rows, marks) {
   y = [middle - share * scale / 2, middle + share * scale / 2];
   plot(parent, caption, {
     width, height: Math.round((width - 60) * share + 60), marginLeft: 50, marginRight: 10, marginTop: 25,
-    marginBottom: 35, grid: true, x: {domain: x, label: view.labels[0]}, y: {domain: y, label: view.labels[1]},
+    marginBottom: 35, grid: true, clip: true, x: {domain: x, label: view.labels[0]}, y: {domain: y, label: view.labels[1]},
     marks: marks(x, y, scale),
   });
 }
@@ -75,7 +75,7 @@ function networkPlot(parent, view) {
   const tie = report.tie_points.shown.map(x => placed(view, x));
   const rows = [...photos, ...points, ...tie];
   const size = Math.max(d3.max(rows, r => r.x) - d3.min(rows, r => r.x), d3.max(rows, r => r.y) - d3.min(rows, r => r.y));
-  const sigma = d3.quantile(report.points, 0.5, p => norm(p.sigma_m));
+  const sigma = d3.quantile(report.points, 0.75, p => norm(p.sigma_m));
   const enlarged = sigma > 0 ? roundBelow(0.02 * size / sigma) : 0;
   const ellipses = [
     ...points.map(p => ellipse([p.x, p.y], view.covariance(p.covariance_m2), enlarged, "point " + p.name)),
@@ -107,16 +107,17 @@ function showControlVectors() {
   if (all.length === 0) return;
   const parent = plots(section("Differences at control and check points", "From the surveyed to the " +
     "adjusted position, enlarged. Blue: control; red: check; brown: control points left out one at a time."), true);
-  const length = d3.quantile(all, 0.5, p => p.space_m);
+  const length = d3.quantile(all, 0.9, p => p.space_m);
+  const isNamed = p => all.length <= 25 || p.kind === "check" || p.over_sigma > 3;
   for (const view of networkViews()) {
     const rows = all.map(p => {
       const [vx, vy] = view.turn(p.difference_m);
-      return placed(view, p.surveyed, {vx, vy, name: p.name, color: p.color});
+      return placed(view, p.surveyed, {vx, vy, name: isNamed(p) ? p.name : "", color: p.color});
     });
     const outline = polygonLines(view);
     const frame = [...rows, ...outline];
     const size = d3.max(frame, r => r.x) - d3.min(frame, r => r.x) || 1;
-    const enlarged = length > 0 ? roundBelow(0.04 * size / length) : 0;
+    const enlarged = length > 0 ? roundBelow(0.05 * size / length) : 0;
     const bar = enlarged ? roundBelow(0.15 * size / enlarged) : 0;
     mapPlot(parent, `${view.name}; differences enlarged ${enlarged} times`, view, frame, (x, y, scale) => [
       Plot.line(outline, {x: "x", y: "y", z: "name", stroke: "#c9d0d4", strokeWidth: 0.8}),

@@ -52,7 +52,7 @@ function framePlot(parent, caption, frame, marks, width = 480) {
     width, height: Math.round((width - 2 * margin) * frame.height / frame.width + 2 * margin), margin,
     x: {axis: null, domain: [-0.5, frame.width - 0.5]},
     y: {axis: null, domain: [frame.height - 0.5, -0.5]},
-    marks: [Plot.frame({stroke: "#b9c0c5"}), ...marks],
+    clip: true, marks: [Plot.frame({stroke: "#b9c0c5"}), ...marks],
   });
 }
 
@@ -108,11 +108,13 @@ function drawPhotos(parent, draw, shown = 12) {
 
 function showCoverage() {
   const node = section("Coverage", "Where each photo is measured: marks, their hull, and for tie points " +
-    "the cells that have some. Lens and orientation are extrapolated outside.");
+    "the cells that have some. Brown: the region that mrcal calls valid for the lens.");
+  const regionOf = p => report.cameras[p.camera]?.calibrated_region ?? [];
   drawPhotos(node, (parent, p) => framePlot(parent,
     `${p.photo}: hull ${fixed(100 * p.coverage.hull, 0)} % of the frame`, p, [
       Plot.dot(p.tie_point_grid, {x: "x", y: "y", r: 3, symbol: "square", fill: "#c3d3e0"}),
       Plot.hull(p.marks, {x: "x", y: "y", fill: kAccent, fillOpacity: 0.12, stroke: kAccent}),
+      Plot.line(regionOf(p), {stroke: "#b5651d", curve: "linear-closed"}),
       Plot.dot(p.marks, {x: "x", y: "y", r: 1.5, fill: kInk}),
     ], 320));
 }

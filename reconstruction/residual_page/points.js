@@ -47,13 +47,13 @@ function showControl() {
 }
 
 function showPoints() {
-  const node = section("Points and vertices", "Standard ellipsoids (one σ): semi-axes, and where the " +
-    "longest points to.");
+  const node = section("Points and vertices", "Standard ellipsoids (one σ): semi-axes a, b, c, and " +
+    "where a points to.");
   longTable(node, report.points, [
     ["point", p => p.name, "long"],
     ...kAxes.map((axis, i) => [`${axis} m`, p => p.position[i], 4]),
     ...kAxes.map((axis, i) => [`σ${axis} mm`, p => 1000 * p.sigma_m[i], 1]),
-    ["semi-axes mm", p => p.ellipsoid.semi_axes_m.map(a => fixed(1000 * a, 1)).join(" "), "text"],
+    ...["a", "b", "c"].map((axis, i) => [`${axis} mm`, p => 1000 * p.ellipsoid.semi_axes_m[i], 1]),
     ["azimuth °", p => p.ellipsoid.azimuth_deg, 0],
     ["elevation °", p => p.ellipsoid.elevation_deg, 0],
     ["rays", p => p.rays, 0],

@@ -12,7 +12,7 @@ function showPolygons() {
     ["polygon", p => p.name, "long"],
     ["photo", p => p.photo, "text"],
     ["material", p => p.material, "text"],
-    ["normal", p => p.normal.map(n => fixed(n, 5)).join("  "), "text"],
+    ...kAxes.map((axis, i) => [`normal ${axis}`, p => p.normal[i], 5]),
     ["σ offset mm", p => isKnown(p.offset_sigma_m) ? 1000 * p.offset_sigma_m : null, 1],
     ["planarity RMS mm", p => p.planarity_rms_mm, 1],
     ["off plumb mm/m", p => slope(p.verticality), "text"],
@@ -31,7 +31,7 @@ function showPolygons() {
     ["off plane mm", v => v.off_plane_mm, 2],
     ["σ mm", v => v.off_plane_sigma_mm, 2],
     ["w", v => v.w, 2],
-  ], {isFlagged: v => Math.abs(v.w) > critical});
+  ], {isFlagged: v => Math.abs(v.w) > critical, isNarrow: true});
   const edges = polygons.flatMap(p => p.edges.map(e => ({polygon: p.name, ...e})));
   table(folded(node, count(edges.length, "edge")), edges, [
     ["polygon", e => e.polygon, "long"],
@@ -39,7 +39,7 @@ function showPolygons() {
     ["to", e => e.to, "text"],
     ["length m", e => e.m, 4],
     ["σ mm", e => 1000 * e.sigma_m, 1],
-  ]);
+  ], {isNarrow: true});
   const bases = [...new Set(polygons.map(p => p.sigma_basis))];
   element(node, "p", `σ of areas and lengths: ${bases.join("; ")}.`, "faint");
 }
@@ -78,7 +78,7 @@ function showAdjoining() {
     ["angle °", p => p.angle_deg, 4],
     ["σ °", p => p.sigma_deg, 4],
     ["off square mm/m", p => slope(p.perpendicularity), "text"],
-  ]);
+  ], {isNarrow: true});
 }
 
 function showDirections() {
