@@ -39,7 +39,7 @@ struct ReportContext {
 };
 
 Json::Value ResidualReport(const Adjustment& adjustment, const Survey& survey,
-                           const ReportContext& context = {});
+                           const ReportContext& context = ReportContext());
 
 // One HTML file without outside references: verdict first, tables and plots.
 std::string ResidualPage(const Json::Value& report);

@@ -8,7 +8,8 @@
 namespace insitu {
 namespace {
 
-constexpr double kCheckLimit = 1.5;  // root mean square over combined sigma; twice that fails
+constexpr double kInseparable = 0.99;  // correlation of two unknowns of a photo or camera
+constexpr double kCheckLimit = 1.5;    // root mean square over combined sigma; twice that fails
 
 void JudgeGlobalTest(const Adjustment& adjustment, std::vector<Objection>* objections) {
   const GlobalTest& test = adjustment.global_test;
@@ -62,15 +63,20 @@ void JudgeControl(const Adjustment& adjustment, std::vector<Objection>* objectio
        "mark their points on more photos"});
 }
 
+// Centre and rotation of one photo are correlated by nature, and those of a far point lie along its
+// ray; only what can hardly be told apart spoils the result.
 void JudgeCorrelations(const Adjustment& adjustment, std::vector<Objection>* objections) {
   if (adjustment.correlations.empty()) return;
   std::vector<std::string> pairs;
+  Severity severity = Severity::kNote;
   for (const Correlation& pair : adjustment.correlations) {
     pairs.push_back(pair.first + " with " + pair.second + " " + Number("%.3f", pair.value));
+    const bool is_point = pair.first.starts_with("point ");
+    if (!is_point && std::abs(pair.value) > kInseparable) severity = Severity::kReview;
   }
-  objections->push_back({Severity::kReview, Listing("correlations above 0.95", pairs, 3),
-                         "the observations hardly tell these apart: take photos from other sides, "
-                         "some turned by 90 degrees, and spread control in depth"});
+  objections->push_back({severity, Listing("correlations above 0.95", pairs, 3),
+                         "where that matters, take photos from other sides, some turned by 90 "
+                         "degrees, and spread control in depth"});
 }
 
 std::vector<std::string> WorstPoints(const std::vector<PointComparison>& comparisons) {

@@ -13,7 +13,7 @@ function showCameras() {
       ["parameter", p => p.name, "text"],
       ["value", p => p.value.toPrecision(9), "text"],
       ["σ", p => isKnown(p.sigma) ? p.sigma.toPrecision(3) : null, "text"],
-      ["", p => p.is_adjusted ? "adjusted" : "held", "text"],
+      ["state", p => p.is_adjusted ? "adjusted" : "held", "text"],
       ["|value| / σ", p => p.t, 1],
       ["p of value 0", p => p.p, 4],
     ]);

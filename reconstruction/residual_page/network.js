@@ -44,7 +44,7 @@ function mapPlot(parent, caption, view, rows, marks) {
     return [low - pad * (high - low) - 1e-3, high + pad * (high - low) + 1e-3];
   };
   let [x, y] = [range(r => r.x), range(r => r.y)];
-  const scale = Math.max(x[1] - x[0], (y[1] - y[0]) / 1.2), middle = (y[0] + y[1]) / 2;
+  const scale = Math.max(x[1] - x[0], (y[1] - y[0]) / 0.9), middle = (y[0] + y[1]) / 2;
   const share = Math.max((y[1] - y[0]) / scale, 0.3);
   x = [(x[0] + x[1] - scale) / 2, (x[0] + x[1] + scale) / 2];
   y = [middle - share * scale / 2, middle + share * scale / 2];

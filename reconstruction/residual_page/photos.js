@@ -4,7 +4,7 @@ function showPhotos() {
   const node = section("Exterior orientations", "Azimuth clockwise from +y, elevation above the xy " +
     "plane, roll clockwise of the picture. σ of the rotation is about the camera's axes.");
   table(node, report.photos, [
-    ["photo", p => p.photo, "long"],
+    ["photo", p => p.photo, "text"],
     ["x m", p => p.center[0], 3], ["y m", p => p.center[1], 3], ["z m", p => p.center[2], 3],
     ["σx mm", p => 1000 * p.center_sigma_m[0], 1],
     ["σy mm", p => 1000 * p.center_sigma_m[1], 1],
@@ -15,7 +15,7 @@ function showPhotos() {
     ["σ about x, y, z ″", p => p.rotation_sigma_deg.map(s => fixed(3600 * s, 0)).join("  "), "text"],
   ]);
   table(node, report.photos, [
-    ["photo", p => p.photo, "long"],
+    ["photo", p => p.photo, "text"],
     ["marks", p => p.points, 0],
     ["RMS px", p => p.rms_px, 3],
     ["RMS vx", p => p.rms_xy_px[0], 3], ["RMS vy", p => p.rms_xy_px[1], 3],

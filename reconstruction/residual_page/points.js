@@ -5,7 +5,7 @@ const kAxes = ["x", "y", "z"];
 function comparisonTable(parent, comparison) {
   const isOff = p => p.over_sigma > 3;
   longTable(parent, comparison.points, [
-    ["point", p => p.name, "long"],
+    ["point", p => p.name, "text"],
     ...kAxes.map((axis, i) => [`${axis} surveyed m`, p => p.surveyed[i], 3]),
     ...kAxes.map((axis, i) => [`σ${axis} mm`, p => 1000 * p.surveyed_sigma_m[i], 1]),
     ...kAxes.map((axis, i) => [`σ${axis} adj. mm`, p => 1000 * p.adjusted_sigma_m[i], 1]),
@@ -50,7 +50,7 @@ function showPoints() {
   const node = section("Points and vertices", "Standard ellipsoids (one σ): semi-axes a, b, c, and " +
     "where a points to.");
   longTable(node, report.points, [
-    ["point", p => p.name, "long"],
+    ["point", p => p.name, "text"],
     ...kAxes.map((axis, i) => [`${axis} m`, p => p.position[i], 4]),
     ...kAxes.map((axis, i) => [`σ${axis} mm`, p => 1000 * p.sigma_m[i], 1]),
     ...["a", "b", "c"].map((axis, i) => [`${axis} mm`, p => 1000 * p.ellipsoid.semi_axes_m[i], 1]),

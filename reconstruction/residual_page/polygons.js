@@ -9,7 +9,7 @@ function showPolygons() {
     "difference between a solution with and one without the planes is not computed: the planes' own σ0 " +
     "and the vertices' test values tell whether they hold.");
   longTable(node, polygons, [
-    ["polygon", p => p.name, "long"],
+    ["polygon", p => p.name, "text"],
     ["photo", p => p.photo, "text"],
     ["material", p => p.material, "text"],
     ...kAxes.map((axis, i) => [`normal ${axis}`, p => p.normal[i], 5]),
@@ -26,7 +26,7 @@ function showPolygons() {
   const critical = report.observations.critical_w;
   const fold = folded(node, `distance of ${count(vertices.length, "vertex")} from their planes`);
   table(fold, vertices, [
-    ["polygon", v => v.polygon, "long"],
+    ["polygon", v => v.polygon, "text"],
     ["vertex", v => v.name, "text"],
     ["off plane mm", v => v.off_plane_mm, 2],
     ["σ mm", v => v.off_plane_sigma_mm, 2],
@@ -34,7 +34,7 @@ function showPolygons() {
   ], {isFlagged: v => Math.abs(v.w) > critical, isNarrow: true});
   const edges = polygons.flatMap(p => p.edges.map(e => ({polygon: p.name, ...e})));
   table(folded(node, count(edges.length, "edge")), edges, [
-    ["polygon", e => e.polygon, "long"],
+    ["polygon", e => e.polygon, "text"],
     ["from", e => e.from, "text"],
     ["to", e => e.to, "text"],
     ["length m", e => e.m, 4],
@@ -73,8 +73,8 @@ function showAdjoining() {
   const node = section("Adjoining polygons", "Angles between outward normals of polygons that share an " +
     "edge; σ takes their planes as independent.");
   longTable(node, pairs, [
-    ["polygon", p => p.first, "long"],
-    ["adjoins", p => p.second, "long"],
+    ["polygon", p => p.first, "text"],
+    ["adjoins", p => p.second, "text"],
     ["angle °", p => p.angle_deg, 4],
     ["σ °", p => p.sigma_deg, 4],
     ["off square mm/m", p => slope(p.perpendicularity), "text"],
