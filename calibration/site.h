@@ -32,6 +32,10 @@ struct SitePaths {
   std::filesystem::path scene() const { return root / "work/reconstruction/scene.json"; }
   std::filesystem::path residual_report() const { return root / "work/reconstruction/report.json"; }
   std::filesystem::path residual_page() const { return root / "work/reconstruction/report.html"; }
+  std::filesystem::path observations_csv() const {
+    return root / "work/reconstruction/observations.csv";
+  }
+  std::filesystem::path points_csv() const { return root / "work/reconstruction/points.csv"; }
   std::filesystem::path environment() const { return root / "work/environment.json"; }
   std::filesystem::path artificial() const { return root / "work/building.json"; }
 };
