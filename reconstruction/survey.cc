@@ -165,11 +165,21 @@ void RequireKnownPoints(const Survey& survey) {
 
 }  // namespace
 
-Survey ReadSurvey(const SitePaths& site, const std::vector<std::string>& photos) {
+Survey ReadSurvey(const SitePaths& site, const std::vector<std::string>& photos,
+                  SurveyFiles files) {
+  const auto is_to_be_read = [&](const char* file) {
+    return files == SurveyFiles::kRequired || std::filesystem::exists(site.survey() / file);
+  };
   Survey survey;
-  survey.control_points = ReadControlPoints(site.survey() / "control_points.csv");
-  survey.observations = ReadObservations(site.survey() / "observations.csv", photos);
-  survey.polygons = ReadPolygons(site.survey() / "polygons.json", photos);
+  if (is_to_be_read("control_points.csv")) {
+    survey.control_points = ReadControlPoints(site.survey() / "control_points.csv");
+  }
+  if (is_to_be_read("observations.csv")) {
+    survey.observations = ReadObservations(site.survey() / "observations.csv", photos);
+  }
+  if (is_to_be_read("polygons.json")) {
+    survey.polygons = ReadPolygons(site.survey() / "polygons.json", photos);
+  }
   const std::filesystem::path directions = site.survey() / "directions.json";
   if (std::filesystem::exists(directions)) {
     const JsonNode root = JsonNode::Load(directions);

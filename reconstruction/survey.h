@@ -10,6 +10,7 @@
 
 #include "calibration/json_file.h"
 #include "calibration/site.h"
+#include "reconstruction/tie_points.h"
 
 namespace insitu {
 
@@ -102,14 +103,20 @@ struct Survey {
   std::vector<CameraPosition> camera_positions;
   std::vector<EdgeMark> edges;
   std::vector<GeometricConstraint> constraints;
+  std::optional<TiePoints> tie_points = {};  // in their own frame; of insitu-tie-points, if it was run
 };
+
+// Photographs with tie points need no survey at all.
+enum class SurveyFiles { kRequired, kOptional };
 
 // Reads the survey folder and resolves every name. Throws InputError at the offending line: a name
 // twice, an observation of a photo that is not there or of a point that is neither surveyed nor a
 // vertex nor part of a direction pair, a mark outside any sensible frame, sigma <= 0, a polygon
 // with fewer than three distinct vertices, an unknown role, a direction pair of one point.
-// directions.json may be missing; the other three files may not.
-Survey ReadSurvey(const SitePaths& site, const std::vector<std::string>& photos);
+// directions.json may be missing; the other three files may not, unless `files` says so.
+// tie_points stays empty: reconstruct_site.h sets it.
+Survey ReadSurvey(const SitePaths& site, const std::vector<std::string>& photos,
+                  SurveyFiles files = SurveyFiles::kRequired);
 
 // Where a point is first stated: its first mark, else its control row, polygon or direction pair.
 FilePlace PlaceOfPoint(const Survey& survey, const std::string& name);

@@ -24,11 +24,11 @@ int main(int argc, char** argv) {
                  "larger photos are searched for features at this size [px]")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
-  app.add_option("--model", options.model,
-                 "a COLMAP model of these photos, text or binary, to take instead of running COLMAP")
+  app.add_option(
+         "--model", options.model,
+         "a COLMAP model of these photos, text or binary, to take instead of running COLMAP")
       ->check(CLI::ExistingDirectory);
   app.footer("Example:\n  insitu-tie-points sites/gallery --points 1000");
-  return insitu::RunProgram(app, argc, argv, [&] {
-    std::cout << insitu::MakeTiePoints(site, options).BriefReport();
-  });
+  return insitu::RunProgram(
+      app, argc, argv, [&] { std::cout << insitu::MakeTiePoints(site, options).BriefReport(); });
 }

@@ -36,12 +36,11 @@ std::map<std::string, Camera> CamerasByPhoto(const std::vector<fs::path>& photos
   return by_photo;
 }
 
-// The survey, if it can be read: matching needs it only to merge models and to find neighbours.
+// What there is of a survey: matching needs it to merge models and to find neighbours only.
 Survey SurveyIfAny(const SitePaths& site, const std::vector<fs::path>& photos) {
   std::vector<std::string> names;
   for (const fs::path& photo : photos) names.push_back(photo.stem());
-  if (!fs::exists(site.survey())) return {};
-  return ReadSurvey(site, names);
+  return ReadSurvey(site, names, SurveyFiles::kOptional);
 }
 
 std::vector<MatchedModel> ModelsOfColmap(const SitePaths& site, const std::vector<fs::path>& photos,
@@ -54,8 +53,7 @@ std::vector<MatchedModel> ModelsOfColmap(const SitePaths& site, const std::vecto
       if (surveyed.photo == photos[i].stem()) matching.back().center = surveyed.position;
     }
   }
-  std::vector<MatchedModel> models =
-      RunColmap(matching, site.tie_points().parent_path(), options);
+  std::vector<MatchedModel> models = RunColmap(matching, site.tie_points().parent_path(), options);
   if (!models.empty()) return models;
   throw InputError(site.photos(),
                    "COLMAP connects no two of the " + std::to_string(photos.size()) +
