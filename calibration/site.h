@@ -26,6 +26,7 @@ struct SitePaths {
   std::filesystem::path pinhole_camera() const {
     return root / "work/input_images/pinhole.cameramodel";
   }
+  std::filesystem::path tie_points() const { return root / "work/tie_points/tie_points.json"; }
   std::filesystem::path posed_camera(const std::string& photo) const {
     return root / "work/reconstruction" / (photo + ".cameramodel");
   }

@@ -41,6 +41,20 @@ ReportContext SiteContext(const SitePaths& site, const AdjustmentOptions& option
   return context;
 }
 
+// Throws InputError if they are those of other photographs.
+std::optional<TiePoints> TiePointsOf(const SitePaths& site,
+                                     const std::vector<std::string>& photos) {
+  const auto tie_points = ReadTiePoints(site);
+  if (!tie_points) return std::nullopt;
+  for (const auto& [photo, pose] : tie_points->cam_from_model) {
+    if (std::find(photos.begin(), photos.end(), photo) != photos.end()) continue;
+    throw InputError(site.tie_points(), "photo '" + photo +
+                                            "' is not in the folder photos, expected the tie "
+                                            "points of these: run insitu-tie-points again");
+  }
+  return tie_points;
+}
+
 }  // namespace
 
 std::map<std::string, Rigid3> ReadStartPoses(const std::filesystem::path& path,
@@ -64,7 +78,10 @@ Adjustment ReconstructSite(const SitePaths& site, AdjustmentOptions options,
   for (const auto& path : ListPhotographs(site)) photos.push_back(path.stem().string());
   RequireResult(site.camera(), "insitu-calibrate");
   const std::vector<Camera> cameras(photos.size(), ReadCamera(site.camera()));
-  const Survey survey = ReadSurvey(site, photos);
+  const auto tie_points = TiePointsOf(site, photos);
+  Survey survey =
+      ReadSurvey(site, photos, tie_points ? SurveyFiles::kOptional : SurveyFiles::kRequired);
+  survey.tie_points = tie_points;
   if (!start_poses.empty()) options.initial_cam_from_world = ReadStartPoses(start_poses, photos);
   Adjustment adjustment = Adjust(survey, photos, cameras, options);
   const Json::Value report =
