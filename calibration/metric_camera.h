@@ -15,9 +15,10 @@ namespace insitu {
 
 enum class MetricModel {
   // Polynomials of the *measured* position correct it to the ideal one: PhotoModeler, Australis,
-  // DBAT (its model 3). Parameters c xp yp K1 K2 K3 P1 P2 aspect skew, with
-  //   x = (1 + aspect) x_measured - xp,  y = y_measured - yp,  r^2 = x^2 + y^2,
-  //   x_ideal = x + skew y + x (K1 r^2 + K2 r^4 + K3 r^6) + P1 (r^2 + 2 x^2) + 2 P2 x y,
+  // DBAT (its model 3, whose affinity acts about the principal point and before the lens).
+  // Parameters c xp yp K1 K2 K3 P1 P2 aspect skew, with
+  //   x = (1 + aspect) (x_measured - xp) + skew y,  y = y_measured - yp,  r^2 = x^2 + y^2,
+  //   x_ideal = x + x (K1 r^2 + K2 r^4 + K3 r^6) + P1 (r^2 + 2 x^2) + 2 P2 x y,
   //   y_ideal = y + y (K1 r^2 + K2 r^4 + K3 r^6) + 2 P1 x y + P2 (r^2 + 2 y^2).
   kBackwardBrown,
   // Polynomials of the *ideal* position distort it, balanced to vanish at a radius r0: AICON 3D

@@ -16,11 +16,11 @@ using Vector2 = Eigen::Matrix<T, 2, 1>;
 // See MetricModel::kBackwardBrown. Millimetres, about the principal point.
 template <typename T>
 Vector2<T> Corrected(const T* p, const Eigen::Vector2d& measured_mm) {
-  const T x = (1.0 + p[8]) * measured_mm.x() - p[1];
   const T y = measured_mm.y() - p[2];
+  const T x = (1.0 + p[8]) * (measured_mm.x() - p[1]) + p[9] * y;
   const T r2 = x * x + y * y;
   const T radial = r2 * (p[3] + r2 * (p[4] + r2 * p[5]));
-  return {x + p[9] * y + x * radial + p[6] * (r2 + 2.0 * x * x) + 2.0 * p[7] * x * y,
+  return {x + x * radial + p[6] * (r2 + 2.0 * x * x) + 2.0 * p[7] * x * y,
           y + y * radial + 2.0 * p[6] * x * y + p[7] * (r2 + 2.0 * y * y)};
 }
 
@@ -55,7 +55,7 @@ Vector2<T> MetricResidual(const MetricCamera& camera, const T* parameters,
 bool Residual(const MetricCamera& camera, const double* parameters, const Eigen::Vector3d& point,
               const Eigen::Vector2d& observed_px, Eigen::Vector2d* residual_px,
               const LensDerivatives& derivatives) {
-  if (!(point.z() > 0)) return false;
+  if (point.z() == 0) return false;
   if (!derivatives.by_point && !derivatives.by_parameters) {
     *residual_px = MetricResidual<double>(camera, parameters, point, observed_px);
     return true;

@@ -9,13 +9,23 @@
 
 namespace insitu {
 
-Survey ReadSurvey(const SitePaths& site, const std::vector<std::string>& photos) {
+Survey ReadSurvey(const SitePaths& site, const std::vector<std::string>& photos,
+                  SurveyFiles files) {
   const std::filesystem::path folder = site.survey();
   const auto has = [&](const char* file) { return std::filesystem::exists(folder / file); };
+  const auto is_to_be_read = [&](const char* file) {
+    return files == SurveyFiles::kRequired || has(file);
+  };
   Survey survey;
-  survey.control_points = ReadControlPoints(folder / "control_points.csv");
-  survey.observations = ReadObservations(folder / "observations.csv", photos);
-  survey.polygons = ReadPolygons(folder / "polygons.json", photos);
+  if (is_to_be_read("control_points.csv")) {
+    survey.control_points = ReadControlPoints(folder / "control_points.csv");
+  }
+  if (is_to_be_read("observations.csv")) {
+    survey.observations = ReadObservations(folder / "observations.csv", photos);
+  }
+  if (is_to_be_read("polygons.json")) {
+    survey.polygons = ReadPolygons(folder / "polygons.json", photos);
+  }
   if (has("directions.json")) {
     DirectionPairs pairs = ReadDirections(folder / "directions.json");
     survey.sun_pairs = std::move(pairs.sun);

@@ -12,6 +12,7 @@
 
 #include "calibration/json_file.h"
 #include "calibration/site.h"
+#include "reconstruction/tie_points.h"
 
 namespace insitu {
 
@@ -104,15 +105,21 @@ struct Survey {
   std::vector<CameraPosition> camera_positions;
   std::vector<EdgeMark> edges;
   std::vector<GeometricConstraint> constraints;
+  std::optional<TiePoints> tie_points = {};  // in their own frame; of insitu-tie-points, if it was run
 };
+
+// Photographs with tie points need no survey at all.
+enum class SurveyFiles { kRequired, kOptional };
 
 // Reads the survey folder and resolves every name. Throws InputError at the offending line: a name
 // twice, an observation of a photo that is not there or of a point that no other file names, a
 // pair, edge or constraint of a point that is neither surveyed nor marked nor a vertex, a mark
 // outside any sensible frame, sigma <= 0, a polygon with fewer than three distinct vertices, an
 // unknown role, kind or key, a pair or edge of one point. Unknown names come with the nearest known
-// ones. control_points.csv, observations.csv and polygons.json must be there, the other files may.
-Survey ReadSurvey(const SitePaths& site, const std::vector<std::string>& photos);
+// ones. control_points.csv, observations.csv and polygons.json must be there unless
+// `files` says otherwise, the other files may. tie_points stays empty: reconstruct_site.h sets it.
+Survey ReadSurvey(const SitePaths& site, const std::vector<std::string>& photos,
+                  SurveyFiles files = SurveyFiles::kRequired);
 
 // The points that are to be found: marked, vertices, ends of direction pairs and edges, or part of
 // a constraint. Control points that nothing refers to are not among them.
