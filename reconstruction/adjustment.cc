@@ -14,6 +14,7 @@
 #include "reconstruction/planarity.h"
 #include "reconstruction/plane.h"
 #include "reconstruction/polygon_covariance.h"
+#include "reconstruction/survey_diagnosis.h"
 
 namespace insitu {
 namespace {
@@ -242,14 +243,27 @@ NetworkSolution Solve(const Survey& survey, Network* network) {
   }
 }
 
+// Start values of a survey that does not contradict itself; what else looks odd becomes a warning.
+StartValues FindSoundStart(const Survey& survey, const std::vector<std::string>& photos,
+                           const std::vector<Camera>& cameras, const AdjustmentOptions& options) {
+  const std::vector<Diagnosis> diagnoses = RequireSound(survey, photos, cameras);
+  try {
+    StartValues start = FindStartValues(survey, photos, cameras, options);
+    RequirePlanar(survey, start.points, options.plane_sigma);
+    for (const Diagnosis& diagnosis : diagnoses) start.warnings.push_back(Text(diagnosis));
+    return start;
+  } catch (const InputError& symptom) {
+    ThrowDiagnosed(diagnoses, symptom);
+  }
+}
+
 }  // namespace
 
 Adjustment Adjust(const Survey& survey, const std::vector<std::string>& photos,
                   const std::vector<Camera>& cameras, const AdjustmentOptions& options) {
   INSITU_CHECK(options.plane_sigma > 0 && options.zenith_sigma > 0 && options.sun_sigma > 0);
   INSITU_CHECK(options.calibrations.empty() || options.calibrations.size() == photos.size());
-  const StartValues start = FindStartValues(survey, photos, cameras, options);
-  RequirePlanar(survey, start.points, options.plane_sigma);
+  const StartValues start = FindSoundStart(survey, photos, cameras, options);
   SurveyNetwork survey_network = MakeSurveyNetwork(survey, start, options);
   const NetworkSolution solution = Solve(survey, &survey_network.network);
   const Network& network = survey_network.network;

@@ -6,6 +6,7 @@
 
 #include "calibration/json_file.h"
 #include "calibration/whole_file.h"
+#include "reconstruction/distinct_photographs.h"
 #include "reconstruction/input_files.h"
 #include "reconstruction/montage_points.h"
 #include "reconstruction/residual_report.h"
@@ -75,7 +76,9 @@ std::map<std::string, Rigid3> ReadStartPoses(const std::filesystem::path& path,
 Adjustment ReconstructSite(const SitePaths& site, AdjustmentOptions options,
                            const std::filesystem::path& start_poses, const std::string& command) {
   std::vector<std::string> photos;
-  for (const auto& path : ListPhotographs(site)) photos.push_back(path.stem().string());
+  const std::vector<std::filesystem::path> photographs = ListPhotographs(site);
+  RequireDistinctPhotographs(photographs);
+  for (const auto& path : photographs) photos.push_back(path.stem().string());
   RequireResult(site.camera(), "insitu-calibrate");
   const std::vector<Camera> cameras(photos.size(), ReadCamera(site.camera()));
   const auto tie_points = TiePointsOf(site, photos);
