@@ -106,7 +106,7 @@ Assembly::ResolvedLooks Assembly::Resolve(const DxfBlock& block, const Holder& h
       resolved.surfaces.push_back(std::nullopt);
     } else {
       resolved.surfaces.push_back(
-          surface_index_.IndexOf({layer, holder.block, "", ColorOf(look, layer, holder), ""}));
+          surface_index_.IndexOf({layer, holder.block, "", ColorOf(look, layer, holder), 1, "", ""}));
     }
   }
   return resolved;

@@ -9,7 +9,8 @@ namespace {
 using Eigen::Vector3i;
 
 std::string KeyOf(const SurfaceNames& names) {
-  std::string key = names.layer + '\0' + names.block + '\0' + names.material + '\0' + names.texture;
+  std::string key = names.layer + '\0' + names.block + '\0' + names.material + '\0' + names.texture +
+                    '\0' + std::to_string(names.opacity);
   if (names.rgb) key.append(reinterpret_cast<const char*>(names.rgb->data()), sizeof(double) * 3);
   return key;
 }

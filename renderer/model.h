@@ -19,7 +19,9 @@ struct SurfaceNames {
   std::string block;                   // innermost named block about it; may be empty
   std::string material;                // of the file's own materials; may be empty
   std::optional<Eigen::Vector3d> rgb;  // its colour there, linear Rec. 709, 0..1
-  std::string texture;                 // image file as the model names it; may be empty
+  double opacity = 1;                  // there; 0: clear
+  std::string texture;                 // image file of its colour, as named there; may be empty
+  std::string texture_place;           // where it is named, "file:line", for messages
 
   bool operator==(const SurfaceNames&) const = default;
 };
