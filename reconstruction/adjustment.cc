@@ -286,7 +286,7 @@ StartValues FindSoundStart(const Survey& survey, const std::vector<std::string>&
 Adjustment Adjust(const Survey& survey, const std::vector<std::string>& photos,
                   const std::vector<Camera>& cameras, const AdjustmentOptions& options) {
   INSITU_CHECK(options.plane_sigma > 0 && options.zenith_sigma > 0 && options.sun_sigma > 0);
-  INSITU_CHECK(options.calibrations.empty() || options.calibrations.size() == photos.size());
+  INSITU_CHECK(options.lenses.empty() || options.lenses.size() == photos.size());
   const StartValues start = FindSoundStart(survey, photos, cameras, options);
   SurveyNetwork survey_network = MakeSurveyNetwork(survey, start, options);
   const NetworkSolution solution = Solve(survey, &survey_network.network);

@@ -14,9 +14,9 @@
 
 namespace insitu {
 
-// What is known of a photo's camera besides its lens.
-struct CameraCalibration {
-  std::string camera = "camera";  // photos of one name share their lens
+// What is known of a photo's lens besides its intrinsics.
+struct PhotoLens {
+  std::string camera = "camera";  // photos of one camera share their lens
   Eigen::MatrixXd covariance;     // of its intrinsics, from its calibration; empty: exact
 };
 
@@ -27,7 +27,7 @@ struct AdjustmentOptions {
   double sun_sigma = 0.02;           // [m], across, of a shadow point from the line to the sun
   bool is_self_calibrating = false;  // the lens parameters are unknowns too
   double significance = 0.001;       // alpha0 of each w-test (Baarda); its power is 80 %
-  std::vector<CameraCalibration> calibrations;           // as `photos`; empty: one exact camera
+  std::vector<PhotoLens> lenses;     // as `photos`; empty: one exact camera
   std::map<std::string, Rigid3> initial_cam_from_world;  // user's estimates, by photo; none needed
 };
 
