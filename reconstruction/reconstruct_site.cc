@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "calibration/json_file.h"
+#include "calibration/site_cameras.h"
 #include "calibration/whole_file.h"
 #include "reconstruction/residual_report.h"
 
@@ -41,10 +42,14 @@ std::map<std::string, Rigid3> ReadStartPoses(const std::filesystem::path& path,
 
 Adjustment ReconstructSite(const SitePaths& site, AdjustmentOptions options,
                            const std::filesystem::path& start_poses) {
+  const std::vector<std::filesystem::path> paths = ListPhotographs(site);
   std::vector<std::string> photos;
-  for (const auto& path : ListPhotographs(site)) photos.push_back(path.stem().string());
-  RequireResult(site.camera(), "insitu-calibrate");
-  const std::vector<Camera> cameras(photos.size(), ReadCamera(site.camera()));
+  std::vector<Camera> cameras;
+  for (const std::string& camera : CamerasOfPhotos(site, paths)) {
+    photos.push_back(paths[photos.size()].stem().string());
+    RequireResult(site.camera(camera), "insitu-calibrate");
+    cameras.push_back(ReadCamera(site.camera(camera)));
+  }
   const Survey survey = ReadSurvey(site, photos);
   if (!start_poses.empty()) options.initial_cam_from_world = ReadStartPoses(start_poses, photos);
   Adjustment adjustment = Adjust(survey, photos, cameras, options);
