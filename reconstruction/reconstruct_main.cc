@@ -2,12 +2,13 @@
 #include <iostream>
 
 #include "calibration/program.h"
+#include "reconstruction/colmap_export.h"
 #include "reconstruction/reconstruct_site.h"
 
 int main(int argc, char** argv) {
   insitu::SitePaths site;
   insitu::AdjustmentOptions options;
-  std::filesystem::path start_poses;
+  std::filesystem::path start_poses, colmap_model;
   CLI::App app(
       "Finds where the photographs of a site were taken from, its polygons, and the directions to "
       "the sun and the zenith, in one adjustment of its survey.",
@@ -26,8 +27,15 @@ int main(int argc, char** argv) {
                  "estimated positions, JSON: {\"PHOTO\": {\"center\": [x,y,z], \"look_at\": "
                  "[x,y,z]}}")
       ->check(CLI::ExistingFile);
+  app.add_option("--colmap-model", colmap_model,
+                 "folder to receive the result as a COLMAP text model as well");
   app.footer("Example:\n  insitu-reconstruct sites/gallery --plane-sigma 0.01");
   return insitu::RunProgram(app, argc, argv, [&] {
-    std::cout << insitu::ReconstructSite(site, options, start_poses).BriefReport();
+    const insitu::Adjustment adjustment = insitu::ReconstructSite(
+        site, options, start_poses, insitu::CommandLine(app));
+    if (!colmap_model.empty()) {
+      insitu::WriteColmapText(colmap_model, insitu::ColmapFromAdjustment(adjustment));
+    }
+    std::cout << adjustment.BriefReport();
   });
 }

@@ -5,9 +5,12 @@
 #include <utility>
 
 #include "calibration/json_file.h"
-#include "calibration/site_cameras.h"
 #include "calibration/whole_file.h"
+#include "reconstruction/distinct_photographs.h"
+#include "reconstruction/input_files.h"
+#include "reconstruction/montage_points.h"
 #include "reconstruction/residual_report.h"
+#include "reconstruction/site_photos.h"
 
 namespace insitu {
 namespace {
@@ -21,6 +24,38 @@ Rigid3 Upright(const Eigen::Vector3d& center, const Eigen::Vector3d& forward) {
   cam_from_world.row(1) = cam_from_world.row(2).cross(cam_from_world.row(0));
   const Eigen::Quaterniond rotation(cam_from_world);
   return {rotation, -(rotation * center)};
+}
+
+ReportContext SiteContext(const SitePaths& site, const AdjustmentOptions& options,
+                          const Adjustment& adjustment, const std::string& command) {
+  ReportContext context;
+  context.options = options;
+  context.command = command;
+  context.inputs = HashInputs(site);
+  for (size_t i = 0; i < adjustment.cameras.size(); ++i) {
+    const std::string camera = CameraFolderName(adjustment.cameras[i].name);
+    if (i == 0 && std::filesystem::exists(site.calibration_report(camera))) {
+      context.calibration = ReadJson(site.calibration_report(camera));
+    }
+    const std::vector<Eigen::Vector2d> region = ReadCalibratedRegion(site.camera(camera));
+    if (!region.empty()) context.calibrated_region[static_cast<int>(i)] = region;
+  }
+  context.montage = MontagePoints(site, adjustment.scene);
+  return context;
+}
+
+// Throws InputError if they are those of other photographs.
+std::optional<TiePoints> TiePointsOf(const SitePaths& site,
+                                     const std::vector<std::string>& photos) {
+  const auto tie_points = ReadTiePoints(site);
+  if (!tie_points) return std::nullopt;
+  for (const auto& [photo, pose] : tie_points->cam_from_model) {
+    if (std::find(photos.begin(), photos.end(), photo) != photos.end()) continue;
+    throw InputError(site.tie_points(), "photo '" + photo +
+                                            "' is not in the folder photos, expected the tie "
+                                            "points of these: run insitu-tie-points again");
+  }
+  return tie_points;
 }
 
 }  // namespace
@@ -41,23 +76,25 @@ std::map<std::string, Rigid3> ReadStartPoses(const std::filesystem::path& path,
 }
 
 Adjustment ReconstructSite(const SitePaths& site, AdjustmentOptions options,
-                           const std::filesystem::path& start_poses) {
-  const std::vector<std::filesystem::path> paths = ListPhotographs(site);
-  std::vector<std::string> photos;
-  std::vector<Camera> cameras;
-  for (const std::string& camera : CamerasOfPhotos(site, paths)) {
-    photos.push_back(paths[photos.size()].stem().string());
-    RequireResult(site.camera(camera), "insitu-calibrate");
-    cameras.push_back(ReadCamera(site.camera(camera)));
-  }
-  const Survey survey = ReadSurvey(site, photos);
+                           const std::filesystem::path& start_poses, const std::string& command) {
+  const SitePhotos site_photos = ReadSitePhotos(site);
+  const std::vector<std::string>& photos = site_photos.names;
+  RequireDistinctPhotographs(site_photos.paths);
+  options.lenses = site_photos.lenses;
+  const auto tie_points = TiePointsOf(site, photos);
+  Survey survey =
+      ReadSurvey(site, photos, tie_points ? SurveyFiles::kOptional : SurveyFiles::kRequired);
+  survey.tie_points = tie_points;
   if (!start_poses.empty()) options.initial_cam_from_world = ReadStartPoses(start_poses, photos);
-  Adjustment adjustment = Adjust(survey, photos, cameras, options);
-  const Json::Value report = ResidualReport(adjustment, survey);
+  Adjustment adjustment = Adjust(survey, photos, site_photos.cameras, options);
+  const Json::Value report =
+      ResidualReport(adjustment, survey, SiteContext(site, options, adjustment, command));
   const std::string page = ResidualPage(report);
   WriteSceneGeometry(site, adjustment.scene);
   WriteJson(site.residual_report(), report);
   WriteWhole(site.residual_page(), page);
+  WriteWhole(site.observations_csv(), ObservationsCsv(adjustment));
+  WriteWhole(site.points_csv(), PointsCsv(adjustment));
   return adjustment;
 }
 

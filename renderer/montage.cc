@@ -105,11 +105,29 @@ void WriteMontage(const SitePaths& site, const std::filesystem::path& photograph
   WriteJpeg(site.montages() / (name + ".jpg"), picture, photograph);
 }
 
+// Of the building in every photograph, by name, with its file in montages/.
+std::map<std::string, UncertaintySummary> WriteUncertainties(const SitePaths& site) {
+  const PhaseScope phase(Phase::kFiles);
+  std::map<std::string, UncertaintySummary> summaries;
+  const SceneGeometry scene = ReadSceneGeometry(site);
+  const ArtificialEnvironment building = ReadArtificialEnvironment(site);
+  for (size_t i = 0; i < scene.cameras.size(); ++i) {
+    const auto corners = BuildingUncertainty(scene, i, building);
+    if (!corners || corners->empty()) continue;
+    const std::string& photo = scene.cameras[i].photo;
+    WriteUncertainty(site.montages() / (photo + ".uncertainty.csv"), *corners);
+    summaries[photo] = Summarize(*corners);
+  }
+  return summaries;
+}
+
 }  // namespace
 
 std::vector<MontageReport> MakeMontages(const SitePaths& site, const MontageOptions& options) {
   const std::vector<std::filesystem::path> photographs = ChoosePhotographs(site, options.photos);
   const MontageScene scene = LoadScene(site, options.with_building);
+  std::map<std::string, UncertaintySummary> uncertainties;
+  if (options.with_building) uncertainties = WriteUncertainties(site);
   std::vector<MontageReport> reports;
   for (const std::filesystem::path& photograph : photographs) {
     const View view = LoadView(site, scene, photograph, options.frame);
@@ -117,6 +135,8 @@ std::vector<MontageReport> MakeMontages(const SitePaths& site, const MontageOpti
     const auto start = std::chrono::steady_clock::now();
     MontageReport report;
     report.photo = photograph.stem().string();
+    const auto uncertainty = uncertainties.find(report.photo);
+    if (uncertainty != uncertainties.end()) report.uncertainty = uncertainty->second;
     report.result = RenderMontage(scene, view.camera, view.photo.linear, options.render,
                                   [&progress] { progress.Step(); });
     report.seconds =

@@ -2,11 +2,13 @@
 // From a site's files to its montages.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "calibration/photograph.h"
 #include "calibration/site.h"
+#include "renderer/building_uncertainty.h"
 #include "renderer/render.h"
 
 namespace insitu {
@@ -27,10 +29,13 @@ struct MontageReport {
   std::string photo;
   RenderResult result;  // its picture is written already
   double seconds = 0;   // rendering, files apart
+  std::optional<UncertaintySummary> uncertainty;  // of the building's image; nullopt: no building
+                                                  // in the frame, or no covariances
 };
 
 // Reads work/environment.json, work/building.json, the input images and the photographs; writes
-// montages/<photo>.exr, .png and .jpg. Throws InputError: a stage before is missing, an unknown
+// montages/<photo>.exr, .png and .jpg, and how well the building's corners are known in
+// <photo>.uncertainty.csv. Throws InputError: a stage before is missing, an unknown
 // photo, a photograph whose size is not its camera's.
 std::vector<MontageReport> MakeMontages(const SitePaths& site, const MontageOptions& options);
 

@@ -7,7 +7,9 @@ const page = document.body;
 const kInk = "#1c2226", kFaint = "#5d6870", kAccent = "#2b5f8a", kFail = "#a4262c";
 
 const isKnown = value => value !== null && value !== undefined;
-const fixed = (value, digits) => isKnown(value) ? value.toFixed(digits) : "–";
+// Rounded, without a minus before nothing but zeros.
+const fixed = (value, digits) =>
+  isKnown(value) ? value.toFixed(digits).replace(/^-(0\.?0*)$/, "$1") : "–";
 const count = (n, noun) => `${n} ${noun}${n === 1 ? "" : "s"}`;
 const norm = vector => Math.hypot(...vector);
 
@@ -39,9 +41,10 @@ addEventListener("beforeprint", () => {
 addEventListener("afterprint", () => openedForPrint.forEach(node => node.open = false));
 
 // columns: [heading, row => value, format]; format: a number of digits, "text", or "long" for text
-// that may wrap. `options`: isFlagged(row), foot: a row of the same kind.
+// that may wrap. `options`: isFlagged(row); isNarrow: set in columns, as a newspaper is.
 function table(parent, rows, columns, options = {}) {
-  const node = element(element(parent, "div", null, "scroll"), "table");
+  const node = element(element(parent, "div", null, options.isNarrow ? "columns" : "scroll"), "table",
+    null, columns.length > 10 ? "dense" : "");
   const isText = format => format === "text" || format === "long";
   const head = element(element(node, "thead"), "tr");
   for (const [heading, , format] of columns) {
@@ -57,7 +60,6 @@ function table(parent, rows, columns, options = {}) {
   };
   const body = element(node, "tbody");
   rows.forEach(row => addRow(body, row));
-  if (options.foot) options.foot.forEach(row => addRow(element(node, "tfoot"), row));
   return node;
 }
 

@@ -132,7 +132,7 @@ TEST_F(CameraFiles, FaultsOfColmap) {
             std::string::npos);
   EXPECT_EQ(ErrorOf("cameras.txt", "1 PINHOLE 1000\n"),
             ":1: cut short, expected CAMERA_ID MODEL WIDTH HEIGHT PARAMS");
-  EXPECT_NE(ErrorOf("cameras.txt", "1 PINHOLE 0 800 900 900 500 400\n").find("a frame of 0x800"),
+  EXPECT_NE(ErrorOf("cameras.txt", "1 PINHOLE 0 800 900 900 500 400\n").find("a frame without pixels"),
             std::string::npos);
 }
 
