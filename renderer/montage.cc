@@ -65,7 +65,12 @@ MontageScene LoadScene(const SitePaths& site, bool with_building) {
   std::vector<Camera> pinholes;
   std::vector<Raster> images;
   for (const PosedCamera& camera : natural.scene.cameras) {
-    pinholes.push_back(pinhole_of_photo.at(camera.photo));
+    const auto pinhole = pinhole_of_photo.find(camera.photo);
+    if (pinhole == pinhole_of_photo.end()) {
+      throw InputError(site.photos(), "no photograph is named " + camera.photo +
+                                          " as in the environment; run insitu-reconstruct again");
+    }
+    pinholes.push_back(pinhole->second);
     images.push_back(ReadPhotograph(site.input_image(camera.photo)).linear);
   }
   const PhaseScope shading(Phase::kShading);
