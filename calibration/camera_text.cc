@@ -2,9 +2,11 @@
 #include <charconv>
 #include <cmath>
 #include <map>
+#include <set>
 #include <sstream>
 
 #include "calibration/camera_file_formats.h"
+#include "calibration/colmap_lens.h"
 #include "calibration/whole_file.h"
 
 namespace insitu {
@@ -38,20 +40,10 @@ double Number(const fs::path& path, const Word& word) {
 // ---- COLMAP --------------------------------------------------------------------------------
 // [colmap.github.io/cameras.html, src/colmap/sensor/models.h]
 
-const std::map<std::string, size_t>& ColmapParameterCounts() {
-  static const std::map<std::string, size_t> counts = {
-      {"SIMPLE_PINHOLE", 3},        {"PINHOLE", 4},         {"SIMPLE_RADIAL", 4},
-      {"RADIAL", 5},                {"OPENCV", 8},          {"FULL_OPENCV", 12},
-      {"SIMPLE_RADIAL_FISHEYE", 4}, {"RADIAL_FISHEYE", 5},  {"OPENCV_FISHEYE", 8},
-      {"FOV", 5},                   {"THIN_PRISM_FISHEYE", 12}};
-  return counts;
-}
-
 struct ColmapLine {
   int line = 0;
-  std::string id, model;
-  int width = 0, height = 0;
-  std::vector<double> parameters;
+  std::string id;
+  ColmapLens lens;
 };
 
 std::vector<ColmapLine> ReadColmapLines(const fs::path& path) {
@@ -62,11 +54,11 @@ std::vector<ColmapLine> ReadColmapLines(const fs::path& path) {
     if (words.size() < 5) {
       throw InputError(path, line, "cut short, expected CAMERA_ID MODEL WIDTH HEIGHT PARAMS");
     }
-    ColmapLine camera{line, words[0].text, words[1].text,
-                      static_cast<int>(Number(path, words[2])),
-                      static_cast<int>(Number(path, words[3])), {}};
+    ColmapLine camera{line, words[0].text,
+                      {words[1].text, static_cast<int>(Number(path, words[2])),
+                       static_cast<int>(Number(path, words[3])), {}}};
     for (size_t i = 4; i < words.size(); ++i) {
-      camera.parameters.push_back(Number(path, words[i]));
+      camera.lens.params.push_back(Number(path, words[i]));
     }
     cameras.push_back(camera);
   }
@@ -85,14 +77,14 @@ ColmapLine ChooseColmapLine(const fs::path& path, const std::string& id) {
                              ", expected one, or to stand in a folder named after its number");
 }
 
-// fx fy cx cy in our pixels, and the rest.
-std::vector<double> WithTwoFocalLengths(const ColmapLine& camera) {
-  std::vector<double> p = camera.parameters;
-  const bool has_one = camera.model.starts_with("SIMPLE_") || camera.model.starts_with("RADIAL");
-  if (has_one) p.insert(p.begin(), p.front());
-  constexpr double kHalfPixel = 0.5;  // COLMAP's (0.5, 0.5) is the centre of the first pixel
-  p[2] -= kHalfPixel;
-  p[3] -= kHalfPixel;
+// fx fy cx cy in our pixels, and the rest; of the models that are fitted.
+std::vector<double> WithTwoFocalLengths(const ColmapLens& lens) {
+  std::vector<double> p = lens.params;
+  if (lens.model == "SIMPLE_RADIAL_FISHEYE" || lens.model == "RADIAL_FISHEYE") {
+    p.insert(p.begin(), p.front());
+  }
+  Eigen::Map<Eigen::Vector2d> center(&p[2]);
+  center = PixelFromColmap(center);
   return p;
 }
 
@@ -138,29 +130,35 @@ MetricCamera AiconCamera(const fs::path& path, const std::vector<Word>& words, s
 }  // namespace
 
 CameraFile ReadColmapCamera(const fs::path& path, const CameraFileOptions& options) {
-  const ColmapLine camera = ChooseColmapLine(path, options.camera);
-  const auto known = ColmapParameterCounts().find(camera.model);
-  if (known == ColmapParameterCounts().end()) {
-    throw InputError(path, camera.line, "model " + camera.model + " is not read, expected one of "
-                                        "COLMAP 3.8, e.g. OPENCV");
+  const auto [line, id, lens] = ChooseColmapLine(path, options.camera);
+  const auto model = FindColmapLensModel(lens.model);
+  const auto error = [&, line = line](const std::string& message) {
+    return InputError(path, line, message);
+  };
+  if (model && static_cast<size_t>(model->params) != lens.params.size()) {
+    throw error(std::to_string(lens.params.size()) + " parameters, expected " +
+                std::to_string(model->params) + " of " + lens.model);
   }
-  if (known->second != camera.parameters.size()) {
-    throw InputError(path, camera.line,
-                     std::to_string(camera.parameters.size()) + " parameters, expected " +
-                         std::to_string(known->second) + " of " + camera.model);
+  if (lens.width <= 0 || lens.height <= 0) {
+    throw error("a frame without pixels, expected WIDTH and HEIGHT");
   }
-  const std::vector<double> p = WithTwoFocalLengths(camera);
-  const std::string format = "COLMAP " + camera.model;
-  if (camera.model == "FOV") {
-    return FittedCamera(path, camera.line, format,
-                        [&](const Eigen::Vector2d& pixel) { return FovSight(p, pixel); },
-                        camera.width, camera.height);
+  const std::string format = "COLMAP " + lens.model;
+  if (model) {
+    if (const auto camera = CameraFromColmap(lens)) return {*camera, format, 0, std::nullopt};
   }
-  if (camera.model.ends_with("FISHEYE")) {
-    return FisheyeCamera(path, camera.line, format, FisheyeOf(camera.model, p), camera.width,
-                         camera.height);
+  static const std::set<std::string> kFitted = {"SIMPLE_RADIAL_FISHEYE", "RADIAL_FISHEYE",
+                                                "OPENCV_FISHEYE", "THIN_PRISM_FISHEYE", "FOV"};
+  if (!model || !kFitted.contains(lens.model)) {
+    throw error("model " + lens.model + " is not read, or its numbers are not a lens's; expected "
+                                        "one of COLMAP 3.8, e.g. OPENCV");
   }
-  return ExactCamera(path, camera.line, format, p, camera.width, camera.height);
+  const std::vector<double> p = WithTwoFocalLengths(lens);
+  if (lens.model != "FOV") {
+    return FisheyeCamera(path, line, format, FisheyeOf(lens.model, p), lens.width, lens.height);
+  }
+  return FittedCamera(path, line, format,
+                      [&](const Eigen::Vector2d& pixel) { return FovSight(p, pixel); }, lens.width,
+                      lens.height);
 }
 
 CameraFile ReadAiconCamera(const fs::path& path, const CameraFileOptions& options) {

@@ -135,7 +135,8 @@ CameraFile StereoCamera(const Yaml& yaml, const CameraFileOptions& options) {
                               "says which one: calibration/left or calibration/right");
 }
 
-// BoofCV: pixels count as ours; t1 t2 are OpenCV's p1 p2.
+// BoofCV: t1 t2 are OpenCV's p1 p2. Where its pixels count from is not documented; half a pixel more
+// or less changes nothing on its own example (RMS 0.149 px both ways), so it is taken as OpenCV's.
 CameraFile BoofcvCamera(const Yaml& yaml) {
   const Yaml pinhole = yaml.At({"pinhole"});
   const auto number = [&](const char* key) { return pinhole.At({key}).Number(); };

@@ -74,8 +74,8 @@ class ProjectionCost : public ceres::CostFunction {
 };
 
 // fx fy cx cy of the pinhole nearest to the lens: a straight line through pixels against tangents.
-std::vector<double> StartIntrinsics(const std::vector<Sight>& sights, size_t count) {
-  std::vector<double> start(count, 0);
+std::vector<double> StartIntrinsics(const std::vector<Sight>& sights) {
+  std::vector<double> start(4);
   for (const int axis : {0, 1}) {
     Eigen::Matrix2d normal = Eigen::Matrix2d::Zero();
     Eigen::Vector2d right = Eigen::Vector2d::Zero();
@@ -104,6 +104,35 @@ void Deviate(const std::vector<Sight>& sights, CameraFit* fit) {
   fit->rms_deviation_px = std::sqrt(sum / static_cast<double>(sights.size()));
 }
 
+// Least squares from where `intrinsics` and `turn` stand; false: no usable solution.
+bool Solve(const std::string& lens_model, const std::vector<Sight>& sights, int width, int height,
+           bool turn_axes, std::vector<double>* intrinsics, Eigen::Vector3d* turn) {
+  intrinsics->resize(Camera::IntrinsicsCount(lens_model), 0);
+  const Camera start(lens_model, *intrinsics, width, height);
+  ceres::Problem problem;
+  for (const Sight& sight : sights) {
+    problem.AddResidualBlock(new ProjectionCost(start, sight), nullptr, intrinsics->data(),
+                             turn->data());
+  }
+  if (!turn_axes) problem.SetParameterBlockConstant(turn->data());
+  ceres::Solver::Options solver;
+  solver.linear_solver_type = ceres::DENSE_QR;
+  solver.max_num_iterations = 100;
+  solver.function_tolerance = 1e-12;
+  solver.parameter_tolerance = 1e-12;
+  solver.gradient_tolerance = 1e-16;
+  solver.logging_type = ceres::SILENT;
+  ceres::Solver::Summary summary;
+  ceres::Solve(solver, &problem, &summary);
+  return summary.IsSolutionUsable() && (*intrinsics)[0] > 0 && (*intrinsics)[1] > 0;
+}
+
+// A rational polynomial finds its way best from the polynomial below it.
+std::vector<std::string> Stages(const std::string& lens_model) {
+  if (lens_model != "LENSMODEL_OPENCV8") return {lens_model};
+  return {"LENSMODEL_OPENCV4", "LENSMODEL_OPENCV5", lens_model};
+}
+
 }  // namespace
 
 std::optional<CameraFit> FitCamera(const SightOfPixel& sight_of_pixel, int width, int height,
@@ -114,31 +143,21 @@ std::optional<CameraFit> FitCamera(const SightOfPixel& sight_of_pixel, int width
   const auto checks = Sights(sight_of_pixel, options.start_fit_from_lens, width, height,
                              kCheckColumns, kCheckRows);
   if (!sights || !checks) return std::nullopt;
-  std::vector<double> intrinsics = StartIntrinsics(*sights, Camera::IntrinsicsCount(options.lens_model));
+  std::vector<double> intrinsics = StartIntrinsics(*sights);
   if (!(intrinsics[0] > 0 && intrinsics[1] > 0)) return std::nullopt;  // a mirror image
-  const Camera start(options.lens_model, intrinsics, width, height);
   Eigen::Vector3d turn = Eigen::Vector3d::Zero();
-  ceres::Problem problem;
-  for (const Sight& sight : *sights) {
-    problem.AddResidualBlock(new ProjectionCost(start, sight), nullptr, intrinsics.data(),
-                             turn.data());
+  std::optional<CameraFit> best;
+  for (const std::string& stage : Stages(options.lens_model)) {
+    if (!Solve(stage, *sights, width, height, options.turn_axes, &intrinsics, &turn)) break;
+    std::vector<double> padded = intrinsics;
+    padded.resize(Camera::IntrinsicsCount(options.lens_model), 0);
+    CameraFit fit{Camera(options.lens_model, padded, width, height)};
+    if (turn.norm() > 0) fit.fit_from_lens = Eigen::AngleAxisd(turn.norm(), turn.normalized());
+    Deviate(*checks, &fit);
+    fit.fit_from_lens = fit.fit_from_lens * options.start_fit_from_lens;
+    if (!best || fit.rms_deviation_px < best->rms_deviation_px) best = fit;
   }
-  if (!options.turn_axes) problem.SetParameterBlockConstant(turn.data());
-  ceres::Solver::Options solver;
-  solver.linear_solver_type = ceres::DENSE_QR;
-  solver.max_num_iterations = 200;
-  solver.function_tolerance = 1e-14;
-  solver.parameter_tolerance = 1e-13;
-  solver.gradient_tolerance = 1e-14;
-  solver.logging_type = ceres::SILENT;
-  ceres::Solver::Summary summary;
-  ceres::Solve(solver, &problem, &summary);
-  if (!summary.IsSolutionUsable()) return std::nullopt;
-  CameraFit fit{Camera(options.lens_model, intrinsics, width, height)};
-  if (turn.norm() > 0) fit.fit_from_lens = Eigen::AngleAxisd(turn.norm(), turn.normalized());
-  Deviate(*checks, &fit);
-  fit.fit_from_lens = fit.fit_from_lens * options.start_fit_from_lens;
-  return fit;
+  return best;
 }
 
 }  // namespace insitu

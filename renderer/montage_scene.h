@@ -76,8 +76,8 @@ struct MontageScene {
 };
 
 // `artificial` may be empty: the site as it is. `images` are the input images, in the order of
-// natural.scene.cameras, all seen by `pinhole`.
+// natural.scene.cameras, as are the pinhole cameras that see them.
 MontageScene MakeMontageScene(NaturalEnvironment natural, const ArtificialEnvironment& artificial,
-                              const Camera& pinhole, std::vector<Raster> images);
+                              const std::vector<Camera>& pinholes, std::vector<Raster> images);
 
 }  // namespace insitu
