@@ -7,6 +7,7 @@
 int main(int argc, char** argv) {
   insitu::SitePaths site;
   insitu::TiePointsOptions options;
+  bool only_if_needed = false;
   CLI::App app(
       "Finds points that several photographs of a site show, and first positions of the "
       "photographs, by COLMAP with the calibrated lens held fixed.",
@@ -29,6 +30,11 @@ int main(int argc, char** argv) {
          "a COLMAP model of these photos, text or binary, to take instead of running COLMAP")
       ->check(CLI::ExistingDirectory);
   app.footer("Example:\n  insitu-tie-points sites/gallery --points 1000");
-  return insitu::RunProgram(
-      app, argc, argv, [&] { std::cout << insitu::MakeTiePoints(site, options).BriefReport(); });
+  return insitu::RunProgram(app, argc, argv, [&] {
+    if (only_if_needed && !insitu::NeedsTiePoints(site)) {
+      std::cout << "not needed: every photo shows three control points\n";
+      return;
+    }
+    std::cout << insitu::MakeTiePoints(site, options).BriefReport();
+  });
 }

@@ -55,11 +55,13 @@ std::vector<MatchedModel> ModelsOfColmap(const SitePaths& site, const std::vecto
   }
   std::vector<MatchedModel> models = RunColmap(matching, site.tie_points().parent_path(), options);
   if (!models.empty()) return models;
-  throw InputError(site.photos(),
-                   "COLMAP connects no two of the " + std::to_string(photos.size()) +
-                       " photographs, expected ones that overlap by half or more and show texture "
-                       "from places some steps apart; its logs are in " +
-                       (site.tie_points().parent_path() / "logs").string());
+  throw InputError(
+      site.photos(),
+      "COLMAP connects no two of the " + std::to_string(photos.size()) +
+          " photographs, expected ones that overlap by half or more and show texture "
+          "from places some steps apart, or three control points marked on each; its logs "
+          "are in " +
+          (site.tie_points().parent_path() / "logs").string());
 }
 
 MatchedModel BroughtModel(const fs::path& folder, const std::vector<fs::path>& photos,
@@ -193,6 +195,21 @@ SiteTiePoints MakeTiePoints(const SitePaths& site, const std::vector<fs::path>& 
   WriteColmapText(site.tie_points().parent_path() / "model", models[0].colmap);
   WriteTiePoints(site, result.tie_points);
   return result;
+}
+
+bool NeedsTiePoints(const SitePaths& site) {
+  const std::vector<fs::path> photos = ListPhotographs(site);
+  const Survey survey = SurveyIfAny(site, photos);
+  std::set<std::string> control;
+  for (const ControlPoint& point : survey.control_points) {
+    if (point.role == ControlRole::kControl) control.insert(point.name);
+  }
+  return std::any_of(photos.begin(), photos.end(), [&](const fs::path& photo) {
+    return std::count_if(survey.observations.begin(), survey.observations.end(),
+                         [&](const ImageObservation& mark) {
+                           return mark.photo == photo.stem() && control.contains(mark.point);
+                         }) < 3;
+  });
 }
 
 SiteTiePoints MakeTiePoints(const SitePaths& site, const TiePointsOptions& options) {
