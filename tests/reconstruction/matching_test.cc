@@ -23,7 +23,7 @@ ColmapDescriptors RandomDescriptors(int count, unsigned seed) {
   ColmapDescriptors descriptors(count, 128);
   for (int i = 0; i < count; ++i) {
     Eigen::VectorXd direction(128);
-    for (double& value : direction) value = std::pow(normal(generator), 2);
+    for (double& value : direction) value = std::abs(normal(generator));
     direction *= 512 / direction.norm();
     descriptors.row(i) = direction.cwiseMin(255).array().round().cast<uint8_t>().transpose();
   }
