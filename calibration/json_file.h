@@ -33,6 +33,8 @@ class JsonNode {
   std::string Text() const;
   std::vector<double> Numbers() const;
   Eigen::Vector3d Vector3() const;
+  Eigen::MatrixXd Matrix() const;  // array of rows of equal length
+  bool IsNull() const;             // an item may be; Find and At have no node for null
 
   // An error about this value, to be thrown.
   InputError Error(const std::string& message) const;
@@ -50,6 +52,9 @@ class JsonNode {
 
 Json::Value ToJson(const Eigen::VectorXd& vector);
 Json::Value ToJson(const Eigen::MatrixXd& matrix);  // array of rows
+
+// A whole file as it is, for what is only passed on. Throws InputError, at its line.
+Json::Value ReadJson(const std::filesystem::path& path);
 
 // Indented, 17 digits; temporary file, then rename.
 void WriteJson(const std::filesystem::path& path, const Json::Value& value);

@@ -18,13 +18,24 @@ struct SitePaths {
   std::filesystem::path building() const { return root / "building"; }
   std::filesystem::path montages() const { return root / "montages"; }
 
-  std::filesystem::path camera() const { return root / "work/calibration/camera.cameramodel"; }
-  std::filesystem::path calibration_report() const { return root / "work/calibration/report.json"; }
+  std::filesystem::path description() const { return root / "site.json"; }
+
+  // `camera` is a camera's name, as CamerasOfPhotos gives it; "" is the only camera of a site.
+  std::filesystem::path camera(const std::string& camera = "") const {
+    return root / "work/calibration" / camera / "camera.cameramodel";
+  }
+  std::filesystem::path calibration_report(const std::string& camera = "") const {
+    return root / "work/calibration" / camera / "report.json";
+  }
+  std::filesystem::path calibration_page(const std::string& camera = "") const {
+    return root / "work/calibration" / camera / "report.html";
+  }
   std::filesystem::path input_image(const std::string& photo) const {
     return root / "work/input_images" / (photo + ".exr");
   }
-  std::filesystem::path pinhole_camera() const {
-    return root / "work/input_images/pinhole.cameramodel";
+  std::filesystem::path pinhole_camera(const std::string& camera = "") const {
+    return root / "work/input_images" /
+           ((camera.empty() ? "pinhole" : "pinhole_" + camera) + ".cameramodel");
   }
   std::filesystem::path tie_points() const { return root / "work/tie_points/tie_points.json"; }
   std::filesystem::path posed_camera(const std::string& photo) const {
@@ -33,6 +44,10 @@ struct SitePaths {
   std::filesystem::path scene() const { return root / "work/reconstruction/scene.json"; }
   std::filesystem::path residual_report() const { return root / "work/reconstruction/report.json"; }
   std::filesystem::path residual_page() const { return root / "work/reconstruction/report.html"; }
+  std::filesystem::path observations_csv() const {
+    return root / "work/reconstruction/observations.csv";
+  }
+  std::filesystem::path points_csv() const { return root / "work/reconstruction/points.csv"; }
   std::filesystem::path environment() const { return root / "work/environment.json"; }
   std::filesystem::path artificial() const { return root / "work/building.json"; }
 };

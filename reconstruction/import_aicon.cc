@@ -81,15 +81,10 @@ NetworkCamera MakeCamera(const TextRow* rows) {
   return {rows[0].words[0], lens, {true, true, true, true, true, false, true, true, false, false}};
 }
 
-Indices ReadCameras(const std::filesystem::path& path, Network* network) {
-  const std::vector<TextRow> rows = Rows(path);
-  if (rows.size() % 5 != 0) {
-    throw rows.back().Error("the file ends within a camera, expected five lines for each");
-  }
+Indices IndicesOf(const std::vector<NetworkCamera>& cameras) {
   Indices indices;
-  for (size_t i = 0; i < rows.size(); i += 5) {
-    Insert(&indices, rows[i], rows[i].Text(0, "camera number"), "camera");
-    network->cameras.push_back(MakeCamera(&rows[i]));
+  for (const NetworkCamera& camera : cameras) {
+    indices.emplace(camera.name, static_cast<int>(indices.size()));
   }
   return indices;
 }
@@ -127,11 +122,6 @@ Indices ReadPoints(const std::filesystem::path& path, Network* network,
   return indices;
 }
 
-Eigen::Vector2d Pixel(const MetricCamera& lens, const Eigen::Vector2d& mm) {
-  return {lens.origin_px.x() + mm.x() / lens.pixel_mm.x(),
-          lens.origin_px.y() - mm.y() / lens.pixel_mm.y()};
-}
-
 // photo point x y sx sy vx vy flag used flag [mm]
 void ReadMarks(const std::filesystem::path& path, const Indices& photos, const Indices& points,
                const AiconOptions& options, ImportedProject* project) {
@@ -146,8 +136,8 @@ void ReadMarks(const std::filesystem::path& path, const Indices& photos, const I
     if (point == points.end() && ++pointless) continue;
     const auto& lens = std::get<MetricCamera>(
         network.cameras[static_cast<size_t>(network.photos[photo->second].camera)].lens);
-    network.marks.push_back(
-        {photo->second, point->second, Pixel(lens, mm), options.mark_sigma_mm / lens.pixel_mm.x()});
+    network.marks.push_back({photo->second, point->second, AiconPixel(lens, mm),
+                             options.mark_sigma_mm / lens.pixel_mm.x()});
   }
   if (flagged) project->remarks.push_back(std::to_string(flagged) + " marks are flagged as unused");
   if (pointless) {
@@ -174,11 +164,31 @@ void ReadScales(const std::filesystem::path& path, const Indices& points, Networ
 
 }  // namespace
 
+std::vector<NetworkCamera> ReadAiconCameras(const std::filesystem::path& path) {
+  const std::vector<TextRow> rows = Rows(path);
+  if (rows.size() % 5 != 0) {
+    throw rows.back().Error("the file ends within a camera, expected five lines for each");
+  }
+  Indices indices;
+  std::vector<NetworkCamera> cameras;
+  for (size_t i = 0; i < rows.size(); i += 5) {
+    Insert(&indices, rows[i], rows[i].Text(0, "camera number"), "camera");
+    cameras.push_back(MakeCamera(&rows[i]));
+  }
+  return cameras;
+}
+
+Eigen::Vector2d AiconPixel(const MetricCamera& lens, const Eigen::Vector2d& mm) {
+  return {lens.origin_px.x() + mm.x() / lens.pixel_mm.x(),
+          lens.origin_px.y() - mm.y() / lens.pixel_mm.y()};
+}
+
 ImportedProject ReadAiconProject(const std::filesystem::path& path, const AiconOptions& options) {
   INSITU_CHECK(options.mark_sigma_mm > 0);
   const std::filesystem::path stem = SetStem(path);
   ImportedProject project;
-  const Indices cameras = ReadCameras(File(stem, ".ior"), &project.network);
+  project.network.cameras = ReadAiconCameras(File(stem, ".ior"));
+  const Indices cameras = IndicesOf(project.network.cameras);
   const Indices photos = ReadOrientations(File(stem, ".eor"), cameras, &project.network);
   const Indices points = ReadPoints(File(stem, ".obc"), &project.network, &project.remarks);
   ReadMarks(File(stem, ".phc"), photos, points, options, &project);

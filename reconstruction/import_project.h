@@ -36,6 +36,10 @@ struct AiconOptions {
 ImportedProject ReadAiconProject(const std::filesystem::path& path,
                                  const AiconOptions& options = {});
 
+// The cameras of an .ior file, and the pixel of an image coordinate [mm from the middle, y up].
+std::vector<NetworkCamera> ReadAiconCameras(const std::filesystem::path& path);
+Eigen::Vector2d AiconPixel(const MetricCamera& lens, const Eigen::Vector2d& mm);
+
 // A script of DBAT (Damped Bundle Adjustment Toolbox) with the tables it names; lens model 3, or 1
 // and 2 without affinity. Photos are placed by the script's prior orientations, else by resection;
 // points by intersection. Control without sigma is fixed. Throws InputError: a fault in a file,

@@ -31,7 +31,8 @@ int main(int argc, char** argv) {
                  "folder to receive the result as a COLMAP text model as well");
   app.footer("Example:\n  insitu-reconstruct sites/gallery --plane-sigma 0.01");
   return insitu::RunProgram(app, argc, argv, [&] {
-    const insitu::Adjustment adjustment = insitu::ReconstructSite(site, options, start_poses);
+    const insitu::Adjustment adjustment = insitu::ReconstructSite(
+        site, options, start_poses, insitu::CommandLine(app));
     if (!colmap_model.empty()) {
       insitu::WriteColmapText(colmap_model, insitu::ColmapFromAdjustment(adjustment));
     }

@@ -22,18 +22,6 @@ namespace {
 constexpr double kStrongAngle = 0.03;  // [rad], rays at a smaller angle are asked after planes
 constexpr double kWeakAngle = 1e-3;    // [rad]
 
-std::set<std::string> PointsInUse(const Survey& survey) {
-  std::set<std::string> names;
-  for (const ImageObservation& mark : survey.observations) names.insert(mark.point);
-  for (const PolygonOutline& polygon : survey.polygons) {
-    names.insert(polygon.vertices.begin(), polygon.vertices.end());
-  }
-  for (const auto* pairs : {&survey.sun_pairs, &survey.zenith_pairs}) {
-    for (const DirectionPair& pair : *pairs) names.insert({pair.from, pair.to});
-  }
-  return names;
-}
-
 // Grows the set of known points and posed photos from one another.
 class StartFinder {
  public:

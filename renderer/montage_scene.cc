@@ -6,6 +6,7 @@
 
 #include "calibration/error.h"
 #include "renderer/mean_brdf.h"
+#include "renderer/spectral_table.h"
 
 namespace insitu {
 namespace {
@@ -52,8 +53,19 @@ SpectralMaterial NaturalSurface(const NaturalEnvironment& natural, const Polygon
 }
 
 SpectralMaterial ArtificialSurface(const SpectralBasis& spectra, const SurfaceMaterial& material) {
-  return {material.diffuse_weight,
-          spectra.ReflectanceFromRgb(material.diffuse_rgb) / std::numbers::pi, material.specular};
+  const Spectrum albedo = material.reflectance.empty()
+                              ? spectra.ReflectanceFromRgb(material.diffuse_rgb)
+                              : Sampled(material.reflectance, spectra.bins());
+  return {material.diffuse_weight, albedo / std::numbers::pi, material.specular};
+}
+
+// The lamp's own spectrum has its shape, its intensity the luminance.
+Spectrum LampIntensity(const SpectralBasis& spectra, const PointLight& lamp) {
+  const Spectrum from_rgb = spectra.SpectrumFromRgb(lamp.intensity_rgb);
+  if (lamp.spectrum.empty() || lamp.intensity_rgb.maxCoeff() <= 0) return from_rgb;
+  const Spectrum shape = Sampled(lamp.spectrum, spectra.bins());
+  const double luminance = Tristimulus(from_rgb, spectra.bins()).y();
+  return shape * (luminance / Tristimulus(shape, spectra.bins()).y());
 }
 
 // Within ten degrees of level.
@@ -114,7 +126,7 @@ MontageScene MakeMontageScene(NaturalEnvironment natural, const ArtificialEnviro
   }
   for (const PointLight& lamp : artificial.lights) {
     scene.lamps.push_back(
-        {lamp.position - origin, site.spectra.SpectrumFromRgb(lamp.intensity_rgb)});
+        {lamp.position - origin, LampIntensity(site.spectra, lamp), lamp.distribution});
   }
   scene.facets = MakeSkyFacets(site.light.zenith_direction, site.light.polar_facets);
   INSITU_CHECK(scene.facets.directions.size() <= kMostFacets);

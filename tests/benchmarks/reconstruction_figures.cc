@@ -1,23 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// reconstruction_figures DATA [FIGURE...]: the adjustment's figures beside those of other programs, as JSON. DATA holds the
-// projects of ../shared/data/adjustment and calibration; what is missing is left out and named on stderr.
-#include <json/json.h>
+#include "reconstruction_figures.h"
 
 #include <chrono>
 #include <cmath>
-#include <cstdlib>
 #include <fstream>
 #include <functional>
-#include <iostream>
 #include <map>
 #include <regex>
-#include <set>
 #include <sstream>
 
 #include "../reconstruction/network_statistics.h"
 #include "calibration/external_program.h"
-#include "calibration/json_file.h"
-#include "reconstruction/colmap_network.h"
+#include "reconstruction/colmap_export.h"
+#include "reconstruction/colmap_model.h"
 #include "reconstruction/import_project.h"
 #include "reconstruction/lens_residual.h"
 #include "reconstruction/solve_network.h"
@@ -40,7 +35,7 @@ struct PrintedMark {
 };
 
 struct AiconReport {
-  std::map<std::pair<std::string, std::string>, PrintedMark> marks;  // photo, point
+  std::map<std::pair<std::string, std::string>, PrintedMark> marks;           // photo, point
   std::map<std::string, std::pair<Eigen::Vector3d, Eigen::Vector3d>> points;  // mm: place, sigma
 };
 
@@ -65,8 +60,9 @@ AiconReport ReadAiconReport(const fs::path& path) {
     } else if (is_in_marks) {
       double x, y, vx, vy, sy;
       PrintedMark mark;
-      if (words >> point >> photo >> x >> y >> vx >> vy >> mark.sigma_mm >> sy >> mark.redundancy.x() >>
-          mark.redundancy.y() >> mark.test_value.x() >> mark.test_value.y()) {
+      if (words >> point >> photo >> x >> y >> vx >> vy >> mark.sigma_mm >> sy >>
+          mark.redundancy.x() >> mark.redundancy.y() >> mark.test_value.x() >>
+          mark.test_value.y()) {
         report.marks[{photo, point}] = mark;
       }
     }
@@ -96,8 +92,8 @@ void CompareMarks(const Network& network, const NetworkSolution& solution,
     const ObservationRow& at = solution.rows[row];
     if (at.kind != ObservationKind::kMark) continue;
     const MarkObservation& mark = network.marks[at.index];
-    const auto printed = report.marks.find(
-        {network.photos[mark.photo].name, network.points[mark.point].name});
+    const auto printed =
+        report.marks.find({network.photos[mark.photo].name, network.points[mark.point].name});
     if (printed == report.marks.end()) continue;
     const double r = solution.redundancy_numbers[row];
     const double w =
@@ -178,10 +174,10 @@ struct PrintedParameter {
 
 // As DBAT's report.txt prints them. Its principal point counts from the frame's corner, y down.
 const std::map<std::string, PrintedParameter> kCamcalReport = {
-    {"c", {7.457, 0.00105}},         {"xp", {3.61546, 0.00082}},
-    {"yp", {-2.61329, 0.00098}},     {"K1", {0.00458861, 2.21e-5}},
-    {"K2", {-4.51351e-5, 2.65e-6}},  {"K3", {-2.05253e-6, 1.01e-7}},
-    {"P1", {-6.12803e-5, 3.52e-6}},  {"P2", {-4.41171e-5, 3.94e-6}},
+    {"c", {7.457, 0.00105}},           {"xp", {3.61546, 0.00082}},
+    {"yp", {-2.61329, 0.00098}},       {"K1", {0.00458861, 2.21e-5}},
+    {"K2", {-4.51351e-5, 2.65e-6}},    {"K3", {-2.05253e-6, 1.01e-7}},
+    {"P1", {-6.12803e-5, 3.52e-6}},    {"P2", {-4.41171e-5, 3.94e-6}},
     {"aspect", {0.000389598, 2.08e-5}}};
 
 Json::Value DbatCamcal(const fs::path& data) {
@@ -243,16 +239,16 @@ double SecondsOfColmap(const Network& network) {
   const fs::path folder = fs::temp_directory_path() / "insitu_roma_colmap";
   fs::remove_all(folder);
   fs::create_directories(folder / "out");
-  WriteNetworkAsColmap(folder / "in", network);
+  WriteColmapText(folder / "in", ColmapFromNetwork(network));
   return SecondsOf([&] {
-    RunExternal({{"colmap", "bundle_adjuster", "--input_path", (folder / "in").string(),
-                  "--output_path", (folder / "out").string(),
-                  "--BundleAdjustment.refine_focal_length", "0",
-                  "--BundleAdjustment.refine_extra_params", "0"},
-                 "colmap",
-                 folder,
-                 folder / "log",
-                 folder / "log"});
+    RunExternal(
+        {{"colmap", "bundle_adjuster", "--input_path", (folder / "in").string(), "--output_path",
+          (folder / "out").string(), "--BundleAdjustment.refine_focal_length", "0",
+          "--BundleAdjustment.refine_extra_params", "0"},
+         "colmap",
+         folder,
+         folder / "log",
+         folder / "log"});
   });
 }
 
@@ -265,8 +261,9 @@ Json::Value RomaArch(const fs::path& data) {
   json["sigma0_px_self_calibration"] = solution.sigma0;
   json["redundancy"] = solution.redundancy;
   AddParameters(network, solution, &json);
-  Network fixed = start;
+  Network fixed = start;  // as DBAT's report of a fixed camera states it: with an aspect
   fixed.cameras[0].is_free.clear();
+  std::get<MetricCamera>(fixed.cameras[0].lens).parameters[8] = 0.000998889;
   double variances = 0;
   network = fixed;
   json["seconds"] = SecondsOf([&] {
@@ -284,7 +281,7 @@ Json::Value RomaArch(const fs::path& data) {
 
 // ---- synthetic -----------------------------------------------------------------------------
 
-Json::Value Synthetic(const fs::path&) {
+Json::Value Coverage(const fs::path&) {
   const NetworkStatistics statistics = SampleNetworkStatistics(500);
   Json::Value json;
   json["pose"] = statistics.coverage_95.pose;
@@ -299,47 +296,17 @@ Json::Value Synthetic(const fs::path&) {
   return json;
 }
 
-struct Figure {
-  std::string key, folder;  // that it needs; empty: none
-  std::function<Json::Value(const fs::path&)> measure;
-};
-
-const std::vector<Figure> kFigures = {
-    {"coverage_95", "", Synthetic},
-    {"jaicov_aicon", "adjustment/jaicov_aicon", JaicovAicon},
-    {"dbat_camcal", "calibration/dbat_camcal_c4040z", DbatCamcal},
-    {"sxb_aerial", "adjustment/sxb_aerial", SxbAerial},
-    {"roma_arch", "adjustment/roma_arch", RomaArch},
-};
-
-int Run(int argc, char** argv) {
-  if (argc < 2) {
-    std::cerr << "reconstruction_figures DATA [FIGURE...]\n";
-    return 2;
-  }
-  const fs::path data = argv[1];
-  const std::set<std::string> chosen(argv + 2, argv + argc);
-  Json::Value json(Json::objectValue);
-  for (const Figure& figure : kFigures) {
-    if (!chosen.empty() && !chosen.contains(figure.key)) continue;
-    if (!fs::exists(data / figure.folder)) {
-      std::cerr << "skipped " << figure.key << ": no " << (data / figure.folder).string() << '\n';
-      continue;
-    }
-    json[figure.key] = figure.measure(data);
-  }
-  std::cout << json << '\n';
-  return 0;
-}
-
 }  // namespace
-}  // namespace insitu
 
-int main(int argc, char** argv) {
-  try {
-    return insitu::Run(argc, argv);
-  } catch (const std::exception& error) {
-    std::cerr << error.what() << '\n';
-    return 1;
-  }
+const std::vector<ReconstructionFigure>& ReconstructionFigures() {
+  static const std::vector<ReconstructionFigure> kFigures = {
+      {"coverage_95", "", Coverage},
+      {"jaicov_aicon", "adjustment/jaicov_aicon", JaicovAicon},
+      {"dbat_camcal", "calibration/dbat_camcal_c4040z", DbatCamcal},
+      {"sxb_aerial", "adjustment/sxb_aerial", SxbAerial},
+      {"roma_arch", "adjustment/roma_arch", RomaArch},
+  };
+  return kFigures;
 }
+
+}  // namespace insitu

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <iostream>
+
+#include "calibration/error.h"
+#include "calibration/program.h"
+#include "reconstruction/import_survey.h"
+
+namespace {
+
+void AddOptions(CLI::App* app, insitu::SurveyImportOptions* options) {
+  app->add_option("--sigma-m", options->sigma_m, "of points whose file states no accuracy [m]")
+      ->check(CLI::PositiveNumber);
+  app->add_option("--mark-sigma-px", options->mark_sigma_px,
+                  "of marks whose file states no accuracy [px]")
+      ->check(CLI::PositiveNumber);
+  app->add_option("--file-crs", options->file_crs,
+                  "coordinate system of files that name none, e.g. EPSG:2056");
+  app->add_option("--crs", options->crs,
+                  "coordinate system to convert to; default: as read, or the UTM zone of degrees");
+  app->add_option("--check", options->check_points, "points to keep out of the adjustment");
+  app->add_flag("--replace", options->may_replace, "replace survey files that are there already");
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  insitu::SitePaths site;
+  std::vector<std::filesystem::path> files;
+  std::vector<std::string> photos;
+  insitu::SurveyImportOptions options;
+  CLI::App app(
+      "Reads control points and marks as other programs write them (OpenDroneMap, OpenSfM, Pix4D, "
+      "Metashape, MicMac, DBAT, AICON, JAG3D, COLMAP, tables with a header), each recognised by "
+      "its content, and writes survey/control_points.csv and observations.csv.",
+      "insitu-import-survey");
+  app.add_option("--site", site.root, "site folder")->required()->check(CLI::ExistingDirectory);
+  app.add_option("FILE", files, "files to read and merge")->required()->check(CLI::ExistingFile);
+  app.add_option("--photo", photos, "NAME=SITE_PHOTO: a photo that the files name otherwise");
+  AddOptions(&app, &options);
+  app.footer(
+      "Example:\n  insitu-import-survey --site sites/mill points.csv gcp_list.txt --sigma-m 0.02 "
+      "--mark-sigma-px 0.5");
+  return insitu::RunProgram(app, argc, argv, [&] {
+    for (const std::string& pair : photos) {
+      const size_t equals = pair.find('=');
+      if (equals == std::string::npos) {
+        throw insitu::InputError("--photo", "\"" + pair + "\", expected NAME=SITE_PHOTO");
+      }
+      options.photo_names[pair.substr(0, equals)] = pair.substr(equals + 1);
+    }
+    for (const std::string& line : insitu::ImportSurveyInto(site, files, options).report) {
+      std::cout << line << "\n";
+    }
+  });
+}
