@@ -6,8 +6,8 @@
 
 #include "calibration/error.h"
 #include "calibration/photograph.h"
-#include "calibration/whole_file.h"
 #include "reconstruction/align_tie_points.h"
+#include "reconstruction/distinct_photographs.h"
 #include "reconstruction/site_photos.h"
 #include "reconstruction/survey.h"
 
@@ -160,20 +160,6 @@ void NameWhatIsMissing(const std::vector<fs::path>& photos, TiePoints* tie_point
 }
 
 }  // namespace
-
-void RequireDistinctPhotographs(const std::vector<fs::path>& photos) {
-  std::map<std::pair<uintmax_t, size_t>, std::vector<fs::path>> alike;  // by size and hash
-  for (const fs::path& photo : photos) {
-    const std::string content = ReadWhole(photo);
-    auto& others = alike[{content.size(), std::hash<std::string>()(content)}];
-    for (const fs::path& other : others) {
-      if (ReadWhole(other) != content) continue;
-      throw InputError(photo, "is the same photograph as " + other.filename().string() +
-                                  ", expected each photograph once: remove one of them");
-    }
-    others.push_back(photo);
-  }
-}
 
 SiteTiePoints MakeTiePoints(const SitePaths& site, const std::vector<fs::path>& photos,
                             const std::vector<Camera>& cameras, const TiePointsOptions& options) {

@@ -44,7 +44,4 @@ SiteTiePoints MakeTiePoints(const SitePaths& site, const TiePointsOptions& optio
 // alone.
 bool NeedsTiePoints(const SitePaths& site);
 
-// Throws InputError naming both, if two photographs are the same file under two names.
-void RequireDistinctPhotographs(const std::vector<std::filesystem::path>& photos);
-
 }  // namespace insitu

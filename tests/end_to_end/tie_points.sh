@@ -76,5 +76,5 @@ check 'berlin: tie points of other photographs' refuses "photo '03' is not in th
 check 'berlin: a model of other photographs' refuses "'03.jpg' is not in the folder photos" \
   tie_points --model "$site/work/tie_points/model"
 cp -- "$site/photos/04.jpg" "$site/photos/05.jpg"
-check 'berlin: a photograph twice' refuses '05.jpg: is the same photograph as 04.jpg' tie_points
+check 'berlin: a photograph twice' refuses '05.jpg: is the same photograph as .04.jpg' tie_points
 finish

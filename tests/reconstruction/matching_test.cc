@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What stands between photographs and COLMAP: matches, pairs, ideal frames, photographs twice.
+// What stands between photographs and COLMAP: matches, pairs and ideal frames.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -7,11 +7,8 @@
 #include <numeric>
 #include <random>
 
-#include "calibration/error.h"
-#include "calibration/whole_file.h"
 #include "reconstruction/ideal_frame.h"
 #include "reconstruction/match_features.h"
-#include "reconstruction/tie_points_site.h"
 
 namespace insitu {
 namespace {
@@ -86,22 +83,6 @@ TEST(IdealFrame, ShowsWhatTheLensShows) {
       EXPECT_TRUE(ideal.Sees(there));
       EXPECT_LT((*camera.Project(ideal.Unproject(there)) - pixel).norm(), 1e-8);
     }
-  }
-}
-
-TEST(RequireDistinctPhotographs, NamesBothOfTheSame) {
-  const auto folder = std::filesystem::path(testing::TempDir()) / "photo_twice";
-  WriteWhole(folder / "a.jpg", "one");
-  WriteWhole(folder / "b.jpg", "two");
-  WriteWhole(folder / "c.jpg", "one");
-  EXPECT_NO_THROW(RequireDistinctPhotographs({folder / "a.jpg", folder / "b.jpg"}));
-  try {
-    RequireDistinctPhotographs({folder / "a.jpg", folder / "b.jpg", folder / "c.jpg"});
-    FAIL();
-  } catch (const InputError& error) {
-    EXPECT_NE(std::string(error.what()).find("c.jpg: is the same photograph as a.jpg"),
-              std::string::npos)
-        << error.what();
   }
 }
 
