@@ -2,11 +2,11 @@
 #include "reconstruction/import_survey.h"
 
 #include <algorithm>
-#include <charconv>
 
 #include "calibration/photograph.h"
 #include "calibration/whole_file.h"
 #include "reconstruction/survey_crs.h"
+#include "reconstruction/text_table.h"
 
 namespace insitu {
 namespace {
@@ -184,20 +184,14 @@ void ReportFile(const SurveyFile& file, std::vector<std::string>* report) {
   for (const std::string& remark : file.remarks) report->push_back(name + ": " + remark);
 }
 
-std::string Digits(double value) {  // the fewest that give the number back
-  char buffer[32];
-  const auto end = std::to_chars(buffer, buffer + sizeof buffer, value).ptr;
-  return {buffer, end};
-}
-
-std::string Digits(const Eigen::Vector3d& v) {
+std::string DigitsOf(const Eigen::Vector3d& v) {
   return Digits(v.x()) + "," + Digits(v.y()) + "," + Digits(v.z());
 }
 
 std::string PointsTable(const std::vector<ControlPoint>& points) {
   std::string table = "name,x,y,z,sigma_x,sigma_y,sigma_z,role\n";
   for (const ControlPoint& point : points) {
-    table += point.name + "," + Digits(point.position) + "," + Digits(point.sigma) +
+    table += point.name + "," + DigitsOf(point.position) + "," + DigitsOf(point.sigma) +
              (point.role == ControlRole::kCheck ? ",check\n" : ",control\n");
   }
   return table;
@@ -215,8 +209,8 @@ std::string MarksTable(const std::vector<ImageObservation>& marks) {
 std::string CentersTable(const std::vector<CameraPosition>& centers) {
   std::string table = "photo,x,y,z,sigma_x,sigma_y,sigma_z,role\n";
   for (const CameraPosition& center : centers) {
-    table +=
-        center.photo + "," + Digits(center.position) + "," + Digits(center.sigma) + ",weighted\n";
+    table += center.photo + "," + DigitsOf(center.position) + "," + DigitsOf(center.sigma) +
+             ",weighted\n";
   }
   return table;
 }

@@ -34,6 +34,11 @@ std::optional<double> ParseNumber(std::string_view text) {
   return value;
 }
 
+std::string Digits(double value) {
+  char buffer[32];
+  return {buffer, std::to_chars(buffer, buffer + sizeof buffer, value).ptr};
+}
+
 std::string_view TrimmedView(std::string_view text) {
   const size_t first = text.find_first_not_of(kBlanks);
   if (first == std::string_view::npos) return {};

@@ -16,6 +16,8 @@ namespace insitu {
 // nullopt: not a finite number as a whole.
 std::optional<double> ParseNumber(std::string_view text);
 
+std::string Digits(double value);  // the fewest that give the number back
+
 std::string_view TrimmedView(std::string_view text);  // without blanks at its ends
 
 // Pieces between separators, trimmed, empty ones included; none of an empty text.

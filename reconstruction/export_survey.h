@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A site's control points and marks as other programs read them, so that anyone can check us.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "calibration/camera.h"
+#include "reconstruction/survey.h"
+
+namespace insitu {
+
+struct SurveyExport {
+  std::vector<std::filesystem::path> written;
+  std::vector<std::string> report;  // what the format cannot hold, in words
+};
+
+// For DBAT: script.xml and the tables control.txt, check.txt, marks.txt, images.txt, cameras.xml,
+// in DBAT's pixels; points have running numbers, their names are labels. The script resects,
+// intersects and adjusts with the camera fixed, as we do. The lens is the backward Brown one
+// nearest to `camera`; the report says how near. `photographs` are the files, by their name in the
+// survey. Throws InputError: a lens that no Brown camera fits, no marks.
+SurveyExport ExportDbat(const Survey& survey, const Camera& camera,
+                        const std::vector<std::filesystem::path>& photographs,
+                        const std::filesystem::path& folder);
+
+// For OpenDroneMap and OpenSfM: gcp_list.txt under `crs`, which ODM needs. It has no place for
+// sigmas; check points and points without coordinates stay out. Throws InputError: an unknown
+// system, no marks of control points.
+SurveyExport ExportOdm(const Survey& survey, const std::vector<std::filesystem::path>& photographs,
+                       const std::string& crs, const std::filesystem::path& folder);
+
+}  // namespace insitu

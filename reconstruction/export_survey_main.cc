@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <iostream>
+
+#include "calibration/error.h"
+#include "calibration/program.h"
+#include "calibration/site.h"
+#include "reconstruction/export_survey.h"
+
+namespace {
+
+using insitu::InputError;
+
+struct Request {
+  insitu::SitePaths site;
+  std::string format, crs;
+  std::filesystem::path out;
+};
+
+insitu::SurveyExport Export(const Request& request) {
+  const std::vector<std::filesystem::path> photographs = insitu::ListPhotographs(request.site);
+  std::vector<std::string> names;
+  for (const auto& photograph : photographs) names.push_back(photograph.stem().string());
+  const insitu::Survey survey = insitu::ReadSurvey(request.site, names);
+  if (request.format == "odm") {
+    if (request.crs.empty()) {
+      throw InputError("--crs",
+                       "is missing: OpenDroneMap needs the coordinate system of the survey");
+    }
+    return insitu::ExportOdm(survey, photographs, request.crs, request.out);
+  }
+  insitu::RequireResult(request.site.camera(), "insitu-calibrate");
+  return insitu::ExportDbat(survey, insitu::ReadCamera(request.site.camera()), photographs,
+                            request.out);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Request request;
+  CLI::App app(
+      "Writes a site's control points and marks for another program, so that anyone can check the "
+      "adjustment: tables and script of DBAT, or gcp_list.txt of OpenDroneMap.",
+      "insitu-export-survey");
+  app.add_option("SITE", request.site.root, "site folder")
+      ->required()
+      ->check(CLI::ExistingDirectory);
+  app.add_option("--format", request.format, "dbat or odm")
+      ->required()
+      ->check(CLI::IsMember({"dbat", "odm"}));
+  app.add_option("--out", request.out, "folder to write to")->required();
+  app.add_option("--crs", request.crs, "coordinate system of the survey, for odm: EPSG:2056");
+  app.footer("Example:\n  insitu-export-survey sites/mill --format dbat --out /tmp/mill_dbat");
+  return insitu::RunProgram(app, argc, argv, [&] {
+    const insitu::SurveyExport done = Export(request);
+    for (const auto& path : done.written) std::cout << "written: " << path.string() << "\n";
+    for (const std::string& line : done.report) std::cout << line << "\n";
+  });
+}
