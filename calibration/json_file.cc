@@ -174,6 +174,8 @@ Json::Value ToJson(const Eigen::MatrixXd& matrix) {
   return rows;
 }
 
+Json::Value ReadJson(const std::filesystem::path& path) { return Parse(path, ReadWhole(path)); }
+
 void WriteJson(const std::filesystem::path& path, const Json::Value& value) {
   Json::StreamWriterBuilder builder;
   builder.settings_["indentation"] = " ";

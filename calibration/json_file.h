@@ -51,6 +51,9 @@ class JsonNode {
 Json::Value ToJson(const Eigen::VectorXd& vector);
 Json::Value ToJson(const Eigen::MatrixXd& matrix);  // array of rows
 
+// A whole file as it is, for what is only passed on. Throws InputError, at its line.
+Json::Value ReadJson(const std::filesystem::path& path);
+
 // Indented, 17 digits; temporary file, then rename.
 void WriteJson(const std::filesystem::path& path, const Json::Value& value);
 

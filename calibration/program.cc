@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
+#include <filesystem>
 #include <iostream>
 #include <mutex>
 
@@ -37,6 +38,23 @@ int RunProgram(CLI::App& app, int argc, char** argv, const std::function<void()>
     std::cerr << app.get_name() << ": " << error.what() << "\n";
     return kFailure;
   }
+}
+
+std::string CommandLine(const CLI::App& app) {
+  std::string positional, options;
+  for (const CLI::Option* option : app.get_options()) {
+    if (option->get_positional()) {
+      positional += " " + option->get_name();
+      continue;
+    }
+    if (option->count() == 0) continue;
+    options += " " + option->get_name();
+    if (option->get_expected_max() == 0) continue;  // a flag
+    for (const std::string& value : option->results()) {
+      options += " " + std::filesystem::path(value).filename().string();
+    }
+  }
+  return app.get_name() + positional + options;
 }
 
 struct Progress::State {

@@ -13,6 +13,10 @@ namespace insitu {
 // options), 1 for any other failure, with one line on stderr.
 int RunProgram(CLI::App& app, int argc, char** argv, const std::function<void()>& run);
 
+// The command as given, to be repeated elsewhere: the program's name, its positional arguments by
+// their names, then the options that were set, of paths the last part only.
+std::string CommandLine(const CLI::App& app);
+
 // A progress line on stderr, only on a terminal and only for work that lasts over two seconds.
 // Thread-safe.
 class Progress {

@@ -26,12 +26,17 @@ struct SitePaths {
   std::filesystem::path pinhole_camera() const {
     return root / "work/input_images/pinhole.cameramodel";
   }
+  std::filesystem::path tie_points() const { return root / "work/tie_points/tie_points.json"; }
   std::filesystem::path posed_camera(const std::string& photo) const {
     return root / "work/reconstruction" / (photo + ".cameramodel");
   }
   std::filesystem::path scene() const { return root / "work/reconstruction/scene.json"; }
   std::filesystem::path residual_report() const { return root / "work/reconstruction/report.json"; }
   std::filesystem::path residual_page() const { return root / "work/reconstruction/report.html"; }
+  std::filesystem::path observations_csv() const {
+    return root / "work/reconstruction/observations.csv";
+  }
+  std::filesystem::path points_csv() const { return root / "work/reconstruction/points.csv"; }
   std::filesystem::path environment() const { return root / "work/environment.json"; }
   std::filesystem::path artificial() const { return root / "work/building.json"; }
 };

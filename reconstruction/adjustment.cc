@@ -13,6 +13,7 @@
 #include "reconstruction/adjusted_observations.h"
 #include "reconstruction/planarity.h"
 #include "reconstruction/plane.h"
+#include "reconstruction/polygon_covariance.h"
 
 namespace insitu {
 namespace {
@@ -263,6 +264,7 @@ Adjustment Adjust(const Survey& survey, const std::vector<std::string>& photos,
   adjustment.poses = AdjustedPoses(network, solution);
   adjustment.points = AdjustedPoints(network, solution);
   adjustment.planes = AdjustedPlanes(survey_network, solution);
+  adjustment.polygon_covariance = PolygonCovariances(survey, survey_network, solution);
   adjustment.correlations = HighCorrelations(network, solution);
   CompareWithSurvey(survey, &adjustment);
   adjustment.left_out = LeaveOneOut(survey_network, solution);

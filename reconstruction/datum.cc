@@ -177,23 +177,18 @@ Datum FindDatum(const Network& network, const NetworkColumns& columns,
   return datum;
 }
 
-std::pair<int, int> FarApart(const Network& network) {
-  const auto farthest = [&](const Eigen::Vector3d& from) {
-    const auto distance = [&](const NetworkPoint& p) { return (p.position - from).squaredNorm(); };
-    const auto found =
-        std::max_element(network.points.begin(), network.points.end(),
-                         [&](const auto& a, const auto& b) { return distance(a) < distance(b); });
-    return static_cast<int>(found - network.points.begin());
-  };
-  const int first = farthest(ExtentOf(network).middle);
-  return {first, farthest(network.points[first].position)};
-}
-
 std::vector<int> DatumPins(const Network& network, const NetworkColumns& columns,
                            const Datum& datum) {
-  const Eigen::MatrixXd b = InnerConstraints(network, columns, datum);
-  const Eigen::MatrixXd transposed = b.transpose();
-  const auto order = Eigen::ColPivHouseholderQR<Eigen::MatrixXd>(transposed).colsPermutation();
+  const double radius = ExtentOf(network).radius;
+  Eigen::MatrixXd photos = Eigen::MatrixXd::Zero(datum.defect(), columns.count);
+  for (size_t i = 0; i < network.photos.size(); ++i) {
+    const int rotation = *columns.rotation[i];
+    photos.middleCols<3>(rotation) = radius * datum.motions.middleRows<3>(rotation).transpose();
+    if (!columns.center[i]) continue;
+    photos.middleCols<3>(*columns.center[i]) =
+        datum.motions.middleRows<3>(*columns.center[i]).transpose();
+  }
+  const auto order = Eigen::ColPivHouseholderQR<Eigen::MatrixXd>(photos).colsPermutation();
   std::vector<int> pins;
   for (int k = 0; k < datum.defect(); ++k) pins.push_back(order.indices()[k]);
   return pins;

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <utility>
 #include <vector>
 
 #include "reconstruction/solve_network.h"
@@ -16,10 +15,8 @@ namespace insitu {
 Datum FindDatum(const Network& network, const NetworkColumns& columns,
                 const std::vector<ObservationRow>& rows, const Jacobian& jacobian);
 
-// Two points far from one another, whose distance stands for the scale.
-std::pair<int, int> FarApart(const Network& network);
-
-// As many columns as motions, whose values would fix the datum as well as any.
+// As many columns of photos as motions, whose values would fix the datum well. Photos, since some
+// points may be far away and hardly determined.
 std::vector<int> DatumPins(const Network& network, const NetworkColumns& columns,
                            const Datum& datum);
 

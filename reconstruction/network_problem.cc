@@ -48,8 +48,58 @@ Eigen::Vector3d UnitOf(const Network& network, const UnitReference& reference) {
 }  // namespace
 
 NetworkProblem::NetworkProblem(Network* network) : network_(*network), problem_(ProblemOptions()) {
+  first_point_ = 7 * network_.photos.size();
+  first_plane_ = first_point_ + 3 * network_.points.size();
+  first_direction_ = first_plane_ + 4 * network_.planes.size();
+  parameters_.resize(first_direction_ + 3 * network_.directions.size());
+  for (const NetworkCamera& camera : network_.cameras) {
+    lens_parameters_.push_back(LensParameters(camera.lens));
+  }
+  Load();
   AddUnknowns();
   AddObservations();
+}
+
+void NetworkProblem::Load() {
+  const auto put = [](const auto& vector, double* target) {
+    std::copy(vector.data(), vector.data() + vector.size(), target);
+  };
+  for (int i = 0; i < static_cast<int>(network_.photos.size()); ++i) {
+    put(network_.photos[i].cam_from_local.coeffs(), Rotation(i));
+    put(network_.photos[i].center, Center(i));
+  }
+  for (int i = 0; i < static_cast<int>(network_.points.size()); ++i) {
+    put(network_.points[i].position, Point(i));
+  }
+  for (int i = 0; i < static_cast<int>(network_.planes.size()); ++i) {
+    put(network_.planes[i].normal, Normal(i));
+    *Offset(i) = network_.planes[i].offset;
+  }
+  for (int i = 0; i < static_cast<int>(network_.directions.size()); ++i) {
+    put(network_.directions[i].unit, Unit(i));
+  }
+}
+
+void NetworkProblem::Store() {
+  using Eigen::Vector3d;
+  for (int i = 0; i < static_cast<int>(network_.photos.size()); ++i) {
+    network_.photos[i].cam_from_local = Eigen::Quaterniond(Rotation(i)).normalized();
+    network_.photos[i].center = Vector3d(Center(i));
+  }
+  for (int i = 0; i < static_cast<int>(network_.points.size()); ++i) {
+    network_.points[i].position = Vector3d(Point(i));
+  }
+  for (int i = 0; i < static_cast<int>(network_.planes.size()); ++i) {
+    network_.planes[i].normal = Vector3d(Normal(i)).normalized();
+    network_.planes[i].offset = *Offset(i);
+  }
+  for (int i = 0; i < static_cast<int>(network_.directions.size()); ++i) {
+    network_.directions[i].unit = Vector3d(Unit(i)).normalized();
+  }
+  for (size_t i = 0; i < network_.cameras.size(); ++i) {
+    if (!columns_.camera[i]) continue;
+    network_.cameras[i].lens = WithParameters(network_.cameras[i].lens, lens_parameters_[i]);
+  }
 }
 
 int NetworkProblem::AddBlock(double* block, int size, ceres::Manifold* manifold,
@@ -85,13 +135,11 @@ void NetworkProblem::AddUnknowns() {
     }
   }
   for (int i = 0; i < static_cast<int>(network_.planes.size()); ++i) {
-    NetworkPlane& plane = network_.planes[i];
-    columns_.plane.emplace_back(
-        AddBlock(plane.normal.data(), 3, &sphere_manifold_, {Kind::kPlane, i}));
-    AddBlock(&plane.offset, 1, nullptr, {Kind::kPlane, i});
+    columns_.plane.emplace_back(AddBlock(Normal(i), 3, &sphere_manifold_, {Kind::kPlane, i}));
+    AddBlock(Offset(i), 1, nullptr, {Kind::kPlane, i});
   }
   for (int i = 0; i < static_cast<int>(network_.directions.size()); ++i) {
-    double* unit = network_.directions[i].unit.data();
+    double* unit = Unit(i);
     columns_.direction.emplace_back();
     if (network_.directions[i].is_fixed) {
       problem_.AddParameterBlock(unit, 3);
@@ -104,9 +152,6 @@ void NetworkProblem::AddUnknowns() {
 
 void NetworkProblem::AddCameras() {
   columns_.camera.resize(network_.cameras.size());
-  for (const NetworkCamera& camera : network_.cameras) {
-    lens_parameters_.push_back(LensParameters(camera.lens));
-  }
   for (int i = 0; i < static_cast<int>(network_.cameras.size()); ++i) {
     const NetworkCamera& camera = network_.cameras[i];
     if (!IsAdjusted(camera)) continue;
@@ -122,17 +167,11 @@ void NetworkProblem::AddCameras() {
   }
 }
 
-double* NetworkProblem::Rotation(int photo) {
-  return network_.photos[photo].cam_from_local.coeffs().data();
-}
-double* NetworkProblem::Center(int photo) { return network_.photos[photo].center.data(); }
-double* NetworkProblem::Point(int point) { return network_.points[point].position.data(); }
-
 double* NetworkProblem::Unit(const UnitReference& reference) {
   if (const auto* plane = std::get_if<PlaneNormal>(&reference)) {
-    return network_.planes[plane->plane].normal.data();
+    return Normal(plane->plane);
   }
-  return network_.directions[std::get<DirectionUnit>(reference).direction].unit.data();
+  return Unit(std::get<DirectionUnit>(reference).direction);
 }
 
 void NetworkProblem::AddResidual(ObservationKind kind, int index, ceres::CostFunction* cost,
@@ -204,17 +243,18 @@ void NetworkProblem::AddPositions() {
 void NetworkProblem::AddPlanesAndDirections() {
   for (int i = 0; i < static_cast<int>(network_.on_planes.size()); ++i) {
     const PlaneObservation& on_plane = network_.on_planes[i];
-    NetworkPlane& plane = network_.planes[on_plane.plane];
+    const NetworkPlane& plane = network_.planes[on_plane.plane];
     AddResidual(ObservationKind::kPlane, i,
                 AutoDiff<1, 3, 1, 3>(PlaneCost{plane.centroid, on_plane.distance, on_plane.sigma}),
-                {plane.normal.data(), &plane.offset, Point(on_plane.point)}, {on_plane.sigma});
+                {Normal(on_plane.plane), Offset(on_plane.plane), Point(on_plane.point)},
+                {on_plane.sigma});
   }
   for (int i = 0; i < static_cast<int>(network_.along_directions.size()); ++i) {
     const DirectionObservation& pair = network_.along_directions[i];
-    Eigen::Vector3d& unit = network_.directions[pair.direction].unit;
+    const Eigen::Vector3d& unit = network_.directions[pair.direction].unit;
     AddResidual(ObservationKind::kDirection, i,
                 AutoDiff<2, 3, 3, 3>(DirectionCost{AxesAcross(unit), pair.across, pair.sigma}),
-                {unit.data(), Point(pair.from), Point(pair.to)}, {pair.sigma, pair.sigma});
+                {Unit(pair.direction), Point(pair.from), Point(pair.to)}, {pair.sigma, pair.sigma});
   }
 }
 
@@ -227,8 +267,7 @@ void NetworkProblem::AddConstraints() {
   for (int i = 0; i < static_cast<int>(network_.heights.size()); ++i) {
     const HeightObservation& h = network_.heights[i];
     AddResidual(ObservationKind::kHeight, i, AutoDiff<1, 3, 3, 3>(HeightCost{h.height, h.sigma}),
-                {network_.directions[h.direction].unit.data(), Point(h.from), Point(h.to)},
-                {h.sigma});
+                {Unit(h.direction), Point(h.from), Point(h.to)}, {h.sigma});
   }
   for (int i = 0; i < static_cast<int>(network_.angles.size()); ++i) AddAngle(i);
 }
@@ -259,36 +298,74 @@ void NetworkProblem::AddAngle(int index) {
               std::vector<double>(components, angle.sigma));
 }
 
-void NetworkProblem::HoldDistance(int from, int to) {
-  const double distance = (network_.points[to].position - network_.points[from].position).norm();
-  problem_.AddResidualBlock(AutoDiff<1, 3, 3>(DistanceCost{distance, 1e-6 * distance}), nullptr,
-                            Point(from), Point(to));
+void NetworkProblem::HoldPhotos(const std::vector<int>& columns,
+                                const std::vector<double>& weights) {
+  for (size_t i = 0; i < columns.size(); ++i) {
+    const Unknown& unknown = columns_.unknowns[columns[i]];
+    INSITU_CHECK(unknown.kind == Kind::kPhoto);
+    const NetworkPhoto& photo = network_.photos[unknown.index];
+    const double weight = std::sqrt(weights[i]);
+    const int turn = columns[i] - *columns_.rotation[unknown.index];
+    if (turn < 3) {
+      problem_.AddResidualBlock(AutoDiff<1, 4>(TurnCost{turn, photo.cam_from_local, weight}),
+                                nullptr, Rotation(unknown.index));
+    } else {
+      const int axis = columns[i] - *columns_.center[unknown.index];
+      problem_.AddResidualBlock(AutoDiff<1, 3>(CoordinateCost{axis, photo.center[axis], weight}),
+                                nullptr, Center(unknown.index));
+    }
+  }
+}
+
+// Points of which nothing but marks and control speaks are eliminated first: they do not meet.
+std::shared_ptr<ceres::ParameterBlockOrdering> NetworkProblem::Ordering() {
+  std::vector<bool> is_linked(network_.points.size(), false);
+  const auto link = [&](const auto& observations) {
+    for (const auto& o : observations) is_linked[o.from] = is_linked[o.to] = true;
+  };
+  link(network_.edges);
+  link(network_.along_directions);
+  link(network_.distances);
+  link(network_.heights);
+  for (const AngleObservation& angle : network_.angles) {
+    for (const UnitReference* reference : {&angle.first, &angle.second}) {
+      if (const auto* edge = std::get_if<EdgeUnit>(reference)) {
+        is_linked[edge->from] = is_linked[edge->to] = true;
+      }
+    }
+  }
+  auto ordering = std::make_shared<ceres::ParameterBlockOrdering>();
+  for (double* block : blocks_) ordering->AddElementToGroup(block, 1);
+  for (size_t i = 0; i < network_.points.size(); ++i) {
+    if (columns_.point[i] && !is_linked[i]) {
+      ordering->AddElementToGroup(Point(static_cast<int>(i)), 0);
+    }
+  }
+  return ordering->GroupSize(0) > 0 ? ordering : nullptr;
 }
 
 ceres::Solver::Summary NetworkProblem::Solve(const SolveOptions& options) {
+  Load();
   ceres::Solver::Options ceres_options;
   ceres_options.logging_type = ceres::SILENT;
-  ceres_options.linear_solver_type = ceres::SPARSE_NORMAL_CHOLESKY;
+  ceres_options.linear_solver_ordering = Ordering();
+  ceres_options.linear_solver_type =
+      ceres_options.linear_solver_ordering ? ceres::SPARSE_SCHUR : ceres::SPARSE_NORMAL_CHOLESKY;
   // One thread and Eigen's own factorization: the same sums in the same order on every machine.
   ceres_options.sparse_linear_algebra_library_type = ceres::EIGEN_SPARSE;
   ceres_options.num_threads = 1;
   ceres_options.max_num_iterations = options.max_iterations;
-  ceres_options.function_tolerance = 1e-16;
+  ceres_options.function_tolerance = 1e-14;
   ceres_options.gradient_tolerance = 1e-16;
   ceres_options.parameter_tolerance = 1e-14;
   ceres::Solver::Summary summary;
   ceres::Solve(ceres_options, &problem_, &summary);
-  for (NetworkPhoto& photo : network_.photos) photo.cam_from_local.normalize();
-  for (NetworkPlane& plane : network_.planes) plane.normal.normalize();
-  for (NetworkDirection& direction : network_.directions) direction.unit.normalize();
-  for (size_t i = 0; i < network_.cameras.size(); ++i) {
-    if (!columns_.camera[i]) continue;
-    network_.cameras[i].lens = WithParameters(network_.cameras[i].lens, lens_parameters_[i]);
-  }
+  Store();
   return summary;
 }
 
 NetworkProblem::Linearization NetworkProblem::Linearize() {
+  Load();
   ceres::Problem::EvaluateOptions options;
   options.parameter_blocks = blocks_;
   options.residual_blocks = residual_blocks_;

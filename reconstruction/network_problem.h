@@ -3,25 +3,28 @@
 #pragma once
 
 #include <ceres/manifold.h>
+#include <ceres/ordered_groups.h>
 #include <ceres/problem.h>
 #include <ceres/solver.h>
 #include <ceres/sphere_manifold.h>
 
 #include <Eigen/Core>
 #include <list>
+#include <memory>
 #include <vector>
 
 #include "reconstruction/solve_network.h"
 
 namespace insitu {
 
-// The network must outlive the problem and not move.
+// The network must outlive the problem; its lists must keep their lengths.
 class NetworkProblem {
  public:
   explicit NetworkProblem(Network* network);
 
-  // Keeps the distance between two points as it is while solving; no observation.
-  void HoldDistance(int from, int to);
+  // Keeps these columns, of photos, near their present values while solving: no observations, they
+  // only stand for a datum that is free. `weights`: of one row over sigma, squared.
+  void HoldPhotos(const std::vector<int>& columns, const std::vector<double>& weights);
 
   // Moves the network's unknowns to the least-squares solution.
   ceres::Solver::Summary Solve(const SolveOptions& options);
@@ -47,21 +50,30 @@ class NetworkProblem {
   void AddPlanesAndDirections();
   void AddConstraints();
   void AddAngle(int index);
+  std::shared_ptr<ceres::ParameterBlockOrdering> Ordering();
 
   // Returns the block's first column.
   int AddBlock(double* block, int size, ceres::Manifold* manifold, const Unknown& unknown);
   // One row for each of `sigmas`.
   void AddResidual(ObservationKind kind, int index, ceres::CostFunction* cost,
                    const std::vector<double*>& blocks, const std::vector<double>& sigmas);
-  double* Rotation(int photo);
-  double* Center(int photo);
-  double* Point(int point);
+  double* Rotation(int photo) { return &parameters_[7 * photo]; }
+  double* Center(int photo) { return &parameters_[7 * photo + 4]; }
+  double* Point(int point) { return &parameters_[first_point_ + 3 * point]; }
+  double* Normal(int plane) { return &parameters_[first_plane_ + 4 * plane]; }
+  double* Offset(int plane) { return Normal(plane) + 3; }
+  double* Unit(int direction) { return &parameters_[first_direction_ + 3 * direction]; }
   double* Unit(const UnitReference& reference);
+  void Load();   // the network's values into the parameters
+  void Store();  // and back
 
   Network& network_;
   ceres::EigenQuaternionManifold quaternion_manifold_;
   ceres::SphereManifold<3> sphere_manifold_;
   std::list<ceres::SubsetManifold> lens_manifolds_;
+  // One array for all, since Ceres orders blocks by address: the same order in every run.
+  std::vector<double> parameters_;
+  size_t first_point_ = 0, first_plane_ = 0, first_direction_ = 0;
   std::vector<std::vector<double>> lens_parameters_;  // by camera
   ceres::Problem problem_;
   std::vector<double*> blocks_;

@@ -61,6 +61,33 @@ struct PositionCost {
   }
 };
 
+// One component of a rotation's left increment [rad] from where it was, times a weight.
+struct TurnCost {
+  int axis = 0;
+  Eigen::Quaterniond start;
+  double weight = 0;  // [1/rad]
+
+  template <typename T>
+  bool operator()(const T* rotation, T* residual) const {
+    const Eigen::Map<const Eigen::Quaternion<T>> q(rotation);
+    residual[0] = T(2 * weight) * (q * start.conjugate().cast<T>()).vec()[axis];
+    return true;
+  }
+};
+
+// One coordinate of a place kept near a value: (X_axis - value) weight.
+struct CoordinateCost {
+  int axis = 0;
+  double value = 0;   // [m]
+  double weight = 0;  // [1/m]
+
+  template <typename T>
+  bool operator()(const T* point, T* residual) const {
+    residual[0] = (point[axis] - T(value)) * T(weight);
+    return true;
+  }
+};
+
 // A vertex on its polygon's plane: (n . (X - centroid) - d - distance) / sigma. The offset d is
 // counted about the polygon's centroid, so that it hardly correlates with the normal n.
 struct PlaneCost {

@@ -28,6 +28,7 @@ int main(int argc, char** argv) {
       ->check(CLI::ExistingFile);
   app.footer("Example:\n  insitu-reconstruct sites/gallery --plane-sigma 0.01");
   return insitu::RunProgram(app, argc, argv, [&] {
-    std::cout << insitu::ReconstructSite(site, options, start_poses).BriefReport();
+    std::cout << insitu::ReconstructSite(site, options, start_poses, insitu::CommandLine(app))
+                     .BriefReport();
   });
 }

@@ -6,6 +6,8 @@
 
 #include "calibration/json_file.h"
 #include "calibration/whole_file.h"
+#include "reconstruction/input_files.h"
+#include "reconstruction/montage_points.h"
 #include "reconstruction/residual_report.h"
 
 namespace insitu {
@@ -20,6 +22,37 @@ Rigid3 Upright(const Eigen::Vector3d& center, const Eigen::Vector3d& forward) {
   cam_from_world.row(1) = cam_from_world.row(2).cross(cam_from_world.row(0));
   const Eigen::Quaterniond rotation(cam_from_world);
   return {rotation, -(rotation * center)};
+}
+
+ReportContext SiteContext(const SitePaths& site, const AdjustmentOptions& options,
+                          const Adjustment& adjustment, const std::string& command) {
+  ReportContext context;
+  context.options = options;
+  context.command = command;
+  context.inputs = HashInputs(site);
+  if (std::filesystem::exists(site.calibration_report())) {
+    context.calibration = ReadJson(site.calibration_report());
+  }
+  const std::vector<Eigen::Vector2d> region = ReadCalibratedRegion(site.camera());
+  for (size_t i = 0; i < adjustment.cameras.size() && !region.empty(); ++i) {
+    context.calibrated_region[static_cast<int>(i)] = region;
+  }
+  context.montage = MontagePoints(site, adjustment.scene);
+  return context;
+}
+
+// Throws InputError if they are those of other photographs.
+std::optional<TiePoints> TiePointsOf(const SitePaths& site,
+                                     const std::vector<std::string>& photos) {
+  const auto tie_points = ReadTiePoints(site);
+  if (!tie_points) return std::nullopt;
+  for (const auto& [photo, pose] : tie_points->cam_from_model) {
+    if (std::find(photos.begin(), photos.end(), photo) != photos.end()) continue;
+    throw InputError(site.tie_points(), "photo '" + photo +
+                                            "' is not in the folder photos, expected the tie "
+                                            "points of these: run insitu-tie-points again");
+  }
+  return tie_points;
 }
 
 }  // namespace
@@ -40,19 +73,25 @@ std::map<std::string, Rigid3> ReadStartPoses(const std::filesystem::path& path,
 }
 
 Adjustment ReconstructSite(const SitePaths& site, AdjustmentOptions options,
-                           const std::filesystem::path& start_poses) {
+                           const std::filesystem::path& start_poses, const std::string& command) {
   std::vector<std::string> photos;
   for (const auto& path : ListPhotographs(site)) photos.push_back(path.stem().string());
   RequireResult(site.camera(), "insitu-calibrate");
   const std::vector<Camera> cameras(photos.size(), ReadCamera(site.camera()));
-  const Survey survey = ReadSurvey(site, photos);
+  const auto tie_points = TiePointsOf(site, photos);
+  Survey survey =
+      ReadSurvey(site, photos, tie_points ? SurveyFiles::kOptional : SurveyFiles::kRequired);
+  survey.tie_points = tie_points;
   if (!start_poses.empty()) options.initial_cam_from_world = ReadStartPoses(start_poses, photos);
   Adjustment adjustment = Adjust(survey, photos, cameras, options);
-  const Json::Value report = ResidualReport(adjustment, survey);
+  const Json::Value report =
+      ResidualReport(adjustment, survey, SiteContext(site, options, adjustment, command));
   const std::string page = ResidualPage(report);
   WriteSceneGeometry(site, adjustment.scene);
   WriteJson(site.residual_report(), report);
   WriteWhole(site.residual_page(), page);
+  WriteWhole(site.observations_csv(), ObservationsCsv(adjustment));
+  WriteWhole(site.points_csv(), PointsCsv(adjustment));
   return adjustment;
 }
 

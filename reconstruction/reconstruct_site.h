@@ -17,9 +17,11 @@ std::map<std::string, Rigid3> ReadStartPoses(const std::filesystem::path& path,
                                              const std::vector<std::string>& photos);
 
 // Reads site.camera(), the photographs' names and the survey, adjusts, and writes site.scene(), the
-// posed cameras beside it and both forms of the residual report. `start_poses` may be empty.
-// Throws InputError; then nothing is written.
+// posed cameras beside it, the residual report in both forms, and as CSV all observations and
+// points. `start_poses` may be empty; `command` is how the report says that it was made. Throws
+// InputError; then nothing is written.
 Adjustment ReconstructSite(const SitePaths& site, AdjustmentOptions options = {},
-                           const std::filesystem::path& start_poses = {});
+                           const std::filesystem::path& start_poses = {},
+                           const std::string& command = "");
 
 }  // namespace insitu

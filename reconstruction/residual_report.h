@@ -1,18 +1,51 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The residual report: JSON is the source, the self-contained page is made from it alone.
+// The residual report: JSON is the source, the self-contained page is made from it alone. It holds
+// no dates, host names or folders: the same input gives the same bytes.
 #pragma once
 
 #include <json/value.h>
 
+#include <Eigen/Core>
+#include <map>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "reconstruction/adjustment.h"
 
 namespace insitu {
 
-Json::Value ResidualReport(const Adjustment& adjustment, const Survey& survey);
+struct InputFile {
+  std::string name;    // its path below the site folder
+  std::string sha256;  // hexadecimal
+};
 
-// One HTML file without outside references: tables and residual plots, verdict first.
+// A point of the montage, such as a planned building's corner; not part of the adjustment.
+struct MontagePoint {
+  std::string name;
+  Eigen::Vector3d position;  // [m], world
+};
+
+// What the report says besides the adjustment; everything may be missing, and is then said to be.
+struct ReportContext {
+  AdjustmentOptions options;
+  std::string command;  // with its options, without paths
+  std::vector<InputFile> inputs;
+  std::map<std::string, std::string> programs;  // version of other programs used, by name
+  Json::Value calibration;  // the content of the calibration's report.json, or null
+  // By camera (index into Adjustment::cameras): the outline within which boards calibrated it [px].
+  std::map<int, std::vector<Eigen::Vector2d>> calibrated_region;
+  std::vector<MontagePoint> montage;
+};
+
+Json::Value ResidualReport(const Adjustment& adjustment, const Survey& survey,
+                           const ReportContext& context = ReportContext());
+
+// One HTML file without outside references: verdict first, tables and plots.
 std::string ResidualPage(const Json::Value& report);
+
+// Every observation, and every point with its covariance: a header line, then one line each.
+std::string ObservationsCsv(const Adjustment& adjustment);
+std::string PointsCsv(const Adjustment& adjustment);
 
 }  // namespace insitu

@@ -30,6 +30,20 @@ std::vector<Unknown> UnknownsOf(const NetworkColumns& columns, const std::vector
   return unknowns;
 }
 
+// Without it the steps wander, and pseudo-observations in metres would shrink a network whose scale
+// is free.
+void HoldFreeDatum(const Network& network, const NetworkProblem::Linearization& linear,
+                   NetworkProblem* problem) {
+  constexpr double kStiffness = 1e4;  // against all observations of the coordinate
+  const Datum datum = FindDatum(network, problem->columns(), problem->rows(), linear.jacobian);
+  if (datum.defect() == 0) return;
+  const std::vector<int> pins = DatumPins(network, problem->columns(), datum);
+  const Eigen::VectorXd diagonal = NormalMatrix(linear.jacobian).diagonal();
+  std::vector<double> weights;
+  for (const int pin : pins) weights.push_back(kStiffness * diagonal[pin]);
+  problem->HoldPhotos(pins, weights);
+}
+
 // The cofactor matrix in the datum of the inner constraints, if any is free.
 SelectedInverse CofactorOf(const Network& network, const NetworkSolution& solution) {
   Eigen::SparseMatrix<double> normal = NormalMatrix(solution.jacobian);
@@ -83,12 +97,7 @@ NetworkSolution SolveNetwork(Network* network, const SolveOptions& options) {
   const std::vector<Eigen::Vector3d> start = Positions(*network);
   NetworkProblem problem(network);
   NetworkProblem::Linearization linear = problem.Linearize();
-  const bool is_scale_free =
-      FindDatum(*network, problem.columns(), problem.rows(), linear.jacobian).is_free[6];
-  if (is_scale_free) {  // else pseudo-observations in metres would shrink the network
-    const auto [from, to] = FarApart(*network);
-    problem.HoldDistance(from, to);
-  }
+  HoldFreeDatum(*network, linear, &problem);
   const ceres::Solver::Summary summary = problem.Solve(options);
   if (!summary.IsSolutionUsable()) throw NoSolution(summary.message);
   linear = problem.Linearize();

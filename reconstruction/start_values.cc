@@ -3,12 +3,15 @@
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <limits>
 #include <optional>
 #include <set>
 #include <utility>
 
+#include "reconstruction/align_tie_points.h"
 #include "reconstruction/intersection.h"
 #include "reconstruction/plane.h"
 #include "reconstruction/resection.h"
@@ -18,18 +21,6 @@ namespace {
 
 constexpr double kStrongAngle = 0.03;  // [rad], rays at a smaller angle are asked after planes
 constexpr double kWeakAngle = 1e-3;    // [rad]
-
-std::set<std::string> PointsInUse(const Survey& survey) {
-  std::set<std::string> names;
-  for (const ImageObservation& mark : survey.observations) names.insert(mark.point);
-  for (const PolygonOutline& polygon : survey.polygons) {
-    names.insert(polygon.vertices.begin(), polygon.vertices.end());
-  }
-  for (const auto* pairs : {&survey.sun_pairs, &survey.zenith_pairs}) {
-    for (const DirectionPair& pair : *pairs) names.insert({pair.from, pair.to});
-  }
-  return names;
-}
 
 // Grows the set of known points and posed photos from one another.
 class StartFinder {
@@ -47,15 +38,23 @@ class StartFinder {
 
   StartValues Find() {
     TakeControl();
-    std::vector<size_t> ambiguous;
+    if (survey_.tie_points) PlaceByTiePoints();
+    std::vector<size_t> ambiguous, waiting;
     for (size_t photo = 0; photo < result_.cameras.size(); ++photo) {
+      if (is_posed_[photo]) continue;
+      if (survey_.tie_points && !CanResect(photo)) {
+        waiting.push_back(photo);
+        continue;
+      }
       is_posed_[photo] = !ResectFromControl(photo);
       if (!is_posed_[photo]) ambiguous.push_back(photo);
     }
     FindPoints();
     for (const size_t photo : ambiguous) ResectAgain(photo);
     FindPoints();
+    ResectWaiting(std::move(waiting));
     RequireAllFound();
+    if (survey_.tie_points) TakeTiePoints();
     return std::move(result_);
   }
 
@@ -80,6 +79,74 @@ class StartFinder {
       } else if (in_use) {
         SetKnown(control.name, {control.position, control.sigma.maxCoeff()});
       }
+    }
+  }
+
+  // Photos that image matching placed stand where its model, moved into the world, has them. Where
+  // too little control tells where that is, photos that show enough of their own are resected.
+  void PlaceByTiePoints() {
+    std::map<std::string, Camera> cameras;
+    for (const PosedCamera& posed : result_.cameras) cameras.emplace(posed.photo, posed.camera);
+    TiePoints tie_points = *survey_.tie_points;
+    const TiePointAlignment alignment = AlignTiePoints(survey_, cameras, &tie_points);
+    bool can_resect_all = true;
+    for (size_t i = 0; i < cameras.size(); ++i) can_resect_all = can_resect_all && CanResect(i);
+    if (!alignment.fit && can_resect_all) return;
+    if (!alignment.fit && alignment.pairs >= 3) {
+      throw InputError(FileOfObservations().path, alignment.warnings.at(0));
+    }
+    result_.warnings = alignment.warnings;
+    for (const auto& [photo, cam_from_world] : tie_points.cam_from_model) {
+      const size_t index = index_of_photo_.at(photo);
+      result_.cameras[index].cam_from_world = cam_from_world;
+      is_posed_[index] = true;
+    }
+    aligned_ = std::move(tie_points);
+  }
+
+  bool CanResect(size_t photo) const {
+    const ImageObservation *first_known = nullptr, *first_of_photo = nullptr;
+    std::vector<Eigen::Vector3d> positions;
+    for (const ResectionPoint& point : KnownMarks(photo, &first_known, &first_of_photo)) {
+      positions.push_back(point.world);
+    }
+    return !AreCollinear(positions);
+  }
+
+  // Photos that image matching left out and that show too little control: from points that others
+  // determine, as long as that helps.
+  void ResectWaiting(std::vector<size_t> waiting) {
+    while (!waiting.empty()) {
+      const auto next = std::find_if(waiting.begin(), waiting.end(),
+                                     [&](size_t photo) { return CanResect(photo); });
+      const size_t photo = next == waiting.end() ? waiting.front() : *next;
+      if (ResectFromControl(photo)) ResectAgain(photo);  // throws if it still shows too little
+      is_posed_[photo] = true;
+      std::erase(waiting, photo);
+      FindPoints();
+    }
+  }
+
+  // In the world: as aligned, else intersected from the resected photos.
+  void TakeTiePoints() {
+    const TiePoints& source = aligned_ ? *aligned_ : *survey_.tie_points;
+    result_.tie_point_sigma_px = source.sigma_px;
+    for (size_t i = 0; i < source.points.size(); ++i) {
+      char name[32];
+      std::snprintf(name, sizeof(name), "tie_%06zu", i + 1);
+      StartTiePoint point{name, source.points[i].position, {}};
+      std::vector<Sight> sights;
+      for (const TiePointMark& mark : source.points[i].marks) {
+        const size_t photo = index_of_photo_.at(mark.photo);
+        point.marks.push_back({static_cast<int>(photo), mark.pixel});
+        sights.push_back({&result_.cameras[photo], mark.pixel});
+      }
+      if (!aligned_) {
+        const auto position = Intersect(sights, kStrongAngle);
+        if (!position) continue;
+        point.position = *position;
+      }
+      result_.tie_points.push_back(std::move(point));
     }
   }
 
@@ -274,6 +341,7 @@ class StartFinder {
   std::map<std::string, size_t> index_of_photo_;
   std::vector<bool> is_posed_;
   std::set<std::string> unknown_;
+  std::optional<TiePoints> aligned_;  // the tie points in the world, if their poses are used
 };
 
 }  // namespace

@@ -1,15 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The surveyor's files: control points, marks on photographs, polygons, directions.
+// The surveyor's files: control points, marks on photographs, polygons, directions; camera
+// positions, edges and constraints where there are some.
 #pragma once
 
 #include <Eigen/Core>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
 #include "calibration/json_file.h"
 #include "calibration/site.h"
+#include "reconstruction/tie_points.h"
 
 namespace insitu {
 
@@ -102,16 +105,28 @@ struct Survey {
   std::vector<CameraPosition> camera_positions;
   std::vector<EdgeMark> edges;
   std::vector<GeometricConstraint> constraints;
+  std::optional<TiePoints> tie_points = {};  // in their own frame; of insitu-tie-points, if it was run
 };
 
-// Reads the survey folder and resolves every name. Throws InputError at the offending line: a name
-// twice, an observation of a photo that is not there or of a point that is neither surveyed nor a
-// vertex nor part of a direction pair, a mark outside any sensible frame, sigma <= 0, a polygon
-// with fewer than three distinct vertices, an unknown role, a direction pair of one point.
-// directions.json may be missing; the other three files may not.
-Survey ReadSurvey(const SitePaths& site, const std::vector<std::string>& photos);
+// Photographs with tie points need no survey at all.
+enum class SurveyFiles { kRequired, kOptional };
 
-// Where a point is first stated: its first mark, else its control row, polygon or direction pair.
+// Reads the survey folder and resolves every name. Throws InputError at the offending line: a name
+// twice, an observation of a photo that is not there or of a point that no other file names, a
+// pair, edge or constraint of a point that is neither surveyed nor marked nor a vertex, a mark
+// outside any sensible frame, sigma <= 0, a polygon with fewer than three distinct vertices, an
+// unknown role, kind or key, a pair or edge of one point. Unknown names come with the nearest known
+// ones. control_points.csv, observations.csv and polygons.json must be there unless
+// `files` says otherwise, the other files may. tie_points stays empty: reconstruct_site.h sets it.
+Survey ReadSurvey(const SitePaths& site, const std::vector<std::string>& photos,
+                  SurveyFiles files = SurveyFiles::kRequired);
+
+// The points that are to be found: marked, vertices, ends of direction pairs and edges, or part of
+// a constraint. Control points that nothing refers to are not among them.
+std::set<std::string> PointsInUse(const Survey& survey);
+
+// Where a point is first stated: its first mark, else its control row, polygon, direction pair,
+// edge or constraint.
 FilePlace PlaceOfPoint(const Survey& survey, const std::string& name);
 
 }  // namespace insitu

@@ -22,6 +22,7 @@ Eigen::Vector3d RoundedCentroid(const Survey& survey, const StartValues& start) 
   }
   if (count == 0) {
     for (const auto& [name, point] : start.points) mean += (point.position - mean) / ++count;
+    for (const StartTiePoint& point : start.tie_points) mean += (point.position - mean) / ++count;
   }
   return (mean / kOriginStep).array().round() * kOriginStep;
 }
@@ -44,6 +45,7 @@ class Builder {
     if (!survey_.sun_pairs.empty()) result_.sun = AddDirection("sun", survey_.sun_pairs);
     AddZenith();
     AddMarks();
+    AddTiePoints();
     AddControl();
     AddCameraPositions();
     for (const GeometricConstraint& constraint : survey_.constraints) AddConstraint(constraint);
@@ -144,6 +146,16 @@ class Builder {
     for (const EdgeMark& edge : survey_.edges) {
       network_.edges.push_back(
           {Photo(edge.photo), Point(edge.from), Point(edge.to), edge.pixel, edge.sigma_px});
+    }
+  }
+
+  void AddTiePoints() {
+    for (const StartTiePoint& tie : start_.tie_points) {
+      const int point = static_cast<int>(network_.points.size());
+      network_.points.push_back({tie.name, tie.position - network_.origin, false, true});
+      for (const StartTiePoint::Mark& mark : tie.marks) {
+        network_.marks.push_back({mark.photo, point, mark.pixel, start_.tie_point_sigma_px});
+      }
     }
   }
 

@@ -5,10 +5,12 @@
 
 #include <Eigen/Core>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "calibration/rigid3.h"
+#include "calibration/site.h"
 
 namespace insitu {
 
@@ -19,14 +21,23 @@ struct TiePointMark {
 
 struct TiePoint {
   Eigen::Vector3d position;         // in the model's frame
-  std::vector<TiePointMark> marks;  // two or more photos
+  std::vector<TiePointMark> marks;  // two or more photos, one mark each
 };
 
 // A model of its own frame and scale until it is aligned with control.
 struct TiePoints {
   std::map<std::string, Rigid3> cam_from_model;  // of the photos that could be placed
   std::vector<TiePoint> points;
-  double sigma_px = 1;  // of a mark
+  double sigma_px = 1;                       // of a mark
+  std::vector<std::string> not_placed = {};  // photos that image matching could not place
+  std::vector<std::string> remarks = {};     // what was dropped, merged, left out; for the user
 };
+
+// site.tie_points(), written whole and with 17 digits.
+void WriteTiePoints(const SitePaths& site, const TiePoints& tie_points);
+
+// nullopt: insitu-tie-points has not been run. Throws InputError at the line: a file that is none
+// of ours or cut short, a point of fewer than two photos, a mark of a photo that is not placed.
+std::optional<TiePoints> ReadTiePoints(const SitePaths& site);
 
 }  // namespace insitu

@@ -1,146 +1,204 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "reconstruction/verdict.h"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <set>
 
 namespace insitu {
 namespace {
 
-constexpr double kCriticalTestValue = 3.29;  // two-sided, 0.1 %
-constexpr double kSignificance = 0.05;       // of the global test
-constexpr double kSmallAngle = 5 * M_PI / 180;
-constexpr double kCheckLimit = 1.5;  // root mean square over combined sigma; twice that fails
-
-std::string Number(const char* format, double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, format, value);
-  return text;
-}
-
-// "points with rays within 5 degrees (2): a, b"; at most eight names.
-Objection Listing(const std::string& what, const std::vector<std::string>& names) {
-  constexpr size_t kShown = 8;
-  std::string text = what + " (" + std::to_string(names.size()) + "): ";
-  for (size_t i = 0; i < std::min(names.size(), kShown); ++i) text += (i ? ", " : "") + names[i];
-  if (names.size() > kShown) text += " and " + std::to_string(names.size() - kShown) + " more";
-  return {Severity::kReview, text};
-}
+constexpr double kInseparable = 0.99;  // correlation of two unknowns of a photo or camera
+constexpr double kCheckLimit = 1.5;    // root mean square over combined sigma; twice that fails
 
 void JudgeGlobalTest(const Adjustment& adjustment, std::vector<Objection>* objections) {
+  const GlobalTest& test = adjustment.global_test;
   if (adjustment.redundancy == 0) {
-    objections->push_back({Severity::kReview, "no redundancy: errors cannot be found"});
-  } else if (adjustment.chi_square_p < kSignificance) {
+    objections->push_back({Severity::kReview, "no redundancy: errors cannot be found",
+                           "measure more marks or survey more control points"});
+  } else if (adjustment.chi_square_p < test.alpha) {
     const bool is_worse = adjustment.sigma0 > 1;
-    const bool is_far = adjustment.sigma0 > 2;
+    const std::string figures = "the global test is not met: sigma0 " +
+                                Number("%.2f", adjustment.sigma0) + ", p " +
+                                Number("%.4f", adjustment.chi_square_p);
     objections->push_back(
-        {is_far ? Severity::kFail : Severity::kReview,
-         "the global test is not met: sigma0 " + Number("%.2f", adjustment.sigma0) + ", p " +
-             Number("%.4f", adjustment.chi_square_p) +
-             (is_worse ? "; the observations are worse than their sigmas say, or one is wrong"
-                       : "; the observations are better than their sigmas say")});
+        {adjustment.sigma0 > 2 ? Severity::kFail : Severity::kReview,
+         figures + (is_worse ? "; the observations are worse than their sigmas say, or one is wrong"
+                             : "; the observations are better than their sigmas say"),
+         is_worse
+             ? "correct flagged observations first, one at a time; if none is left, state the "
+               "larger sigmas that the table of groups shows"
+             : "state smaller sigmas, by the table of groups: sigma0 of a group is the factor"});
   }
 }
 
 void JudgeObservations(const Adjustment& adjustment, std::vector<Objection>* objections) {
-  std::vector<std::pair<double, std::string>> flagged;
+  const std::optional<ObservationResidual> suspect = Suspect(adjustment);
+  if (!suspect) return;
+  const auto flagged = std::count_if(
+      adjustment.residuals.begin(), adjustment.residuals.end(),
+      [&](const auto& row) { return std::abs(row.w.value_or(0)) > adjustment.critical_w; });
+  const std::string number = std::to_string(flagged);
+  objections->push_back({Severity::kReview,
+                         number + (flagged == 1 ? " observation has" : " observations have") +
+                             " a test value over " + Number("%.2f", adjustment.critical_w) +
+                             "; the suspect is " + Describe(*suspect) + ", w " +
+                             Number("%.1f", *suspect->w),
+                         Advice(*suspect) + "; then adjust again before judging the next one"});
+}
+
+void JudgeControl(const Adjustment& adjustment, std::vector<Objection>* objections) {
+  int weak = 0, marks = 0;
   for (const ObservationResidual& row : adjustment.residuals) {
-    const double w = std::abs(TestValue(row).value_or(0));
-    if (w <= kCriticalTestValue) continue;
-    const std::string where = row.photo.empty() ? row.group : row.photo + " " + row.group;
-    flagged.emplace_back(-w, row.subject + " (" + where + ", w " + Number("%.1f", w) + ")");
+    if (!row.group.starts_with("image")) continue;
+    ++marks;
+    weak += row.redundancy < kWeaklyControlled;
   }
-  if (flagged.empty()) return;
-  std::sort(flagged.begin(), flagged.end());
+  if (weak == 0) return;
+  objections->push_back(
+      {Severity::kNote,
+       std::to_string(weak) + " of " + std::to_string(marks) +
+           " image coordinates are hardly controlled by others (redundancy number below 0.1): an "
+           "error in them would not show",
+       "mark their points on more photos"});
+}
+
+// Centre and rotation of one photo are correlated by nature, and those of a far point lie along its
+// ray; only what can hardly be told apart spoils the result.
+void JudgeCorrelations(const Adjustment& adjustment, std::vector<Objection>* objections) {
+  if (adjustment.correlations.empty()) return;
+  std::vector<std::string> pairs;
+  Severity severity = Severity::kNote;
+  for (const Correlation& pair : adjustment.correlations) {
+    pairs.push_back(pair.first + " with " + pair.second + " " + Number("%.3f", pair.value));
+    const bool is_point = pair.first.starts_with("point ");
+    if (!is_point && std::abs(pair.value) > kInseparable) severity = Severity::kReview;
+  }
+  objections->push_back({severity, Listing("correlations above 0.95", pairs, 3),
+                         "where that matters, take photos from other sides, some turned by 90 "
+                         "degrees, and spread control in depth"});
+}
+
+std::vector<std::string> WorstPoints(const std::vector<PointComparison>& comparisons) {
+  std::vector<std::pair<double, std::string>> points;
+  for (const PointComparison& point : comparisons) {
+    const double over_sigma = point.difference.cwiseQuotient(point.sigma).cwiseAbs().maxCoeff();
+    if (over_sigma > 3) points.emplace_back(-over_sigma, point.name);
+  }
+  std::sort(points.begin(), points.end());
   std::vector<std::string> names;
-  for (const auto& [minus_w, name] : flagged) names.push_back(name);
-  objections->push_back(Listing("observations with a test value over 3.29", names));
+  for (const auto& [minus_over_sigma, name] : points) names.push_back(name);
+  return names;
 }
 
-// Control points are determined by the survey; only the others depend on their rays.
-void JudgeRays(const Adjustment& adjustment, const Survey& survey,
-               std::vector<Objection>* objections) {
-  std::set<std::string> controlled;
-  for (const PointComparison& point : adjustment.control) controlled.insert(point.name);
-  const std::map<std::string, double> angles = LargestRayAngles(adjustment, survey);
-  std::vector<std::string> few, narrow;
-  for (const AdjustedPoint& point : adjustment.points) {
-    if (controlled.contains(point.name)) continue;
-    const auto angle = angles.find(point.name);
-    if (point.rays < 2) few.push_back(point.name);
-    if (angle != angles.end() && angle->second < kSmallAngle) narrow.push_back(point.name);
-  }
-  if (!few.empty()) {
-    objections->push_back(Listing("points on fewer than two photos, held by polygons alone", few));
-  }
-  if (!narrow.empty()) objections->push_back(Listing("points with rays within 5 degrees", narrow));
+Objection Disagreement(const std::string& what, double rms,
+                       const std::vector<PointComparison>& comparisons) {
+  const std::vector<std::string> worst = WorstPoints(comparisons);
+  return {rms > 2 * kCheckLimit ? Severity::kFail : Severity::kReview,
+          what + " by " + Number("%.2f", rms) + " times the sigma expected" +
+              (worst.empty() ? "" : "; " + Listing("more than 3 sigma off", worst)),
+          "check their coordinates and marks; if they are right, control, marks or lens are worse "
+          "than their sigmas say"};
 }
 
-void JudgeCheckPoints(const Adjustment& adjustment, std::vector<Objection>* objections) {
-  if (adjustment.check.empty()) {
-    objections->push_back({Severity::kReview, "no check points: accuracy not verified"});
-  } else if (adjustment.check_rms_over_sigma > kCheckLimit) {
+void JudgeAccuracy(const Adjustment& adjustment, std::vector<Objection>* objections) {
+  if (adjustment.check_rms_over_sigma > kCheckLimit) {
     objections->push_back(
-        {adjustment.check_rms_over_sigma > 2 * kCheckLimit ? Severity::kFail : Severity::kReview,
-         "the check points differ by " + Number("%.2f", adjustment.check_rms_over_sigma) +
-             " times their combined sigma"});
+        Disagreement("the check points differ", adjustment.check_rms_over_sigma, adjustment.check));
   }
+  if (!adjustment.check.empty()) return;
+  std::string reason = "no check points: accuracy not verified independently";
+  if (!adjustment.left_out.empty()) {
+    reason += "; each control point predicted from the rest of the network differs by " +
+              Number("%.2f", adjustment.left_out_rms_over_sigma) + " times the sigma expected";
+  }
+  objections->push_back({Severity::kReview, reason,
+                         "survey some well spread points more and give them the role check"});
+  if (adjustment.left_out_rms_over_sigma > kCheckLimit) {
+    objections->push_back(Disagreement("control points contradict one another",
+                                       adjustment.left_out_rms_over_sigma, adjustment.left_out));
+  }
+}
+
+void JudgeDatum(const Adjustment& adjustment, std::vector<Objection>* objections) {
+  if (adjustment.datum_defect == 0) return;
+  objections->push_back(
+      {Severity::kReview, "the datum is " + adjustment.datum,
+       "survey three control points or more, not on one line, and mark them on two photos each"});
+}
+
+void PassOnWarnings(const Adjustment& adjustment, std::vector<Objection>* objections) {
+  for (const std::string& warning : adjustment.warnings) {
+    const bool is_said = warning == "the datum is " + adjustment.datum;
+    if (!is_said) objections->push_back({Severity::kReview, warning, ""});
+  }
+}
+
+const char* Word(Severity severity) {
+  switch (severity) {
+    case Severity::kNote:
+      return "note";
+    case Severity::kReview:
+      return "review";
+    case Severity::kFail:
+      break;
+  }
+  return "fail";
 }
 
 }  // namespace
 
-std::optional<double> TestValue(const ObservationResidual& row) {
-  if (row.redundancy < 1e-6) return std::nullopt;
-  return row.residual / (row.sigma * std::sqrt(row.redundancy));
+std::string Number(const char* format, double value) {
+  char text[64];
+  std::snprintf(text, sizeof text, format, value);
+  return text;
 }
 
-std::map<std::string, double> LargestRayAngles(const Adjustment& adjustment, const Survey& survey) {
-  std::map<std::string, Eigen::Vector3d> center_of_photo, position_of_point;
-  for (const AdjustedPose& pose : adjustment.poses) {
-    center_of_photo[pose.photo] = Center(pose.cam_from_world);
-  }
-  for (const AdjustedPoint& point : adjustment.points) {
-    position_of_point[point.name] = point.position;
-  }
-  std::map<std::string, std::vector<Eigen::Vector3d>> rays;
-  std::map<std::string, double> angles;
-  for (const ImageObservation& mark : survey.observations) {
-    const Eigen::Vector3d ray = position_of_point.at(mark.point) - center_of_photo.at(mark.photo);
-    for (const Eigen::Vector3d& other : rays[mark.point]) {
-      const double angle = std::atan2(ray.cross(other).norm(), ray.dot(other));
-      double& largest = angles[mark.point];
-      largest = std::max(largest, angle);
-    }
-    rays[mark.point].push_back(ray);
-  }
-  return angles;
+std::string Listing(const std::string& what, const std::vector<std::string>& names, size_t shown) {
+  std::string text = what + " (" + std::to_string(names.size()) + "): ";
+  for (size_t i = 0; i < std::min(names.size(), shown); ++i) text += (i ? ", " : "") + names[i];
+  if (names.size() > shown) text += " and " + std::to_string(names.size() - shown) + " more";
+  return text;
 }
 
-std::vector<Objection> Judge(const Adjustment& adjustment, const Survey& survey) {
+std::optional<ObservationResidual> Suspect(const Adjustment& adjustment) {
+  const ObservationResidual* suspect = nullptr;
+  double largest = adjustment.critical_w;
+  for (const ObservationResidual& row : adjustment.residuals) {
+    if (std::abs(row.w.value_or(0)) <= largest) continue;
+    largest = std::abs(*row.w);
+    suspect = &row;
+  }
+  return suspect ? std::optional(*suspect) : std::nullopt;
+}
+
+std::vector<Objection> Judge(const Adjustment& adjustment, const ReportContext& context) {
   std::vector<Objection> objections;
   JudgeGlobalTest(adjustment, &objections);
   JudgeObservations(adjustment, &objections);
-  JudgeCheckPoints(adjustment, &objections);
-  JudgeRays(adjustment, survey, &objections);
-  for (const std::string& warning : adjustment.warnings) {
-    objections.push_back({Severity::kReview, warning});
-  }
+  JudgeAccuracy(adjustment, &objections);
+  JudgeDatum(adjustment, &objections);
+  JudgeGeometry(adjustment, context, &objections);
+  JudgeCorrelations(adjustment, &objections);
+  PassOnWarnings(adjustment, &objections);
+  JudgeControl(adjustment, &objections);
   return objections;
 }
 
 Json::Value VerdictReport(std::vector<Objection> objections) {
   std::stable_sort(objections.begin(), objections.end(),
                    [](const auto& a, const auto& b) { return a.severity > b.severity; });
-  const Severity worst = objections.empty() ? Severity::kPass : objections.front().severity;
+  const Severity worst = objections.empty() ? Severity::kNote : objections.front().severity;
   Json::Value json;
-  json["status"] = worst == Severity::kPass     ? "pass"
-                   : worst == Severity::kReview ? "review"
-                                                : "fail";
+  json["status"] = worst == Severity::kNote ? "pass" : Word(worst);
   json["reasons"] = Json::Value(Json::arrayValue);
-  for (const Objection& objection : objections) json["reasons"].append(objection.reason);
+  for (const Objection& objection : objections) {
+    Json::Value reason;
+    reason["severity"] = Word(objection.severity);
+    reason["reason"] = objection.reason;
+    reason["remedy"] = objection.remedy;
+    json["reasons"].append(reason);
+  }
   return json;
 }
 

@@ -1,36 +1,56 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a photogrammetrist would object to in an adjustment.
+// What a photogrammetrist would object to in an adjustment, and what the surveyor can do about it.
 #pragma once
 
 #include <json/value.h>
 
-#include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "reconstruction/adjustment.h"
+#include "reconstruction/image_marks.h"
+#include "reconstruction/residual_report.h"
 
 namespace insitu {
 
-enum class Severity { kPass, kReview, kFail };
+enum class Severity { kNote, kReview, kFail };
+
+// Redundancy numbers below this say that an error would hardly show in the residual.
+inline constexpr double kWeaklyControlled = 0.1;
 
 struct Objection {
   Severity severity = Severity::kReview;
   std::string reason;
+  std::string remedy;  // what to do; may be empty
 };
 
-// The test value w = v / (sigma sqrt(r)) of data snooping, standard normal if the observation has
-// no gross error; nullopt if it is not controlled (r below 1e-6).
-std::optional<double> TestValue(const ObservationResidual& row);
-
-// The largest angle between the rays to each point that is marked twice or more [rad].
-std::map<std::string, double> LargestRayAngles(const Adjustment& adjustment, const Survey& survey);
-
 // Empty: nothing to object to.
-std::vector<Objection> Judge(const Adjustment& adjustment, const Survey& survey);
+std::vector<Objection> Judge(const Adjustment& adjustment, const ReportContext& context = ReportContext());
 
-// {"status": "pass" | "review" | "fail", "reasons": [...]}, the worst first.
+// {"status": "pass" | "review" | "fail", "reasons": [{"severity", "reason", "remedy"}]}, the worst
+// first; notes leave it a pass.
 Json::Value VerdictReport(std::vector<Objection> objections);
+
+// The observation that data snooping suspects: the largest |w| over the critical value. One at a
+// time, since a gross error spoils the residuals around it. [Baarda 1968]
+std::optional<ObservationResidual> Suspect(const Adjustment& adjustment);
+
+// What the surveyor should do about an observation that was flagged.
+std::string Advice(const ObservationResidual& row);
+
+// "mark 'a3' on photo 'left' (x)": which observation a row is, in words.
+std::string Describe(const ObservationResidual& row);
+
+// The geometry of the network, whatever its residuals: rays, angles, base, control, calibrated
+// region, coverage. Appended to `objections`.
+void JudgeGeometry(const Adjustment& adjustment, const ReportContext& context,
+                   std::vector<Objection>* objections);
+
+// "what (n): a, b, c and m more", at most `shown` names.
+std::string Listing(const std::string& what, const std::vector<std::string>& names,
+                    size_t shown = 8);
+
+// printf's way with one number.
+std::string Number(const char* format, double value);
 
 }  // namespace insitu

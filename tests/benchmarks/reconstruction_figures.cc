@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// reconstruction_figures DATA [FIGURE...]: the adjustment's figures beside those of other programs, as JSON. DATA holds the
-// projects of ../shared/data/adjustment and calibration; what is missing is left out and named on stderr.
+// reconstruction_figures DATA [FIGURE...]: the adjustment's figures beside those of other programs,
+// as JSON. DATA holds the projects of ../shared/data/adjustment and calibration; what is missing is
+// left out and named on stderr.
 #include <json/json.h>
 
 #include <chrono>
@@ -40,7 +41,7 @@ struct PrintedMark {
 };
 
 struct AiconReport {
-  std::map<std::pair<std::string, std::string>, PrintedMark> marks;  // photo, point
+  std::map<std::pair<std::string, std::string>, PrintedMark> marks;           // photo, point
   std::map<std::string, std::pair<Eigen::Vector3d, Eigen::Vector3d>> points;  // mm: place, sigma
 };
 
@@ -65,8 +66,9 @@ AiconReport ReadAiconReport(const fs::path& path) {
     } else if (is_in_marks) {
       double x, y, vx, vy, sy;
       PrintedMark mark;
-      if (words >> point >> photo >> x >> y >> vx >> vy >> mark.sigma_mm >> sy >> mark.redundancy.x() >>
-          mark.redundancy.y() >> mark.test_value.x() >> mark.test_value.y()) {
+      if (words >> point >> photo >> x >> y >> vx >> vy >> mark.sigma_mm >> sy >>
+          mark.redundancy.x() >> mark.redundancy.y() >> mark.test_value.x() >>
+          mark.test_value.y()) {
         report.marks[{photo, point}] = mark;
       }
     }
@@ -96,8 +98,8 @@ void CompareMarks(const Network& network, const NetworkSolution& solution,
     const ObservationRow& at = solution.rows[row];
     if (at.kind != ObservationKind::kMark) continue;
     const MarkObservation& mark = network.marks[at.index];
-    const auto printed = report.marks.find(
-        {network.photos[mark.photo].name, network.points[mark.point].name});
+    const auto printed =
+        report.marks.find({network.photos[mark.photo].name, network.points[mark.point].name});
     if (printed == report.marks.end()) continue;
     const double r = solution.redundancy_numbers[row];
     const double w =
@@ -178,10 +180,10 @@ struct PrintedParameter {
 
 // As DBAT's report.txt prints them. Its principal point counts from the frame's corner, y down.
 const std::map<std::string, PrintedParameter> kCamcalReport = {
-    {"c", {7.457, 0.00105}},         {"xp", {3.61546, 0.00082}},
-    {"yp", {-2.61329, 0.00098}},     {"K1", {0.00458861, 2.21e-5}},
-    {"K2", {-4.51351e-5, 2.65e-6}},  {"K3", {-2.05253e-6, 1.01e-7}},
-    {"P1", {-6.12803e-5, 3.52e-6}},  {"P2", {-4.41171e-5, 3.94e-6}},
+    {"c", {7.457, 0.00105}},           {"xp", {3.61546, 0.00082}},
+    {"yp", {-2.61329, 0.00098}},       {"K1", {0.00458861, 2.21e-5}},
+    {"K2", {-4.51351e-5, 2.65e-6}},    {"K3", {-2.05253e-6, 1.01e-7}},
+    {"P1", {-6.12803e-5, 3.52e-6}},    {"P2", {-4.41171e-5, 3.94e-6}},
     {"aspect", {0.000389598, 2.08e-5}}};
 
 Json::Value DbatCamcal(const fs::path& data) {
@@ -245,14 +247,14 @@ double SecondsOfColmap(const Network& network) {
   fs::create_directories(folder / "out");
   WriteNetworkAsColmap(folder / "in", network);
   return SecondsOf([&] {
-    RunExternal({{"colmap", "bundle_adjuster", "--input_path", (folder / "in").string(),
-                  "--output_path", (folder / "out").string(),
-                  "--BundleAdjustment.refine_focal_length", "0",
-                  "--BundleAdjustment.refine_extra_params", "0"},
-                 "colmap",
-                 folder,
-                 folder / "log",
-                 folder / "log"});
+    RunExternal(
+        {{"colmap", "bundle_adjuster", "--input_path", (folder / "in").string(), "--output_path",
+          (folder / "out").string(), "--BundleAdjustment.refine_focal_length", "0",
+          "--BundleAdjustment.refine_extra_params", "0"},
+         "colmap",
+         folder,
+         folder / "log",
+         folder / "log"});
   });
 }
 
@@ -265,8 +267,9 @@ Json::Value RomaArch(const fs::path& data) {
   json["sigma0_px_self_calibration"] = solution.sigma0;
   json["redundancy"] = solution.redundancy;
   AddParameters(network, solution, &json);
-  Network fixed = start;
+  Network fixed = start;  // as DBAT's report of a fixed camera states it: with an aspect
   fixed.cameras[0].is_free.clear();
+  std::get<MetricCamera>(fixed.cameras[0].lens).parameters[8] = 0.000998889;
   double variances = 0;
   network = fixed;
   json["seconds"] = SecondsOf([&] {

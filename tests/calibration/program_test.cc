@@ -74,5 +74,22 @@ TEST(Program, ProgressIsSilentWithoutATerminal) {
   EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
 }
 
+TEST(CommandLine, SaysWhatWasAskedForWithoutFolders) {
+  CLI::App app("does nothing", "insitu-nothing");
+  std::string site, start;
+  double sigma = 1, unused = 2;
+  bool is_hard = false;
+  app.add_option("SITE", site)->required();
+  app.add_option("--sigma", sigma);
+  app.add_option("--unused", unused);
+  app.add_option("--start", start);
+  app.add_flag("--hard", is_hard);
+  std::vector<std::string> arguments = {
+      "/home/me/start.json", "--start", "--hard", "0.5", "--sigma",
+      "/home/me/site"};  // CLI11 takes them reversed
+  app.parse(arguments);
+  EXPECT_EQ(CommandLine(app), "insitu-nothing SITE --sigma 0.5 --start start.json --hard");
+}
+
 }  // namespace
 }  // namespace insitu

@@ -7,6 +7,7 @@
 #include <random>
 #include <set>
 #include <sstream>
+#include <utility>
 
 #include "calibration/whole_file.h"
 
@@ -48,6 +49,11 @@ class Town {
     AddDirections();
     AddMarks();
     AddControl();
+    if (options_.has_extras) {
+      AddCameraPositions();
+      AddEdges();
+      AddConstraints();
+    }
     return std::move(network_);
   }
 
@@ -156,6 +162,67 @@ class Town {
     }
   }
 
+  // Fixed, weighted, free, weighted.
+  void AddCameraPositions() {
+    for (size_t i = 0; i < network_.photos.size(); ++i) {
+      const PositionRole role = i == 0   ? PositionRole::kFixed
+                                : i == 2 ? PositionRole::kFree
+                                         : PositionRole::kWeighted;
+      network_.survey.camera_positions.push_back(
+          {network_.photos[i],
+           Center(network_.cam_from_world[i]),
+           Eigen::Vector3d::Constant(role == PositionRole::kFree ? 2 : 0.01),
+           role,
+           {"camera_positions.csv", static_cast<int>(i) + 2}});
+    }
+  }
+
+  // Three places on each of two roof edges, on every photo that sees them.
+  void AddEdges() {
+    auto& edges = network_.survey.edges;
+    const std::vector<std::pair<std::string, std::string>> ends = {{"b4", "b5"}, {"c4", "c5"}};
+    for (size_t photo = 0; photo < network_.photos.size(); ++photo) {
+      for (const auto& [from, to] : ends) {
+        for (const double share : {0.2, 0.5, 0.9}) {
+          const Eigen::Vector3d place =
+              (1 - share) * network_.points.at(from) + share * network_.points.at(to);
+          const auto pixel =
+              network_.cameras[photo].Project(network_.cam_from_world[photo] * place);
+          if (!pixel || !network_.cameras[photo].Sees(*pixel)) continue;
+          edges.push_back({network_.photos[photo],
+                           from,
+                           to,
+                           *pixel,
+                           options_.mark_sigma_px,
+                           {"edges.csv", static_cast<int>(edges.size()) + 2}});
+        }
+      }
+    }
+  }
+
+  void AddConstraint(GeometricConstraint::Kind kind, const std::vector<std::string>& polygons,
+                     const std::vector<std::string>& points, double sigma, double value = 0) {
+    const int line = static_cast<int>(network_.survey.constraints.size()) + 2;
+    network_.survey.constraints.push_back(
+        {kind, polygons, points, value, sigma, {"constraints.json", line}});
+  }
+
+  void AddConstraints() {
+    using Kind = GeometricConstraint::Kind;
+    const auto& points = network_.points;
+    AddConstraint(Kind::kDistance, {}, {"b4", "b5"}, 0.003,
+                  (points.at("b5") - points.at("b4")).norm());
+    AddConstraint(Kind::kHeight, {}, {"b0", "c4"}, 0.004,
+                  (points.at("c4") - points.at("b0")).dot(network_.zenith));
+    AddConstraint(Kind::kHeight, {}, {"c4", "c6"}, 0.004);
+    AddConstraint(Kind::kVertical, {"b_wall0"}, {}, 0.002);
+    AddConstraint(Kind::kVertical, {}, {"c1", "c5"}, 0.002);
+    AddConstraint(Kind::kHorizontal, {"b_roof"}, {}, 0.002);
+    AddConstraint(Kind::kHorizontal, {}, {"c4", "c5"}, 0.002);
+    AddConstraint(Kind::kParallel, {"b_wall0", "c_wall0"}, {}, 0.002);
+    AddConstraint(Kind::kPerpendicular, {}, {"b4", "b5", "b5", "b6"}, 0.002);
+  }
+
   SyntheticNetworkOptions options_;
   Rigid3 town_from_world_;
   SyntheticNetwork network_;
@@ -167,14 +234,17 @@ std::ostringstream Digits() {
   return text;
 }
 
+void WriteVector(const Eigen::VectorXd& vector, std::ostream* text) {
+  for (const double value : vector) *text << "," << value;
+}
+
 std::string ControlText(const Survey& survey) {
   std::ostringstream text = Digits();
   text << "name,x,y,z,sigma_x,sigma_y,sigma_z,role\n";
   for (const ControlPoint& point : survey.control_points) {
     text << point.name;
-    for (const Eigen::Vector3d& vector : {point.position, point.sigma}) {
-      text << "," << vector.x() << "," << vector.y() << "," << vector.z();
-    }
+    WriteVector(point.position, &text);
+    WriteVector(point.sigma, &text);
     text << (point.role == ControlRole::kControl ? ",control\n" : ",check\n");
   }
   return text.str();
@@ -190,21 +260,78 @@ std::string MarksText(const Survey& survey) {
   return text.str();
 }
 
+std::string CameraPositionsText(const Survey& survey) {
+  std::ostringstream text = Digits();
+  text << "photo,x,y,z,sigma_x,sigma_y,sigma_z,role\n";
+  for (const CameraPosition& camera : survey.camera_positions) {
+    text << camera.photo;
+    WriteVector(camera.position, &text);
+    WriteVector(camera.sigma, &text);
+    text << (camera.role == PositionRole::kFixed      ? ",fixed\n"
+             : camera.role == PositionRole::kWeighted ? ",weighted\n"
+                                                      : ",free\n");
+  }
+  return text.str();
+}
+
+std::string EdgesText(const Survey& survey) {
+  std::ostringstream text = Digits();
+  text << "photo,from,to,x,y,sigma\n";
+  for (const EdgeMark& edge : survey.edges) {
+    text << edge.photo << "," << edge.from << "," << edge.to;
+    WriteVector(edge.pixel, &text);
+    text << "," << edge.sigma_px << "\n";
+  }
+  return text.str();
+}
+
+std::string NameList(const std::vector<std::string>& names) {
+  std::ostringstream text;
+  text << "[";
+  for (size_t i = 0; i < names.size(); ++i) text << (i ? ", " : "") << std::quoted(names[i]);
+  text << "]";
+  return text.str();
+}
+
 std::string PolygonsText(const Survey& survey) {
   std::ostringstream text;
   text << "{\"polygons\": [\n";
   for (size_t i = 0; i < survey.polygons.size(); ++i) {
     const PolygonOutline& polygon = survey.polygons[i];
-    text << "{\"name\": " << std::quoted(polygon.name) << ", \"vertices\": [";
-    for (size_t k = 0; k < polygon.vertices.size(); ++k) {
-      text << (k ? ", " : "") << std::quoted(polygon.vertices[k]);
-    }
-    text << "], \"photo\": " << std::quoted(polygon.photo.value())
+    text << "{\"name\": " << std::quoted(polygon.name)
+         << ", \"vertices\": " << NameList(polygon.vertices)
+         << ", \"photo\": " << std::quoted(polygon.photo.value())
          << ", \"material\": " << std::quoted(polygon.material) << ", \"mask\": null}"
          << (i + 1 < survey.polygons.size() ? ",\n" : "\n");
   }
   text << "]}\n";
   return text.str();
+}
+
+std::string ConstraintText(const GeometricConstraint& constraint) {
+  const std::array<std::string, 6> kinds = {"distance",   "height",   "vertical",
+                                            "horizontal", "parallel", "perpendicular"};
+  std::ostringstream text = Digits();
+  text << "{\"kind\": " << std::quoted(kinds.at(static_cast<size_t>(constraint.kind)));
+  if (constraint.points.empty()) {
+    text << ", \"polygons\": " << NameList(constraint.polygons);
+  } else {
+    text << ", \"points\": " << NameList(constraint.points);
+  }
+  if (constraint.kind <= GeometricConstraint::Kind::kHeight) {
+    text << ", \"value_m\": " << constraint.value << ", \"sigma_m\": " << constraint.sigma << "}";
+  } else {
+    text << ", \"sigma_mm_per_m\": " << 1000 * constraint.sigma << "}";
+  }
+  return text.str();
+}
+
+std::string ConstraintsText(const Survey& survey) {
+  std::string text = "{\"constraints\": [\n";
+  for (const GeometricConstraint& constraint : survey.constraints) {
+    text += ConstraintText(constraint) + (&constraint == &survey.constraints.back() ? "\n" : ",\n");
+  }
+  return text + "]}\n";
 }
 
 std::string PairLines(const std::vector<DirectionPair>& pairs, const std::string& from,
@@ -234,6 +361,17 @@ Survey WithNoise(const Survey& survey, unsigned seed) {
   for (ControlPoint& point : noisy.control_points) {
     for (int i = 0; i < 3; ++i) point.position[i] += point.sigma[i] * normal(generator);
   }
+  for (CameraPosition& camera : noisy.camera_positions) {
+    if (camera.role == PositionRole::kFixed) continue;
+    for (int i = 0; i < 3; ++i) camera.position[i] += camera.sigma[i] * normal(generator);
+  }
+  for (EdgeMark& edge : noisy.edges) {
+    for (int i = 0; i < 2; ++i) edge.pixel[i] += edge.sigma_px * normal(generator);
+  }
+  for (GeometricConstraint& constraint : noisy.constraints) {
+    if (constraint.kind > GeometricConstraint::Kind::kHeight) continue;  // angles are not measured
+    constraint.value += constraint.sigma * normal(generator);
+  }
   return noisy;
 }
 
@@ -244,6 +382,13 @@ void WriteSurvey(const SitePaths& site, const Survey& survey) {
   WriteWhole(site.survey() / "directions.json",
              "{\"sun\": [\n" + PairLines(survey.sun_pairs, "shadow", "object") +
                  "], \"zenith\": [\n" + PairLines(survey.zenith_pairs, "bottom", "top") + "]}\n");
+  if (!survey.camera_positions.empty()) {
+    WriteWhole(site.survey() / "camera_positions.csv", CameraPositionsText(survey));
+  }
+  if (!survey.edges.empty()) WriteWhole(site.survey() / "edges.csv", EdgesText(survey));
+  if (!survey.constraints.empty()) {
+    WriteWhole(site.survey() / "constraints.json", ConstraintsText(survey));
+  }
 }
 
 }  // namespace insitu

@@ -16,6 +16,7 @@ struct SyntheticNetworkOptions {
   double tilt = 0.006;                         // [rad], of the zenith from the z axis
   double mark_sigma_px = 0.4;
   double control_sigma = 0.005;  // [m]
+  bool has_extras = false;       // camera positions, marks on edges and constraints of each kind
 };
 
 // Four photographs in an arc before three boxes a, b, c on a ground polygon. Every point inside a
@@ -32,10 +33,12 @@ struct SyntheticNetwork {
 };
 SyntheticNetwork MakeSyntheticNetwork(const SyntheticNetworkOptions& options = {});
 
-// Gaussian errors of their own sigma on all marks and surveyed points.
+// Gaussian errors of their own sigma on all marks, surveyed points and camera positions (but fixed
+// ones), measured distances and heights.
 Survey WithNoise(const Survey& survey, unsigned seed);
 
-// Writes the survey files as ReadSurvey expects them, one polygon, pair or point a line.
+// Writes the survey files as ReadSurvey expects them, one polygon, pair, point or constraint a
+// line; of camera_positions.csv, edges.csv and constraints.json those that are not empty.
 void WriteSurvey(const SitePaths& site, const Survey& survey);
 
 }  // namespace insitu

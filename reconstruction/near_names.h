@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What a name that nobody knows was probably meant to be.
+#pragma once
+
+#include <set>
+#include <string>
+#include <vector>
+
+namespace insitu {
+
+// The known names nearest to `name`, at most three, in their order. First those that differ only in
+// case, blanks, signs or leading zeros ("p 07" and "P7"); failing that those one slip of the
+// keyboard away (a letter added, lost, replaced, or two exchanged), two in names of six letters and
+// more. Empty if there are none, or more than three.
+std::vector<std::string> NearNames(const std::string& name, const std::set<std::string>& known);
+
+// "; did you mean 'P7' or 'P8'?", to be put at a message's end; empty without near names.
+std::string DidYouMean(const std::string& name, const std::set<std::string>& known);
+
+}  // namespace insitu

@@ -1,0 +1,51 @@
+// The adjustment as a whole: figures, groups, correlations; what it was made from.
+
+function showSummary() {
+  const s = report.summary, test = s.global_test, node = section("Adjustment");
+  element(node, "p", `${s.observations} observations, ${s.unknowns} unknowns, datum defect ` +
+    `${s.datum_defect}, redundancy ${s.redundancy}; ${count(s.iterations, "iteration")}. ` +
+    `The datum is ${s.datum || "not stated"}.`);
+  element(node, "p", `σ0 ${fixed(s.sigma0, 4)} a posteriori (1 a priori), ${fixed(s.sigma0_px, 3)} px ` +
+    `in the images; RMS of the residuals of ${count(s.marks, "mark")} ${fixed(s.image_rms_px, 3)} px. ` +
+    `Median σ of a vertex coordinate ${fixed(1000 * s.vertex_sigma_m, 1)} mm.`);
+  element(node, "p", `Global test (χ², α ${test.alpha}): Ω = vᵀPv = ${fixed(test.statistic, 1)}, ` +
+    `accepted from ${fixed(test.low, 1)} to ${fixed(test.high, 1)}, p ${fixed(test.p, 4)}: ` +
+    `${test.is_met ? "met" : "not met"}.`);
+  table(node, report.groups, [
+    ["group of observations", g => g.group, "text"],
+    ["number", g => g.count, 0],
+    ["redundancy", g => g.redundancy, 1],
+    ["σ0 of the group", g => g.sigma0, 3],
+  ]);
+  element(node, "p", "σ0 of a group: by what factor its σ would have to change to agree with its " +
+    "residuals (variance component).", "faint");
+}
+
+function showCorrelations() {
+  const node = section("Correlations above 0.95");
+  if (report.correlations.length === 0) return element(node, "p", "None within a photo, camera or point.");
+  longTable(node, report.correlations, [
+    ["unknown", c => c.first, "text"],
+    ["with", c => c.second, "text"],
+    ["correlation", c => c.value, 4],
+  ]);
+}
+
+function showIdentity() {
+  const id = report.identity, node = section("Identity",
+    "What this report was made from. The same files and options give the same bytes.");
+  if (id.command) element(node, "p", id.command);
+  table(node, Object.entries(id.software), [["software", s => s[0], "text"], ["version", s => s[1], "text"]]);
+  table(node, Object.entries(id.options), [
+    ["option", o => o[0], "text"], ["value", o => String(o[1]), "text"]]);
+  element(node, "p", `Coordinates: ${id.coordinate_system} (${id.origin_shift_m.join(", ")}). ` +
+    `Robust loss: ${id.robust_loss}. Random seed: nothing is random.`);
+  if (id.inputs.length === 0) return element(node, "p", "The input files were not stated.", "faint");
+  longTable(node, id.inputs, [["file", f => f.file, "long"], ["SHA-256", f => f.sha256, "long"]]);
+}
+
+function showConventions() {
+  const node = section("Conventions");
+  table(node, Object.entries(report.conventions), [
+    ["what", c => c[0].replaceAll("_", " "), "text"], ["convention", c => c[1], "long"]]);
+}

@@ -1,0 +1,21 @@
+// The report's order: what one must know first comes first.
+showVerdict(report.verdict);
+showSummary();
+showMontage();
+showCheck();
+showControl();
+showControlVectors();
+showPhotos();
+showResidualVectors();
+showCoverage();
+showNetwork();
+showPoints();
+showPolygons();
+showAdjoining();
+showDirections();
+showCameras();
+showLensResiduals();
+showSnooping();
+showCorrelations();
+showIdentity();
+showConventions();

@@ -1,0 +1,221 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "reconstruction/tie_points_site.h"
+
+#include <algorithm>
+#include <set>
+
+#include "calibration/error.h"
+#include "calibration/photograph.h"
+#include "calibration/whole_file.h"
+#include "reconstruction/align_tie_points.h"
+#include "reconstruction/survey.h"
+
+namespace insitu {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string SizeText(int width, int height) {
+  return std::to_string(width) + "x" + std::to_string(height) + " px";
+}
+
+void RequireSizes(const std::vector<fs::path>& photos, const std::vector<Camera>& cameras) {
+  for (size_t i = 0; i < photos.size(); ++i) {
+    const Eigen::Vector2i size = ReadPhotographSize(photos[i]);
+    if (size == Eigen::Vector2i(cameras[i].width(), cameras[i].height())) continue;
+    throw InputError(photos[i], "is " + SizeText(size.x(), size.y()) + ", expected " +
+                                    SizeText(cameras[i].width(), cameras[i].height()) +
+                                    " as its camera was calibrated");
+  }
+}
+
+std::map<std::string, Camera> CamerasByPhoto(const std::vector<fs::path>& photos,
+                                             const std::vector<Camera>& cameras) {
+  std::map<std::string, Camera> by_photo;
+  for (size_t i = 0; i < photos.size(); ++i) by_photo.emplace(photos[i].stem(), cameras[i]);
+  return by_photo;
+}
+
+// What there is of a survey: matching needs it to merge models and to find neighbours only.
+Survey SurveyIfAny(const SitePaths& site, const std::vector<fs::path>& photos) {
+  std::vector<std::string> names;
+  for (const fs::path& photo : photos) names.push_back(photo.stem());
+  return ReadSurvey(site, names, SurveyFiles::kOptional);
+}
+
+std::vector<MatchedModel> ModelsOfColmap(const SitePaths& site, const std::vector<fs::path>& photos,
+                                         const std::vector<Camera>& cameras, const Survey& survey,
+                                         const ColmapOptions& options) {
+  std::vector<MatchingPhoto> matching;
+  for (size_t i = 0; i < photos.size(); ++i) {
+    matching.push_back({photos[i], cameras[i]});
+    for (const CameraPosition& surveyed : survey.camera_positions) {
+      if (surveyed.photo == photos[i].stem()) matching.back().center = surveyed.position;
+    }
+  }
+  std::vector<MatchedModel> models = RunColmap(matching, site.tie_points().parent_path(), options);
+  if (!models.empty()) return models;
+  throw InputError(site.photos(),
+                   "COLMAP connects no two of the " + std::to_string(photos.size()) +
+                       " photographs, expected ones that overlap by half or more and show texture "
+                       "from places some steps apart; its logs are in " +
+                       (site.tie_points().parent_path() / "logs").string());
+}
+
+MatchedModel BroughtModel(const fs::path& folder, const std::vector<fs::path>& photos,
+                          const std::vector<Camera>& cameras) {
+  MatchedModel model;
+  model.colmap = ReadColmapModel(folder);
+  for (auto& [id, image] : model.colmap.images) {
+    const fs::path name = fs::path(image.name).filename();
+    const auto photo = std::find_if(photos.begin(), photos.end(), [&](const fs::path& path) {
+      return path.filename() == name || path.stem() == name.stem();
+    });
+    if (photo == photos.end()) {
+      throw InputError(folder, "its image '" + image.name +
+                                   "' is not in the folder photos, expected a model of this "
+                                   "site's photographs");
+    }
+    const Camera& camera = cameras[static_cast<size_t>(photo - photos.begin())];
+    const ColmapLens& lens = model.colmap.cameras.at(image.camera);
+    if (lens.width != camera.width() || lens.height != camera.height()) {
+      throw InputError(folder, "its image '" + image.name + "' is " +
+                                   SizeText(lens.width, lens.height) + ", expected " +
+                                   SizeText(camera.width(), camera.height()) +
+                                   ": keypoints must be those of the original photographs");
+    }
+    image.name = photo->filename();
+  }
+  model.tie_points = TiePointsFromColmap(model.colmap);
+  return model;
+}
+
+std::string Listed(const std::vector<std::string>& names) {
+  std::string list;
+  for (const std::string& name : names) list += (list.empty() ? "'" : ", '") + name + "'";
+  return list;
+}
+
+std::vector<std::string> NamesOf(const TiePoints& tie_points) {
+  std::vector<std::string> names;
+  for (const auto& [name, pose] : tie_points.cam_from_model) names.push_back(name);
+  return names;
+}
+
+// Adds what `main` does not have yet. Photographs in both keep the pose of `main`; points with a
+// mark that `main` has already are left out.
+void Add(const TiePoints& other, TiePoints* main) {
+  std::set<std::tuple<std::string, double, double>> used;
+  for (const TiePoint& point : main->points) {
+    for (const TiePointMark& mark : point.marks) {
+      used.emplace(mark.photo, mark.pixel.x(), mark.pixel.y());
+    }
+  }
+  main->cam_from_model.insert(other.cam_from_model.begin(), other.cam_from_model.end());
+  for (const TiePoint& point : other.points) {
+    const bool is_new = std::none_of(point.marks.begin(), point.marks.end(), [&](const auto& mark) {
+      return used.contains({mark.photo, mark.pixel.x(), mark.pixel.y()});
+    });
+    if (is_new) main->points.push_back(point);
+  }
+}
+
+// The largest model with those that share its control, in its frame.
+TiePoints Merged(std::vector<MatchedModel> models, const Survey& survey,
+                 const std::map<std::string, Camera>& cameras) {
+  TiePoints merged = models[0].tie_points;
+  const auto world_from_main = FitSimilarity(FindModelControl(survey, cameras, merged).pairs);
+  for (size_t i = 1; i < models.size(); ++i) {
+    const TiePoints& other = models[i].tie_points;
+    const auto world_from_other = FitSimilarity(FindModelControl(survey, cameras, other).pairs);
+    const std::string photos = Listed(NamesOf(other));
+    if (!world_from_main || !world_from_other) {
+      merged.remarks.push_back("the photos " + photos +
+                               " are connected among themselves only and were left out; mark three "
+                               "control points on two of them and on two of the others");
+      continue;
+    }
+    TiePoints moved = other;
+    Transform(Inverse(world_from_main->target_from_source) * world_from_other->target_from_source,
+              &moved);
+    Add(moved, &merged);
+    merged.remarks.push_back("the photos " + photos +
+                             " are connected to the others by control points only");
+  }
+  return merged;
+}
+
+void NameWhatIsMissing(const std::vector<fs::path>& photos, TiePoints* tie_points) {
+  for (const fs::path& photo : photos) {
+    if (!tie_points->cam_from_model.contains(photo.stem())) {
+      tie_points->not_placed.push_back(photo.stem());
+    }
+  }
+  if (tie_points->not_placed.empty()) return;
+  tie_points->remarks.push_back("image matching could not place " + Listed(tie_points->not_placed) +
+                                ": it needs three control points of its own");
+}
+
+}  // namespace
+
+void RequireDistinctPhotographs(const std::vector<fs::path>& photos) {
+  std::map<std::pair<uintmax_t, size_t>, std::vector<fs::path>> alike;  // by size and hash
+  for (const fs::path& photo : photos) {
+    const std::string content = ReadWhole(photo);
+    auto& others = alike[{content.size(), std::hash<std::string>()(content)}];
+    for (const fs::path& other : others) {
+      if (ReadWhole(other) != content) continue;
+      throw InputError(photo, "is the same photograph as " + other.filename().string() +
+                                  ", expected each photograph once: remove one of them");
+    }
+    others.push_back(photo);
+  }
+}
+
+SiteTiePoints MakeTiePoints(const SitePaths& site, const std::vector<fs::path>& photos,
+                            const std::vector<Camera>& cameras, const TiePointsOptions& options) {
+  INSITU_CHECK(photos.size() == cameras.size());
+  if (photos.size() < 2) throw InputError(site.photos(), "one photograph, expected two or more");
+  RequireSizes(photos, cameras);
+  RequireDistinctPhotographs(photos);
+  const auto by_photo = CamerasByPhoto(photos, cameras);
+  const Survey survey = SurveyIfAny(site, photos);
+  std::vector<MatchedModel> models;
+  if (options.model.empty()) {
+    models = ModelsOfColmap(site, photos, cameras, survey, options.colmap);
+  } else {
+    models = {BroughtModel(options.model, photos, cameras)};
+  }
+  SiteTiePoints result;
+  result.tie_points = Merged(models, survey, by_photo);
+  NameWhatIsMissing(photos, &result.tie_points);
+  result.counts = SelectTiePoints(by_photo, options.selection, &result.tie_points);
+  WriteColmapText(site.tie_points().parent_path() / "model", models[0].colmap);
+  WriteTiePoints(site, result.tie_points);
+  return result;
+}
+
+SiteTiePoints MakeTiePoints(const SitePaths& site, const TiePointsOptions& options) {
+  RequireResult(site.camera(), "insitu-calibrate");
+  const std::vector<fs::path> photos = ListPhotographs(site);
+  return MakeTiePoints(site, photos, std::vector<Camera>(photos.size(), ReadCamera(site.camera())),
+                       options);
+}
+
+std::string SiteTiePoints::BriefReport() const {
+  const size_t placed = tie_points.cam_from_model.size();
+  char sigma[32];
+  std::snprintf(sigma, sizeof(sigma), "%.2f", tie_points.sigma_px);
+  std::string text = std::to_string(placed) + " of " +
+                     std::to_string(placed + tie_points.not_placed.size()) + " photos placed, " +
+                     std::to_string(counts.kept) + " of " + std::to_string(counts.found) +
+                     " tie points kept, sigma of a mark " + sigma + " px\n";
+  text += "dropped: " + std::to_string(counts.marks_off) + " marks off; " +
+          std::to_string(counts.too_few_rays) + " points of one photo, " +
+          std::to_string(counts.weak_angle) + " under a small angle, " +
+          std::to_string(counts.crowded) + " in crowded places\n";
+  for (const std::string& remark : tie_points.remarks) text += "warning: " + remark + "\n";
+  return text;
+}
+
+}  // namespace insitu

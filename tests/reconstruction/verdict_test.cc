@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "reconstruction/verdict.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/reconstruction/synthetic_network.h"
+
+namespace insitu {
+namespace {
+
+class Verdict : public testing::Test {
+ protected:
+  Adjustment Adjusted() const {
+    AdjustmentOptions options;
+    options.plane_sigma = options.zenith_sigma = options.sun_sigma = 1e-4;
+    return Adjust(survey_, network_.photos, network_.cameras, options);
+  }
+  // "single" is a vertex that one photo shows; surveyed, nothing is weak any more.
+  void SurveyThePointOfOneRay() {
+    std::erase_if(survey_.observations, [](const auto& mark) { return mark.point == "single"; });
+    ControlPoint surveyed = survey_.control_points.front();
+    surveyed.name = "single";
+    surveyed.position = network_.points.at("single");
+    survey_.control_points.push_back(surveyed);
+  }
+  SyntheticNetwork network_ = MakeSyntheticNetwork();
+  Survey survey_ = WithNoise(network_.survey, 1);
+};
+
+const Objection* Find(const std::vector<Objection>& objections, const std::string& text) {
+  for (const Objection& objection : objections) {
+    if (objection.reason.find(text) != std::string::npos) return &objection;
+  }
+  return nullptr;
+}
+
+std::string Status(const std::vector<Objection>& objections) {
+  return VerdictReport(objections)["status"].asString();
+}
+
+TEST_F(Verdict, ReviewsAPointOfOneRay) {
+  const auto objections = Judge(Adjusted());
+  EXPECT_EQ(Status(objections), "review");
+  const Objection* few = Find(objections, "fewer than two photos");
+  ASSERT_TRUE(few);
+  EXPECT_NE(few->reason.find("single"), std::string::npos);
+  EXPECT_NE(few->remedy, "");
+}
+
+TEST_F(Verdict, PassesWhenThereIsNothingToObjectTo) {
+  SurveyThePointOfOneRay();
+  const auto objections = Judge(Adjusted());
+  for (const Objection& objection : objections) {
+    EXPECT_EQ(objection.severity, Severity::kNote) << objection.reason;
+  }
+  EXPECT_EQ(Status(objections), "pass");
+}
+
+TEST_F(Verdict, LeavesControlPointsOutWhereThereAreNoCheckPoints) {
+  std::erase_if(survey_.control_points,
+                [](const auto& point) { return point.role == ControlRole::kCheck; });
+  const auto objections = Judge(Adjusted());
+  const Objection* unverified = Find(objections, "accuracy not verified independently");
+  ASSERT_TRUE(unverified);
+  EXPECT_NE(unverified->reason.find("predicted from the rest"), std::string::npos);
+}
+
+TEST_F(Verdict, FailsOnAGrossErrorAndNamesIt) {
+  ImageObservation& wrong = survey_.observations[20];
+  wrong.pixel.y() += 60;
+  const auto objections = Judge(Adjusted());
+  EXPECT_EQ(Status(objections), "fail");
+  EXPECT_TRUE(Find(objections, "global test"));
+  const Objection* suspect = Find(
+      objections, "the suspect is mark '" + wrong.point + "' on photo '" + wrong.photo + "' (y)");
+  ASSERT_TRUE(suspect);
+  EXPECT_NE(suspect->remedy.find("measure mark '" + wrong.point + "'"), std::string::npos);
+}
+
+TEST_F(Verdict, FailsWhenCheckPointsAreFarOff) {
+  for (ControlPoint& point : survey_.control_points) {
+    if (point.role == ControlRole::kCheck) point.position.x() += 0.5;
+  }
+  const auto objections = Judge(Adjusted());
+  EXPECT_EQ(Status(objections), "fail");
+  const Objection* differ = Find(objections, "the check points differ");
+  ASSERT_TRUE(differ);
+  EXPECT_NE(differ->reason.find("b4"), std::string::npos);
+}
+
+TEST_F(Verdict, NamesCorrelationsAndAFreeDatumWithTheirRemedies) {
+  Adjustment adjustment = Adjusted();
+  adjustment.correlations = {{"photo P1 center x", "photo P1 rotation y", -0.997}};
+  adjustment.datum_defect = 7;
+  adjustment.datum = "free in 7 of 7";
+  adjustment.warnings = {"the datum is free in 7 of 7"};
+  const auto objections = Judge(adjustment);
+  const Objection* correlated =
+      Find(objections, "photo P1 center x with photo P1 rotation y -0.997");
+  ASSERT_TRUE(correlated);
+  EXPECT_NE(correlated->remedy, "");
+  EXPECT_EQ(correlated->severity, Severity::kReview);
+  int said = 0;
+  for (const Objection& objection : objections) {
+    said += objection.reason.find("the datum is free") != std::string::npos;
+  }
+  EXPECT_EQ(said, 1);
+}
+
+TEST_F(Verdict, SeesControlOnOneLineAndPhotosFromOnePlace) {
+  Adjustment adjustment = Adjusted();
+  for (size_t i = 0; i < adjustment.control.size(); ++i) {
+    adjustment.control[i].surveyed = Eigen::Vector3d(1, 2, 0.1) * static_cast<double>(i);
+  }
+  for (AdjustedPose& pose : adjustment.poses) {
+    pose.cam_from_world = adjustment.poses[0].cam_from_world;
+  }
+  const auto objections = Judge(adjustment);
+  EXPECT_TRUE(Find(objections, "nearly on one line"));
+  EXPECT_TRUE(Find(objections, "from nearly one place"));
+  EXPECT_TRUE(Find(objections, "within 5 degrees"));
+}
+
+TEST_F(Verdict, NamesMarksOutsideTheCalibratedRegion) {
+  ReportContext context;
+  context.calibrated_region[0] = {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}};
+  const auto objections = Judge(Adjusted(), context);
+  const Objection* outside = Find(objections, "outside the region");
+  ASSERT_TRUE(outside);
+  EXPECT_EQ(outside->severity, Severity::kReview);
+  context.calibration["uncertainty"]["center_px"] = 0.1;
+  EXPECT_EQ(Find(Judge(Adjusted(), context), "outside the region")->severity, Severity::kNote);
+}
+
+TEST(Advice, TellsWhatToDoForEveryKindOfObservation) {
+  for (const char* group : {"image x", "edge", "control y", "camera z", "plane", "sun", "zenith",
+                            "distance", "height", "angle"}) {
+    ObservationResidual row;
+    row.group = group;
+    row.subject = "S";
+    row.photo = "P";
+    EXPECT_NE(Advice(row), "") << group;
+    EXPECT_NE(Describe(row), "") << group;
+  }
+}
+
+TEST(IsInside, TellsAConcaveOutlinesInside) {
+  const std::vector<Eigen::Vector2d> notched = {{0, 0}, {10, 0}, {10, 10}, {5, 5}, {0, 10}};
+  EXPECT_TRUE(IsInside({5, 2}, notched));
+  EXPECT_TRUE(IsInside({1, 8}, notched));
+  EXPECT_FALSE(IsInside({5, 8}, notched));
+  EXPECT_FALSE(IsInside({11, 5}, notched));
+  EXPECT_FALSE(IsInside({1, 1}, {}));
+}
+
+}  // namespace
+}  // namespace insitu
