@@ -41,7 +41,7 @@ std::map<std::string, Camera> CamerasByPhoto(const std::vector<fs::path>& photos
 Survey SurveyIfAny(const SitePaths& site, const std::vector<fs::path>& photos) {
   std::vector<std::string> names;
   for (const fs::path& photo : photos) names.push_back(photo.stem());
-  return ReadSurvey(site, names, SurveyFiles::kOptional);
+  return ReadSurvey(site, names, SurveyFolder::kOptional);
 }
 
 std::vector<MatchedModel> ModelsOfColmap(const SitePaths& site, const std::vector<fs::path>& photos,
