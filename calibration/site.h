@@ -41,6 +41,11 @@ struct SitePaths {
   std::filesystem::path posed_camera(const std::string& photo) const {
     return root / "work/reconstruction" / (photo + ".cameramodel");
   }
+  // The lens that a self-calibrating adjustment found; goes before camera() where it is.
+  std::filesystem::path adjusted_camera(const std::string& camera = "") const {
+    return root / "work/reconstruction/lenses" /
+           ((camera.empty() ? "camera" : camera) + ".cameramodel");
+  }
   std::filesystem::path scene() const { return root / "work/reconstruction/scene.json"; }
   std::filesystem::path residual_report() const { return root / "work/reconstruction/report.json"; }
   std::filesystem::path residual_page() const { return root / "work/reconstruction/report.html"; }

@@ -23,7 +23,8 @@ std::map<std::string, Lens> ReadLenses(const SitePaths& site,
   std::map<std::string, Lens> lenses;
   for (const std::string& name : cameras) {
     if (lenses.contains(name)) continue;
-    const fs::path model = site.camera(name);
+    const fs::path adjusted = site.adjusted_camera(name);
+    const fs::path model = fs::exists(adjusted) ? adjusted : site.camera(name);
     if (!fs::exists(model)) {
       throw InputError(model, "no such file, expected insitu-calibrate to have made it");
     }

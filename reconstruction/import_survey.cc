@@ -146,6 +146,7 @@ std::vector<ImageObservation> MergeMarks(const std::vector<SurveyFile>& files,
                                          const SurveyImportOptions& options, LeftOut* left_out) {
   std::set<std::string> known;
   for (const ControlPoint& point : points) known.insert(point.name);
+  const bool leaves_out = !known.empty() && !options.keeps_unsurveyed;
   std::map<std::pair<std::string, std::string>, ImageObservation> kept;
   std::vector<ImageObservation> marks;
   for (const SurveyFile& file : files) {
@@ -154,7 +155,7 @@ std::vector<ImageObservation> MergeMarks(const std::vector<SurveyFile>& files,
       if (!photos.contains(photo)) {
         left_out->photos.insert(photo);
         ++left_out->of_photos;
-      } else if (!known.empty() && !known.contains(mark.point)) {
+      } else if (leaves_out && !known.contains(mark.point)) {
         left_out->points.insert(mark.point);
         ++left_out->of_points;
       } else {

@@ -18,6 +18,8 @@ void AddOptions(CLI::App* app, insitu::SurveyImportOptions* options) {
   app->add_option("--crs", options->crs,
                   "coordinate system to convert to; default: as read, or the UTM zone of degrees");
   app->add_option("--check", options->check_points, "points to keep out of the adjustment");
+  app->add_flag("--keep-unsurveyed", options->keeps_unsurveyed,
+                "keep marks of points without coordinates, for vertices of polygons");
   app->add_flag("--replace", options->may_replace, "replace survey files that are there already");
 }
 

@@ -23,6 +23,14 @@ int main(int argc, char** argv) {
   app.add_option("--sun-sigma", options.sun_sigma, "shadow point off the sun's ray [m]")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
+  app.add_flag("--hard-planes", options.has_hard_planes,
+               "hold vertices on their planes to 0.01 mm instead of --plane-sigma");
+  app.add_flag("--self-calibrate", options.is_self_calibrating,
+               "adjust the lens parameters too, from the calibration's values");
+  app.add_option("--significance", options.significance,
+                 "probability that the test of a good observation fails")
+      ->check(CLI::Range(1e-6, 0.5))
+      ->capture_default_str();
   app.add_option("--start", start_poses,
                  "estimated positions, JSON: {\"PHOTO\": {\"center\": [x,y,z], \"look_at\": "
                  "[x,y,z]}}")
@@ -31,8 +39,8 @@ int main(int argc, char** argv) {
                  "folder to receive the result as a COLMAP text model as well");
   app.footer("Example:\n  insitu-reconstruct sites/gallery --plane-sigma 0.01");
   return insitu::RunProgram(app, argc, argv, [&] {
-    const insitu::Adjustment adjustment = insitu::ReconstructSite(
-        site, options, start_poses, insitu::CommandLine(app));
+    const insitu::Adjustment adjustment =
+        insitu::ReconstructSite(site, options, start_poses, insitu::CommandLine(app));
     if (!colmap_model.empty()) {
       insitu::WriteColmapText(colmap_model, insitu::ColmapFromAdjustment(adjustment));
     }

@@ -58,6 +58,19 @@ std::optional<TiePoints> TiePointsOf(const SitePaths& site,
   return tie_points;
 }
 
+// Lenses that the adjustment changed; without any, those of an earlier run go.
+void WriteAdjustedLenses(const SitePaths& site, const Adjustment& adjustment,
+                         bool is_self_calibrating) {
+  std::filesystem::remove_all(site.adjusted_camera().parent_path());
+  if (!is_self_calibrating) return;
+  for (size_t i = 0; i < adjustment.poses.size(); ++i) {
+    const std::string& camera = adjustment.cameras[adjustment.poses[i].camera].name;
+    WritePosedCamera(site.adjusted_camera(CameraFolderName(camera)),
+                     {camera, adjustment.scene.cameras[i].camera, Rigid3()},
+                     "lens adjusted by insitu-reconstruct --self-calibrate");
+  }
+}
+
 }  // namespace
 
 std::map<std::string, Rigid3> ReadStartPoses(const std::filesystem::path& path,
@@ -91,6 +104,7 @@ Adjustment ReconstructSite(const SitePaths& site, AdjustmentOptions options,
       ResidualReport(adjustment, survey, SiteContext(site, options, adjustment, command));
   const std::string page = ResidualPage(report);
   WriteSceneGeometry(site, adjustment.scene);
+  WriteAdjustedLenses(site, adjustment, options.is_self_calibrating);
   WriteJson(site.residual_report(), report);
   WriteWhole(site.residual_page(), page);
   WriteWhole(site.observations_csv(), ObservationsCsv(adjustment));
