@@ -90,7 +90,7 @@ TEST(ArtificialEnvironment, KeepsWhatTheRendererDoesNotShow) {
   EXPECT_EQ(read.lights[0].distribution->values, written.lights[0].distribution->values);
   EXPECT_EQ(read.lights[0].spectrum, written.lights[0].spectrum);
   EXPECT_EQ(read.lights[0].candela, 120);
-  EXPECT_EQ(NotShown(read).size(), 2u);
+  EXPECT_EQ(NotShown(read).size(), 3u);
 }
 
 TEST(ArtificialEnvironment, SameInputSameBytes) {

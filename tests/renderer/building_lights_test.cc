@@ -52,7 +52,7 @@ TEST_F(Lights, PhotometricUnitsNeedTheSitesLuminance) {
   EXPECT_EQ(Read(lamp)[0].intensity_rgb, Vector3d(0, 0, 0));
   const Vector3d rgb = Read(lamp, kSite)[0].intensity_rgb;
   EXPECT_NEAR(Luminance(rgb), 5, 1e-3);  // 500 cd / 100 cd/m2
-  EXPECT_NEAR((rgb - Vector3d::Constant(5)).norm(), 0, 0.05);  // D65 is white
+  EXPECT_NEAR((rgb - Vector3d::Constant(5)).norm(), 0, 0.1);  // D65 is white
 }
 
 TEST_F(Lights, FluxOverAllDirections) {

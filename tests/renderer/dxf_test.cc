@@ -343,7 +343,7 @@ TEST(Dxf, NamesBecomeUtf8) {
   EXPECT_EQ(Utf8FromDxf("T\xFCr"), "T\xC3\xBCr");                // Windows-1252
   EXPECT_EQ(Utf8FromDxf("\x80"), "\xE2\x82\xAC");                // the euro sign, not Latin-1
   EXPECT_EQ(Utf8FromDxf("T\\U+00FCr"), "T\xC3\xBCr");            // AutoCAD's own way
-  EXPECT_EQ(Utf8FromDxf("\x8A\xC7", "ANSI_932"), "漢");
+  EXPECT_EQ(Utf8FromDxf("\x8A\xBF", "ANSI_932"), "漢");
   EXPECT_EQ(Utf8FromDxf("\\M+18ABF"), "漢");
   EXPECT_EQ(Utf8FromDxf("A\\U+D800\\U+12"), "A\\U+D800\\U+12");  // no characters: left alone
 }
