@@ -23,7 +23,7 @@ void AddTriangle(const Vector3d& a, const Vector3d& b, const Vector3d& c, ModelM
 ModelMesh Cube(const Vector3d& corner) {
   ModelMesh mesh;
   mesh.surfaces.resize(1);
-  mesh.surfaces[0].layer = "W";
+  mesh.surfaces[0].layer = std::string("W");
   const auto v = [&](int i) { return Vector3d(corner + Vector3d(i & 1, (i >> 1) & 1, i >> 2)); };
   for (const auto& f : {std::array{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 6, 7, 3},
                         {0, 4, 6, 2}, {1, 3, 7, 5}}) {
