@@ -6,8 +6,8 @@
 
 int main(int argc, char** argv) {
   CLI::App app(
-      "Finds the interior orientation of a site's camera from photographs of a chessboard,\n"
-      "or takes the one that the site brings.",
+      "Finds the interior orientation of a site's cameras: from photographs of a chessboard, from\n"
+      "another program's camera file, or from the fiducial marks of scanned film.",
       "insitu-calibrate");
   insitu::SitePaths site;
   insitu::BoardCalibrationOptions options;
@@ -19,8 +19,13 @@ int main(int argc, char** argv) {
       ->check(CLI::Range(1.0, 1e6));
   app.footer(
       "Example: insitu-calibrate gallery\n"
-      "writes gallery/work/calibration/camera.cameramodel and report.json.");
+      "writes gallery/work/calibration/camera.cameramodel, report.json and report.html;\n"
+      "of several cameras, in calibration/CAMERA/, to gallery/work/calibration/CAMERA/.");
   return insitu::RunProgram(app, argc, argv, [&] {
-    std::cout << insitu::CalibrateSite(site, options).BriefReport() << "\n";
+    const insitu::SiteCalibration calibration = insitu::CalibrateSite(site, options);
+    std::cout << calibration.BriefReport() << "\n";
+    for (const insitu::CameraCalibration& camera : calibration.cameras) {
+      if (camera.exif_focal_px) std::cerr << "warning: " << camera.findings.front().reason << "\n";
+    }
   });
 }

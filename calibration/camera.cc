@@ -140,6 +140,11 @@ Camera::Camera(const std::string& lens_model, std::vector<double> intrinsics, in
   if (width <= 0 || height <= 0) throw std::invalid_argument("an image size that is not positive");
 }
 
+int Camera::IntrinsicsCount(const std::string& lens_model) {
+  const mrcal_lensmodel_t model = LensModel(lens_model);
+  return mrcal_lensmodel_num_params(&model);
+}
+
 Camera Camera::Pinhole(double focal_x, double focal_y, double center_x, double center_y, int width,
                        int height) {
   return Camera("LENSMODEL_PINHOLE", {focal_x, focal_y, center_x, center_y}, width, height);

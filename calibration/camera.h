@@ -21,6 +21,9 @@ class Camera {
   // wrong number of intrinsics, or a value that is not finite.
   Camera(const std::string& lens_model, std::vector<double> intrinsics, int width, int height);
 
+  // How many intrinsics a lens model of mrcal has. Throws std::invalid_argument on an unknown one.
+  static int IntrinsicsCount(const std::string& lens_model);
+
   static Camera Pinhole(double focal_x, double focal_y, double center_x, double center_y, int width,
                         int height);
 

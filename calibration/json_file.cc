@@ -149,6 +149,22 @@ Eigen::Vector3d JsonNode::Vector3() const {
   return {numbers[0], numbers[1], numbers[2]};
 }
 
+Eigen::MatrixXd JsonNode::Matrix() const {
+  const std::vector<JsonNode> rows = Items();
+  Eigen::MatrixXd matrix(rows.size(), rows.empty() ? 0 : rows.front().Items().size());
+  for (Eigen::Index i = 0; i < matrix.rows(); ++i) {
+    const std::vector<double> row = rows[i].Numbers();
+    if (static_cast<Eigen::Index>(row.size()) != matrix.cols()) {
+      throw rows[i].Error("has " + std::to_string(row.size()) + " numbers, expected " +
+                          std::to_string(matrix.cols()));
+    }
+    matrix.row(i) = Eigen::Map<const Eigen::RowVectorXd>(row.data(), matrix.cols());
+  }
+  return matrix;
+}
+
+bool JsonNode::IsNull() const { return value_->isNull(); }
+
 InputError JsonNode::Error(const std::string& message) const {
   return InputError(path(), line(), place_.empty() ? message : "\"" + place_ + "\" " + message);
 }

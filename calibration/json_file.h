@@ -33,6 +33,8 @@ class JsonNode {
   std::string Text() const;
   std::vector<double> Numbers() const;
   Eigen::Vector3d Vector3() const;
+  Eigen::MatrixXd Matrix() const;  // array of rows of equal length
+  bool IsNull() const;             // an item may be; Find and At have no node for null
 
   // An error about this value, to be thrown.
   InputError Error(const std::string& message) const;

@@ -8,8 +8,11 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <string>
 #include <vector>
+
+#include "calibration/fit_camera.h"
 
 namespace insitu {
 
@@ -41,5 +44,17 @@ struct MetricCamera {
 
 // "c", "xp", ... in the order of MetricCamera::parameters.
 const std::vector<std::string>& ParameterNames(MetricModel model);
+
+// Pixel of a point in the camera frame [m]; nullopt: behind the camera, or where the polynomials
+// fold over so that no pixel sees it.
+std::optional<Eigen::Vector2d> ProjectMetric(const MetricCamera& camera,
+                                             const Eigen::Vector3d& point_in_cam);
+
+// Unit direction of sight of a pixel, camera frame; nullopt where the polynomials fold over.
+std::optional<Eigen::Vector3d> UnprojectMetric(const MetricCamera& camera,
+                                               const Eigen::Vector2d& pixel);
+
+// The nearest OPENCV8 lens; nullopt as FitCamera.
+std::optional<CameraFit> FitMetricCamera(const MetricCamera& camera);
 
 }  // namespace insitu

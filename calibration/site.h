@@ -18,17 +18,33 @@ struct SitePaths {
   std::filesystem::path building() const { return root / "building"; }
   std::filesystem::path montages() const { return root / "montages"; }
 
-  std::filesystem::path camera() const { return root / "work/calibration/camera.cameramodel"; }
-  std::filesystem::path calibration_report() const { return root / "work/calibration/report.json"; }
+  std::filesystem::path description() const { return root / "site.json"; }
+
+  // `camera` is a camera's name, as CamerasOfPhotos gives it; "" is the only camera of a site.
+  std::filesystem::path camera(const std::string& camera = "") const {
+    return root / "work/calibration" / camera / "camera.cameramodel";
+  }
+  std::filesystem::path calibration_report(const std::string& camera = "") const {
+    return root / "work/calibration" / camera / "report.json";
+  }
+  std::filesystem::path calibration_page(const std::string& camera = "") const {
+    return root / "work/calibration" / camera / "report.html";
+  }
   std::filesystem::path input_image(const std::string& photo) const {
     return root / "work/input_images" / (photo + ".exr");
   }
-  std::filesystem::path pinhole_camera() const {
-    return root / "work/input_images/pinhole.cameramodel";
+  std::filesystem::path pinhole_camera(const std::string& camera = "") const {
+    return root / "work/input_images" /
+           ((camera.empty() ? "pinhole" : "pinhole_" + camera) + ".cameramodel");
   }
   std::filesystem::path tie_points() const { return root / "work/tie_points/tie_points.json"; }
   std::filesystem::path posed_camera(const std::string& photo) const {
     return root / "work/reconstruction" / (photo + ".cameramodel");
+  }
+  // The lens that a self-calibrating adjustment found; goes before camera() where it is.
+  std::filesystem::path adjusted_camera(const std::string& camera = "") const {
+    return root / "work/reconstruction/lenses" /
+           ((camera.empty() ? "camera" : camera) + ".cameramodel");
   }
   std::filesystem::path scene() const { return root / "work/reconstruction/scene.json"; }
   std::filesystem::path residual_report() const { return root / "work/reconstruction/report.json"; }

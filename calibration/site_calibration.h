@@ -1,35 +1,68 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The two stages of this folder on a site: its camera, and its input images.
+// The two stages of this folder on a site: its cameras, and its input images.
 #pragma once
 
+#include <Eigen/Core>
 #include <optional>
 #include <string>
+#include <vector>
 
-#include "calibration/board.h"
+#include "calibration/board_calibration.h"
+#include "calibration/calibration_verdict.h"
 #include "calibration/camera.h"
+#include "calibration/camera_file.h"
+#include "calibration/film.h"
 #include "calibration/site.h"
 
 namespace insitu {
 
-struct SiteCalibration {
+// A scan of film as a camera.
+struct FilmScan {
+  FilmCamera film;
+  std::vector<Fiducial> marks;
+  FilmMap map;
+  CameraFit fit;
+};
+
+// One camera of a site, with whichever of the four it came from.
+struct CameraCalibration {
+  std::string name;  // "": the only camera of the site
   Camera camera;
-  std::optional<BoardCalibration> boards;  // nullopt: the site brought its camera
+  std::optional<BoardCalibration> boards = {};
+  std::optional<CameraFile> file = {};
+  std::optional<FilmScan> scan = {};
+  std::optional<double> exif_focal_px = {};
+  std::optional<LensAssessment> lens = {};  // of boards, or of a brought solution of mrcal
+  std::vector<std::string> photos = {};     // those of the site that this camera took
+  std::vector<CalibrationFinding> findings = {};
+  std::string BriefReport() const;  // one line, and one a finding
+};
+
+struct SiteCalibration {
+  std::vector<CameraCalibration> cameras;  // sorted by name
   std::string BriefReport() const;
 };
 
-// Takes calibration/camera.cameramodel as it is, else calibrates from calibration/board_* and
-// board.txt. Writes site.camera() and site.calibration_report(). Throws InputError.
+// Calibrates each of ListCameraFolders(site): takes a camera file, else solves from board_* photos
+// and board.txt, or ties scans to their film. Without any of these the focal length of EXIF is
+// taken, and said to be no calibration. Writes site.camera(), calibration_report() and
+// calibration_page() of each. Throws InputError.
 SiteCalibration CalibrateSite(const SitePaths& site, const BoardCalibrationOptions& options = {});
 
+// Covariance of a calibrated camera's intrinsics, in the order of Camera::intrinsics(), from its
+// report; nullopt: it brought none (splined models, scans, most camera files).
+std::optional<Eigen::MatrixXd> ReadIntrinsicsCovariance(const SitePaths& site,
+                                                        const std::string& camera);
+
 struct SiteUndistortion {
-  Camera pinhole;
+  std::vector<Camera> pinholes;  // one a camera
   int photos = 0;
   std::string BriefReport() const;
 };
 
 // Every photograph becomes an input image [Durisch92, §4.1]: site.input_image() as linear EXR, seen
-// by site.pinhole_camera(). Throws InputError: no calibration yet, a photograph of another size
-// than the camera's; nothing is written then.
+// by its camera's site.pinhole_camera(). Throws InputError: no calibration yet, a photograph of
+// another size than its camera's; nothing is written then.
 SiteUndistortion UndistortSite(const SitePaths& site);
 
 }  // namespace insitu

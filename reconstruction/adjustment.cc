@@ -14,6 +14,7 @@
 #include "reconstruction/planarity.h"
 #include "reconstruction/plane.h"
 #include "reconstruction/polygon_covariance.h"
+#include "reconstruction/survey_diagnosis.h"
 
 namespace insitu {
 namespace {
@@ -220,6 +221,30 @@ void AddStatistics(const NetworkSolution& solution, const AdjustmentOptions& opt
   test.high = ChiSquareQuantile(solution.redundancy, 1 - test.alpha / 2);
 }
 
+std::map<std::string, int> CountUnknowns(const Network& network, const NetworkColumns& columns) {
+  std::map<std::string, int> counts;
+  for (const Unknown& unknown : columns.unknowns) {
+    switch (unknown.kind) {
+      case Unknown::Kind::kCamera:
+        ++counts["interior orientations"];
+        break;
+      case Unknown::Kind::kPhoto:
+        ++counts["exterior orientations"];
+        break;
+      case Unknown::Kind::kPoint:
+        ++counts[network.points[unknown.index].is_tie_point ? "tie points" : "points"];
+        break;
+      case Unknown::Kind::kPlane:
+        ++counts["planes"];
+        break;
+      case Unknown::Kind::kDirection:
+        ++counts["directions"];
+        break;
+    }
+  }
+  return counts;
+}
+
 void Warn(const NetworkSolution& solution, const SurveyNetwork& survey_network,
           Adjustment* adjustment) {
   if (!solution.is_converged) adjustment->warnings.push_back("the adjustment has not converged");
@@ -242,14 +267,27 @@ NetworkSolution Solve(const Survey& survey, Network* network) {
   }
 }
 
+// Start values of a survey that does not contradict itself; what else looks odd becomes a warning.
+StartValues FindSoundStart(const Survey& survey, const std::vector<std::string>& photos,
+                           const std::vector<Camera>& cameras, const AdjustmentOptions& options) {
+  const std::vector<Diagnosis> diagnoses = RequireSound(survey, photos, cameras);
+  try {
+    StartValues start = FindStartValues(survey, photos, cameras, options);
+    RequirePlanar(survey, start.points, options.plane_sigma);
+    for (const Diagnosis& diagnosis : diagnoses) start.warnings.push_back(Text(diagnosis));
+    return start;
+  } catch (const InputError& symptom) {
+    ThrowDiagnosed(diagnoses, symptom);
+  }
+}
+
 }  // namespace
 
 Adjustment Adjust(const Survey& survey, const std::vector<std::string>& photos,
                   const std::vector<Camera>& cameras, const AdjustmentOptions& options) {
   INSITU_CHECK(options.plane_sigma > 0 && options.zenith_sigma > 0 && options.sun_sigma > 0);
-  INSITU_CHECK(options.calibrations.empty() || options.calibrations.size() == photos.size());
-  const StartValues start = FindStartValues(survey, photos, cameras, options);
-  RequirePlanar(survey, start.points, options.plane_sigma);
+  INSITU_CHECK(options.lenses.empty() || options.lenses.size() == photos.size());
+  const StartValues start = FindSoundStart(survey, photos, cameras, options);
   SurveyNetwork survey_network = MakeSurveyNetwork(survey, start, options);
   const NetworkSolution solution = Solve(survey, &survey_network.network);
   const Network& network = survey_network.network;
@@ -257,6 +295,7 @@ Adjustment Adjust(const Survey& survey, const std::vector<std::string>& photos,
   Adjustment adjustment;
   adjustment.warnings = start.warnings;
   AddStatistics(solution, options, &adjustment);
+  adjustment.unknowns_of = CountUnknowns(network, solution.columns);
   Warn(solution, survey_network, &adjustment);
   WarnOfMasks(survey, &adjustment);
   adjustment.residuals = AdjustedObservations(survey_network, solution, options.significance);

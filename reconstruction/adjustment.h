@@ -14,9 +14,9 @@
 
 namespace insitu {
 
-// What is known of a photo's camera besides its lens.
-struct CameraCalibration {
-  std::string camera = "camera";  // photos of one name share their lens
+// What is known of a photo's lens besides its intrinsics.
+struct PhotoLens {
+  std::string camera = "camera";  // photos of one camera share their lens
   Eigen::MatrixXd covariance;     // of its intrinsics, from its calibration; empty: exact
 };
 
@@ -27,7 +27,7 @@ struct AdjustmentOptions {
   double sun_sigma = 0.02;           // [m], across, of a shadow point from the line to the sun
   bool is_self_calibrating = false;  // the lens parameters are unknowns too
   double significance = 0.001;       // alpha0 of each w-test (Baarda); its power is 80 %
-  std::vector<CameraCalibration> calibrations;           // as `photos`; empty: one exact camera
+  std::vector<PhotoLens> lenses;     // as `photos`; empty: one exact camera
   std::map<std::string, Rigid3> initial_cam_from_world;  // user's estimates, by photo; none needed
 };
 
@@ -124,11 +124,12 @@ struct Adjustment {
   std::vector<AdjustedPose> poses;
   std::vector<AdjustedPoint> points;
   std::vector<AdjustedPlane> planes;
-  // By polygon of the survey: 3n x 3n [m^2], joint, of its vertices in their order; empty: not known.
+  // By polygon of the survey: 3n x 3n [m^2], joint, of its vertices in order; empty: not known.
   std::vector<Eigen::MatrixXd> polygon_covariance;
   SceneGeometry scene;
   double sigma0 = 0;  // a posteriori, a priori 1
   int observations = 0, unknowns = 0, datum_defect = 0, redundancy = 0, iterations = 0;
+  std::map<std::string, int> unknowns_of;  // their number by what they belong to: "points", ...
   std::string datum;        // in words: "control", or what is free and how it was fixed
   double chi_square_p = 0;  // two-sided p of the global test
   GlobalTest global_test;

@@ -6,9 +6,11 @@
 
 #include "calibration/json_file.h"
 #include "calibration/whole_file.h"
+#include "reconstruction/distinct_photographs.h"
 #include "reconstruction/input_files.h"
 #include "reconstruction/montage_points.h"
 #include "reconstruction/residual_report.h"
+#include "reconstruction/site_photos.h"
 
 namespace insitu {
 namespace {
@@ -30,12 +32,13 @@ ReportContext SiteContext(const SitePaths& site, const AdjustmentOptions& option
   context.options = options;
   context.command = command;
   context.inputs = HashInputs(site);
-  if (std::filesystem::exists(site.calibration_report())) {
-    context.calibration = ReadJson(site.calibration_report());
-  }
-  const std::vector<Eigen::Vector2d> region = ReadCalibratedRegion(site.camera());
-  for (size_t i = 0; i < adjustment.cameras.size() && !region.empty(); ++i) {
-    context.calibrated_region[static_cast<int>(i)] = region;
+  for (size_t i = 0; i < adjustment.cameras.size(); ++i) {
+    const std::string camera = CameraFolderName(adjustment.cameras[i].name);
+    if (i == 0 && std::filesystem::exists(site.calibration_report(camera))) {
+      context.calibration = ReadJson(site.calibration_report(camera));
+    }
+    const std::vector<Eigen::Vector2d> region = ReadCalibratedRegion(site.camera(camera));
+    if (!region.empty()) context.calibrated_region[static_cast<int>(i)] = region;
   }
   context.montage = MontagePoints(site, adjustment.scene);
   return context;
@@ -53,6 +56,19 @@ std::optional<TiePoints> TiePointsOf(const SitePaths& site,
                                             "points of these: run insitu-tie-points again");
   }
   return tie_points;
+}
+
+// Lenses that the adjustment changed; without any, those of an earlier run go.
+void WriteAdjustedLenses(const SitePaths& site, const Adjustment& adjustment,
+                         bool is_self_calibrating) {
+  std::filesystem::remove_all(site.adjusted_camera().parent_path());
+  if (!is_self_calibrating) return;
+  for (size_t i = 0; i < adjustment.poses.size(); ++i) {
+    const std::string& camera = adjustment.cameras[adjustment.poses[i].camera].name;
+    WritePosedCamera(site.adjusted_camera(CameraFolderName(camera)),
+                     {camera, adjustment.scene.cameras[i].camera, Rigid3()},
+                     "lens adjusted by insitu-reconstruct --self-calibrate");
+  }
 }
 
 }  // namespace
@@ -74,20 +90,21 @@ std::map<std::string, Rigid3> ReadStartPoses(const std::filesystem::path& path,
 
 Adjustment ReconstructSite(const SitePaths& site, AdjustmentOptions options,
                            const std::filesystem::path& start_poses, const std::string& command) {
-  std::vector<std::string> photos;
-  for (const auto& path : ListPhotographs(site)) photos.push_back(path.stem().string());
-  RequireResult(site.camera(), "insitu-calibrate");
-  const std::vector<Camera> cameras(photos.size(), ReadCamera(site.camera()));
+  const SitePhotos site_photos = ReadSitePhotos(site);
+  const std::vector<std::string>& photos = site_photos.names;
+  RequireDistinctPhotographs(site_photos.paths);
+  options.lenses = site_photos.lenses;
   const auto tie_points = TiePointsOf(site, photos);
   Survey survey =
       ReadSurvey(site, photos, tie_points ? SurveyFiles::kOptional : SurveyFiles::kRequired);
   survey.tie_points = tie_points;
   if (!start_poses.empty()) options.initial_cam_from_world = ReadStartPoses(start_poses, photos);
-  Adjustment adjustment = Adjust(survey, photos, cameras, options);
+  Adjustment adjustment = Adjust(survey, photos, site_photos.cameras, options);
   const Json::Value report =
       ResidualReport(adjustment, survey, SiteContext(site, options, adjustment, command));
   const std::string page = ResidualPage(report);
   WriteSceneGeometry(site, adjustment.scene);
+  WriteAdjustedLenses(site, adjustment, options.is_self_calibrating);
   WriteJson(site.residual_report(), report);
   WriteWhole(site.residual_page(), page);
   WriteWhole(site.observations_csv(), ObservationsCsv(adjustment));

@@ -81,6 +81,8 @@ Json::Value SummarySection(const Adjustment& adjustment, const std::vector<Image
   Json::Value json;
   json["observations"] = adjustment.observations;
   json["unknowns"] = adjustment.unknowns;
+  json["unknowns_of"] = Json::Value(Json::objectValue);
+  for (const auto& [what, count] : adjustment.unknowns_of) json["unknowns_of"][what] = count;
   json["datum"] = adjustment.datum;
   json["datum_defect"] = adjustment.datum_defect;
   json["redundancy"] = adjustment.redundancy;

@@ -58,16 +58,16 @@ class Builder {
 
   int CameraOf(size_t photo) {
     const Camera& camera = start_.cameras[photo].camera;
-    CameraCalibration calibration;
-    if (!options_.calibrations.empty()) calibration = options_.calibrations.at(photo);
+    PhotoLens lens;
+    if (!options_.lenses.empty()) lens = options_.lenses.at(photo);
     for (size_t i = 0; i < network_.cameras.size(); ++i) {
       const NetworkCamera& known = network_.cameras[i];
-      if (known.name == calibration.camera &&
+      if (known.name == lens.camera &&
           std::get<Camera>(known.lens).intrinsics() == camera.intrinsics()) {
         return static_cast<int>(i);
       }
     }
-    NetworkCamera added{calibration.camera, camera, {}, calibration.covariance};
+    NetworkCamera added{lens.camera, camera, {}, lens.covariance};
     if (options_.is_self_calibrating) added.is_free.assign(camera.intrinsics().size(), true);
     network_.cameras.push_back(added);
     return static_cast<int>(network_.cameras.size()) - 1;

@@ -8,6 +8,7 @@
 #include "calibration/photograph.h"
 #include "calibration/whole_file.h"
 #include "reconstruction/align_tie_points.h"
+#include "reconstruction/site_photos.h"
 #include "reconstruction/survey.h"
 
 namespace insitu {
@@ -196,10 +197,8 @@ SiteTiePoints MakeTiePoints(const SitePaths& site, const std::vector<fs::path>& 
 }
 
 SiteTiePoints MakeTiePoints(const SitePaths& site, const TiePointsOptions& options) {
-  RequireResult(site.camera(), "insitu-calibrate");
-  const std::vector<fs::path> photos = ListPhotographs(site);
-  return MakeTiePoints(site, photos, std::vector<Camera>(photos.size(), ReadCamera(site.camera())),
-                       options);
+  const SitePhotos photos = ReadSitePhotos(site);
+  return MakeTiePoints(site, photos.paths, photos.cameras, options);
 }
 
 std::string SiteTiePoints::BriefReport() const {

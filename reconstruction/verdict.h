@@ -25,7 +25,8 @@ struct Objection {
 };
 
 // Empty: nothing to object to.
-std::vector<Objection> Judge(const Adjustment& adjustment, const ReportContext& context = ReportContext());
+std::vector<Objection> Judge(const Adjustment& adjustment,
+                             const ReportContext& context = ReportContext());
 
 // {"status": "pass" | "review" | "fail", "reasons": [{"severity", "reason", "remedy"}]}, the worst
 // first; notes leave it a pass.

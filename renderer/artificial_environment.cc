@@ -14,7 +14,7 @@ namespace {
 using Eigen::Vector3d;
 using Eigen::Vector3i;
 
-constexpr int kVersion = 1;
+constexpr int kVersion = 2;
 static_assert(std::endian::native == std::endian::little, "building.bin is written as in memory");
 
 std::filesystem::path MeshPath(const SitePaths& site) {
@@ -40,6 +40,8 @@ std::string MeshBytes(const ArtificialEnvironment& environment) {
   Append(environment.vertices, &bytes);
   Append(environment.triangles, &bytes);
   Append(environment.material_of_triangle, &bytes);
+  Append(environment.corner_normals, &bytes);
+  Append(environment.corner_uvs, &bytes);
   return bytes;
 }
 
@@ -53,6 +55,22 @@ std::string Checksum(std::string_view bytes) {
   return text;
 }
 
+Json::Value TableJson(const SpectralTable& table) {
+  Json::Value json(Json::arrayValue);
+  for (const Eigen::Vector2d& row : table) json.append(ToJson(Eigen::VectorXd(row)));
+  return json;
+}
+
+SpectralTable TableOf(const JsonNode& node) {
+  SpectralTable table;
+  for (const JsonNode& row : node.Items()) {
+    const std::vector<double> values = row.Numbers();
+    if (values.size() != 2) throw row.Error("has not two numbers, expected wavelength and value");
+    table.emplace_back(values[0], values[1]);
+  }
+  return table;
+}
+
 Json::Value MaterialJson(const SurfaceMaterial& material) {
   Json::Value json;
   json["name"] = material.name;
@@ -62,6 +80,10 @@ Json::Value MaterialJson(const SurfaceMaterial& material) {
     json["specular"]["weight"] = material.specular->weight;
     if (material.specular->index) json["specular"]["index"] = *material.specular->index;
   }
+  if (!material.reflectance.empty()) json["reflectance"] = TableJson(material.reflectance);
+  if (material.roughness != 0) json["roughness"] = material.roughness;
+  if (material.transmission != 0) json["transmission"] = material.transmission;
+  if (!material.texture.empty()) json["texture"] = material.texture;
   return json;
 }
 
@@ -74,7 +96,39 @@ SurfaceMaterial MaterialOf(const JsonNode& node) {
     material.specular = Specular{specular->At("weight").Number(), std::nullopt};
     if (const auto index = specular->Find("index")) material.specular->index = index->Number();
   }
+  if (const auto table = node.Find("reflectance")) material.reflectance = TableOf(*table);
+  if (const auto value = node.Find("roughness")) material.roughness = value->Number();
+  if (const auto value = node.Find("transmission")) material.transmission = value->Number();
+  if (const auto value = node.Find("texture")) material.texture = value->Text();
   return material;
+}
+
+Json::Value NumbersJson(const std::vector<double>& values) {
+  return ToJson(Eigen::VectorXd(Eigen::VectorXd::Map(values.data(), std::ssize(values))));
+}
+
+Json::Value DistributionJson(const LightDistribution& distribution) {
+  Json::Value json;
+  json["world_from_lamp"] = ToJson(Eigen::MatrixXd(distribution.world_from_lamp));
+  json["gamma_deg"] = NumbersJson(distribution.gamma_deg);
+  json["c_deg"] = NumbersJson(distribution.c_deg);
+  json["values"] = NumbersJson(distribution.values);
+  return json;
+}
+
+LightDistribution DistributionOf(const JsonNode& node) {
+  LightDistribution distribution;
+  const std::vector<JsonNode> rows = node.At("world_from_lamp").Items();
+  if (rows.size() != 3) throw node.Error("world_from_lamp has not 3 rows");
+  for (int i = 0; i < 3; ++i) distribution.world_from_lamp.row(i) = rows[i].Vector3().transpose();
+  distribution.gamma_deg = node.At("gamma_deg").Numbers();
+  distribution.c_deg = node.At("c_deg").Numbers();
+  distribution.values = node.At("values").Numbers();
+  if (distribution.gamma_deg.empty() || distribution.c_deg.empty() ||
+      distribution.values.size() != distribution.gamma_deg.size() * distribution.c_deg.size()) {
+    throw node.Error("has not a value for each pair of angles");
+  }
+  return distribution;
 }
 
 Json::Value LightJson(const PointLight& light) {
@@ -82,12 +136,19 @@ Json::Value LightJson(const PointLight& light) {
   json["name"] = light.name;
   json["position"] = ToJson(Eigen::VectorXd(light.position));
   json["intensity_rgb"] = ToJson(Eigen::VectorXd(light.intensity_rgb));
+  if (light.distribution) json["distribution"] = DistributionJson(*light.distribution);
+  if (!light.spectrum.empty()) json["spectrum"] = TableJson(light.spectrum);
+  if (light.candela != 0) json["candela"] = light.candela;
   return json;
 }
 
 PointLight LightOf(const JsonNode& node) {
-  return {node.At("name").Text(), node.At("position").Vector3(),
-          node.At("intensity_rgb").Vector3()};
+  PointLight light{node.At("name").Text(), node.At("position").Vector3(),
+                   node.At("intensity_rgb").Vector3(), std::nullopt, {}, 0};
+  if (const auto value = node.Find("distribution")) light.distribution = DistributionOf(*value);
+  if (const auto value = node.Find("spectrum")) light.spectrum = TableOf(*value);
+  if (const auto value = node.Find("candela")) light.candela = value->Number();
+  return light;
 }
 
 Json::Value MeshJson(const SitePaths& site, const ArtificialEnvironment& environment,
@@ -96,9 +157,12 @@ Json::Value MeshJson(const SitePaths& site, const ArtificialEnvironment& environ
   json["file"] = MeshPath(site).filename().string();
   json["layout"] =
       "little-endian: x y z of each vertex [m, float64], corners of each triangle [3 int32, from "
-      "0], material of each triangle [int32, from 0]";
+      "0], material of each triangle [int32, from 0], then as stated below: unit normal of each "
+      "corner [3 float32], UV of each corner [2 float32]";
   json["vertices"] = Json::Value::Int64(environment.vertices.size());
   json["triangles"] = Json::Value::Int64(environment.triangles.size());
+  json["has_normals"] = !environment.corner_normals.empty();
+  json["has_uvs"] = !environment.corner_uvs.empty();
   json["checksum"] = Checksum(bytes);
   return json;
 }
@@ -112,7 +176,10 @@ void ReadMesh(const SitePaths& site, const JsonNode& mesh, ArtificialEnvironment
   const std::filesystem::path path = site.artificial().parent_path() / mesh.At("file").Text();
   const std::string content = ReadWhole(path);
   const size_t vertices = CountOf(mesh.At("vertices")), triangles = CountOf(mesh.At("triangles"));
-  const size_t size = vertices * sizeof(Vector3d) + triangles * (sizeof(Vector3i) + sizeof(int));
+  const size_t normals = mesh.At("has_normals").Boolean() ? 3 * triangles : 0;
+  const size_t uvs = mesh.At("has_uvs").Boolean() ? 3 * triangles : 0;
+  const size_t size = vertices * sizeof(Vector3d) + triangles * (sizeof(Vector3i) + sizeof(int)) +
+                      normals * sizeof(Eigen::Vector3f) + uvs * sizeof(Eigen::Vector2f);
   if (content.size() != size || Checksum(content) != mesh.At("checksum").Text()) {
     throw InputError(path, "does not belong to " + site.artificial().filename().string() +
                                ", expected the mesh written with it: run insitu-convert again");
@@ -121,6 +188,8 @@ void ReadMesh(const SitePaths& site, const JsonNode& mesh, ArtificialEnvironment
   environment->vertices = Take<Vector3d>(vertices, &rest);
   environment->triangles = Take<Vector3i>(triangles, &rest);
   environment->material_of_triangle = Take<int>(triangles, &rest);
+  environment->corner_normals = Take<Eigen::Vector3f>(normals, &rest);
+  environment->corner_uvs = Take<Eigen::Vector2f>(uvs, &rest);
 }
 
 void CheckIndices(const std::filesystem::path& path, const ArtificialEnvironment& environment) {

@@ -1,42 +1,23 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "renderer/convert.h"
 
-#include <Eigen/Geometry>
 #include <algorithm>
-#include <cctype>
 #include <cstdio>
-#include <map>
 #include <set>
 
 #include "calibration/error.h"
+#include "calibration/json_file.h"
+#include "calibration/photograph.h"
+#include "renderer/building_lights.h"
 #include "renderer/building_materials.h"
+#include "renderer/model_list.h"
+#include "renderer/site_check.h"
 
 namespace insitu {
 namespace {
 
 namespace fs = std::filesystem;
-
-// Kinds that may carry surfaces in a form that we do not read.
-const std::set<std::string> kUnreadSurfaces = {
-    "3DSOLID",       "BODY",         "REGION",          "SURFACE",      "EXTRUDEDSURFACE",
-    "LOFTEDSURFACE", "PLANESURFACE", "REVOLVEDSURFACE", "SWEPTSURFACE", "NURBSURFACE"};
-
-bool IsDrawing(const fs::directory_entry& entry) {
-  std::string ending = entry.path().extension().string();
-  std::ranges::transform(ending, ending.begin(), [](unsigned char c) { return std::tolower(c); });
-  return entry.is_regular_file() && ending == ".dxf";
-}
-
-std::vector<fs::path> ListDrawings(const fs::path& folder) {
-  std::vector<fs::path> drawings;
-  std::error_code missing;
-  for (const fs::directory_entry& entry : fs::directory_iterator(folder, missing)) {
-    if (IsDrawing(entry)) drawings.push_back(entry.path());
-  }
-  if (drawings.empty()) throw InputError(folder, "no drawing, expected at least one *.dxf");
-  std::ranges::sort(drawings);
-  return drawings;
-}
+using Eigen::Vector3d;
 
 // "12 LINE, 3 TEXT"
 std::string Listed(const std::map<std::string, int>& counts) {
@@ -47,107 +28,266 @@ std::string Listed(const std::map<std::string, int>& counts) {
   return list;
 }
 
+std::string Listed(const std::set<std::string>& names) {
+  std::string list;
+  for (const std::string& name : names) list += (list.empty() ? "\"" : ", \"") + name + "\"";
+  return list;
+}
+
+// What a surface that materials.json does not list is called in messages and in the description.
+std::string LabelOf(const SurfaceNames& names) {
+  return names.material.empty() ? names.layer : names.material;
+}
+
+Vector3d MeanColor(const Raster& image) {
+  Vector3d sum = Vector3d::Zero();
+  for (int y = 0; y < image.height; ++y) {
+    for (int x = 0; x < image.width; ++x) sum += image.Rgb(x, y);
+  }
+  return sum / (static_cast<double>(image.width) * image.height);
+}
+
 class Converter {
  public:
-  explicit Converter(const fs::path& materials) : file_(materials) {
-    materials_ = ReadBuildingMaterials(materials);
-  }
-  void Add(const fs::path& drawing);
+  Converter(const SitePaths& site, const ConvertOptions& options)
+      : site_(site), options_(options), file_(site.building() / "materials.json"),
+        materials_(BuildingMaterials::Read(file_)) {}
+
+  void Add(const fs::path& path);
   Conversion Finish();
 
  private:
   void Warn(const fs::path& file, const std::string& message) {
     conversion_.warnings.push_back(InputError(file, message).what());
   }
-  void WarnOf(const fs::path& drawing, const DxfModel& model);
-  void AddMesh(const LayeredMesh& mesh);
-  int MaterialOf(const std::string& layer);
+  void WarnOf(const ModelReport& report, const Model& model);
+  void WarnOfPairs(const Placement& placement);
+  void ResolveMaterials();
+  int MaterialOf(const SurfaceNames& names);
+  int Unlisted(const SurfaceNames& names);
+  std::string TextureOf(const SurfaceNames& names);
+  void WarnOfMaterials();
+  void WarnOfSolids();
+  void DropHidden(const std::vector<std::optional<int>>& material_of_surface);
 
+  SitePaths site_;
+  ConvertOptions options_;
   fs::path file_;
-  std::map<std::string, SurfaceMaterial> materials_;
-  std::map<std::string, int> index_of_layer_;
+  BuildingMaterials materials_;
+  ModelMesh mesh_;
+  std::map<const BuildingMaterial*, int> index_of_material_;
+  std::map<std::string, int> index_of_unlisted_;
+  std::set<std::string> grey_, own_color_, hidden_;
   Conversion conversion_;
 };
 
-void Converter::WarnOf(const fs::path& drawing, const DxfModel& model) {
-  if (!model.metres_per_unit) Warn(drawing, "names no unit ($INSUNITS): taken as metres");
-  std::map<std::string, int> unread, without_surface;
-  for (const auto& [kind, count] : model.skipped) {
-    (kUnreadSurfaces.contains(kind) ? unread : without_surface)[kind] = count;
+void Converter::WarnOf(const ModelReport& report, const Model& model) {
+  if (!model.metres_per_unit && !report.placement.metres_per_unit && !model.mesh.triangles.empty()) {
+    Warn(report.file, "names no unit: taken as metres");
   }
-  if (!unread.empty()) {
-    Warn(drawing, "left out, though they may carry surfaces: " + Listed(unread) +
-                      " (save them as MESH, polyface or 3DFACE)");
-  }
-  if (!without_surface.empty()) Warn(drawing, "left out: " + Listed(without_surface));
-  if (!model.hidden.empty()) {
-    Warn(drawing, "left out on frozen or switched-off layers: " + Listed(model.hidden));
+  std::map<std::string, std::map<std::string, int>> kinds_of_reason;
+  for (const auto& [what, count] : model.skipped) kinds_of_reason[what.second][what.first] += count;
+  for (const auto& [reason, kinds] : kinds_of_reason) {
+    Warn(report.file, "left out: " + Listed(kinds) + " (" + reason + ")");
   }
   if (model.degenerate_faces > 0) {
-    Warn(drawing, "left out: " + std::to_string(model.degenerate_faces) +
-                      " faces of no area, or whose outline crosses itself");
+    Warn(report.file, "left out: " + std::to_string(model.degenerate_faces) +
+                          " faces of no area, or whose outline crosses itself");
   }
-  if (model.smoothed_meshes > 0) {
-    Warn(drawing, "read without its smoothing: " + std::to_string(model.smoothed_meshes) + " MESH");
+  if (model.mesh.triangles.empty()) Warn(report.file, "has no surface to show");
+  for (const std::string& warning : model.warnings) conversion_.warnings.push_back(warning);
+  WarnOfPairs(report.placement);
+}
+
+void Converter::WarnOfPairs(const Placement& placement) {
+  if (!placement.adjusted) return;
+  const fs::path file = site_.building() / "placement.json";
+  constexpr double kWorst = 3;  // sigmas
+  for (size_t i = 0; i < placement.pairs.size(); ++i) {
+    const double off = placement.adjusted->residuals[i].norm();
+    if (off <= kWorst * placement.pairs[i].sigma) continue;
+    char text[200];
+    std::snprintf(text, sizeof(text), "%s is %.3f m off, of a sigma of %.3f m",
+                  placement.pairs[i].name.c_str(), off, placement.pairs[i].sigma);
+    Warn(file, text);
+  }
+  const double scale = placement.adjusted->free_scale;
+  if (std::abs(scale - 1) > 0.01 && placement.world_from_model.scale == 1) {
+    Warn(file, "the pairs would fit a model " + std::to_string(scale) +
+                   " times as large: is its unit right?");
   }
 }
 
-int Converter::MaterialOf(const std::string& layer) {
-  auto& materials = conversion_.environment.materials;
-  const auto [known, is_new] =
-      index_of_layer_.try_emplace(layer, static_cast<int>(materials.size()));
-  if (!is_new) return known->second;
-  const auto listed = materials_.find(layer);
-  if (listed == materials_.end()) {
-    Warn(file_, "layer \"" + layer + "\" of the drawing is not listed: shown in mid grey");
-    SurfaceMaterial grey;
-    grey.name = layer;
-    materials.push_back(grey);
-  } else {
-    materials.push_back(listed->second);
+void Converter::Add(const fs::path& path) {
+  Model model = ReadModel(path, options_.import);
+  const double unit = model.metres_per_unit.value_or(1);
+  ModelReport report;
+  report.file = path;
+  report.format = model.format;
+  report.metres_per_unit = model.metres_per_unit;
+  report.triangles = static_cast<int>(model.mesh.triangles.size());
+  for (const Vector3d& vertex : model.mesh.vertices) report.box_in_units.extend(vertex / unit);
+  report.placement = ReadPlacement(site_, path.filename().string(), unit);
+  report.entities = model.entities;
+  report.skipped = model.skipped;
+  report.degenerate_faces = model.degenerate_faces;
+  WarnOf(report, model);
+  Place(site_, report.placement, unit, &model.mesh);
+  const fs::path folder = path.parent_path();
+  for (SurfaceNames& names : model.mesh.surfaces) {
+    if (!names.texture.empty() && !names.texture.starts_with('*')) {
+      std::ranges::replace(names.texture, '\\', '/');
+      names.texture = (folder / names.texture).lexically_normal().string();
+    }
   }
+  if (conversion_.models.empty()) {
+    mesh_ = std::move(model.mesh);
+  } else {
+    Append(model.mesh, &mesh_);
+  }
+  conversion_.models.push_back(std::move(report));
+}
+
+// Embedded images ("*0") have no file.
+std::string Converter::TextureOf(const SurfaceNames& names) {
+  if (names.texture.empty() || names.texture.starts_with('*')) return "";
+  std::error_code none;
+  if (!fs::is_regular_file(names.texture, none)) {
+    throw InputError(names.texture_place, "names the texture " + names.texture +
+                                              ", which is not there, expected the image, or an "
+                                              "entry for material \"" +
+                                              names.material + "\" in materials.json");
+  }
+  return fs::proximate(names.texture, site_.building(), none).string();
+}
+
+int Converter::Unlisted(const SurfaceNames& names) {
+  auto& materials = conversion_.environment.materials;
+  const std::string label = LabelOf(names);
+  conversion_.unlisted.try_emplace(label, names.rgb);
+  const bool has_color = !names.material.empty() && (names.rgb || !names.texture.empty());
+  const std::string key = label + (has_color ? '\0' + std::to_string(names.opacity) : "");
+  const auto [known, is_new] =
+      index_of_unlisted_.try_emplace(key, static_cast<int>(materials.size()));
+  if (!is_new) return known->second;
+  SurfaceMaterial material;
+  material.name = label;
+  if (has_color) {
+    material.texture = TextureOf(names);
+    material.diffuse_rgb = names.rgb.value_or(Vector3d(Vector3d::Ones()));
+    if (!material.texture.empty()) {
+      material.diffuse_rgb =
+          material.diffuse_rgb.cwiseProduct(MeanColor(ReadPhotograph(names.texture).linear))
+              .cwiseMin(1);
+    }
+    material.transmission = 1 - names.opacity;
+  }
+  (has_color ? own_color_ : grey_).insert(label);
+  materials.push_back(material);
   return known->second;
 }
 
-void Converter::AddMesh(const LayeredMesh& mesh) {
+int Converter::MaterialOf(const SurfaceNames& names) {
+  const BuildingMaterial* listed = materials_.Find(names);
+  if (!listed) return Unlisted(names);
+  auto& materials = conversion_.environment.materials;
+  const auto [known, is_new] =
+      index_of_material_.try_emplace(listed, static_cast<int>(materials.size()));
+  if (is_new) materials.push_back(listed->surface);
+  return known->second;
+}
+
+// Triangles of materials that are said to be hidden go; the others get their material's index.
+void Converter::ResolveMaterials() {
+  std::vector<std::optional<int>> material_of_surface(mesh_.surfaces.size());
+  for (size_t s = 0; s < mesh_.surfaces.size(); ++s) {
+    const SurfaceNames& names = mesh_.surfaces[s];
+    const BuildingMaterial* listed = materials_.Find(names);
+    if (listed && listed->hidden) {
+      hidden_.insert(listed->surface.name);
+    } else {
+      material_of_surface[s] = MaterialOf(names);
+    }
+  }
+  DropHidden(material_of_surface);
+}
+
+void Converter::DropHidden(const std::vector<std::optional<int>>& material_of_surface) {
+  ModelMesh shown;
+  shown.surfaces = mesh_.surfaces;
   ArtificialEnvironment& environment = conversion_.environment;
-  const int first = static_cast<int>(environment.vertices.size());
-  environment.vertices.insert(environment.vertices.end(), mesh.vertices.begin(),
-                              mesh.vertices.end());
-  for (size_t t = 0; t < mesh.triangles.size(); ++t) {
-    environment.triangles.push_back(mesh.triangles[t] + Eigen::Vector3i::Constant(first));
-    environment.material_of_triangle.push_back(MaterialOf(mesh.layers[mesh.layer_of_triangle[t]]));
+  const bool all = std::ranges::all_of(material_of_surface, [](const auto& m) { return !!m; });
+  if (!all) {
+    for (size_t t = 0; t < mesh_.triangles.size(); ++t) {
+      if (!material_of_surface[mesh_.surface_of_triangle[t]]) continue;
+      shown.triangles.push_back(mesh_.triangles[t]);
+      shown.surface_of_triangle.push_back(mesh_.surface_of_triangle[t]);
+      for (size_t c = 3 * t; c < 3 * t + 3; ++c) {
+        if (!mesh_.corner_normals.empty()) shown.corner_normals.push_back(mesh_.corner_normals[c]);
+        if (!mesh_.corner_uvs.empty()) shown.corner_uvs.push_back(mesh_.corner_uvs[c]);
+      }
+    }
+    shown.vertices = std::move(mesh_.vertices);
+    mesh_ = std::move(shown);
+  }
+  for (const int surface : mesh_.surface_of_triangle) {
+    const int material = *material_of_surface[surface];
+    environment.material_of_triangle.push_back(material);
+    ++conversion_.triangles_of_layer[mesh_.surfaces[surface].layer];
+    ++conversion_.triangles_of_material[environment.materials[material].name];
   }
 }
 
-void Converter::Add(const fs::path& drawing) {
-  const DxfModel model = ReadDxf(drawing);
-  if (model.mesh.triangles.empty()) {
-    throw InputError(drawing,
-                     "has no surface to show, expected 3DFACE, MESH, polyface or polygon "
-                     "mesh; it has " +
-                         (model.skipped.empty() ? "nothing" : Listed(model.skipped)));
+void Converter::WarnOfMaterials() {
+  if (!grey_.empty()) {
+    Warn(file_, "not listed, shown in mid grey: " + Listed(grey_));
   }
-  WarnOf(drawing, model);
-  AddMesh(model.mesh);
+  if (!own_color_.empty()) {
+    Warn(file_, "not listed, shown in the model's own colour: " + Listed(own_color_));
+  }
+  if (!hidden_.empty()) Warn(file_, "hidden: " + Listed(hidden_));
+  for (const std::string& name : materials_.Unused()) {
+    Warn(file_, name + " is listed but carries nothing in the model");
+  }
+}
+
+void Converter::WarnOfSolids() {
+  const SolidsReport& s = conversion_.solids;
+  const auto warn = [this](int count, const std::string& what) {
+    if (count > 0) Warn(site_.building(), std::to_string(count) + " " + what);
+  };
+  warn(s.duplicate_faces, "faces dropped: they lie on others of the same name");
+  warn(s.degenerate_faces, "faces dropped: they have no area");
+  warn(s.coincident_faces, "faces lie on others of another name: which is seen is open");
+  warn(s.flipped_faces, "faces of closed bodies turned to look outwards");
+  warn(s.unmended_faces, "faces of open bodies look another way than their neighbours");
+  warn(s.one_sided_bodies, "bodies cannot be given an outside");
 }
 
 Conversion Converter::Finish() {
-  for (const auto& [layer, material] : materials_) {
-    if (!index_of_layer_.contains(layer)) {
-      Warn(file_, "layer \"" + layer + "\" is listed but carries nothing in the drawing");
-    }
+  conversion_.solids = MendSolids(&mesh_);
+  ResolveMaterials();
+  WarnOfMaterials();
+  WarnOfSolids();
+  DropUnused(&mesh_);
+  ArtificialEnvironment& environment = conversion_.environment;
+  environment.vertices = std::move(mesh_.vertices);
+  environment.triangles = std::move(mesh_.triangles);
+  environment.corner_normals = std::move(mesh_.corner_normals);
+  environment.corner_uvs = std::move(mesh_.corner_uvs);
+  for (const std::string& suspicion : SuspicionsOf(conversion_.Box(), SiteBox(site_))) {
+    Warn(site_.building(), suspicion);
   }
+  const fs::path lights = site_.building() / "lights.json";
+  if (fs::exists(lights)) environment.lights = ReadLights(lights);
   return std::move(conversion_);
 }
 
-Eigen::AlignedBox3d BoxOf(const std::vector<Eigen::Vector3d>& vertices) {
-  Eigen::AlignedBox3d box;
-  for (const Eigen::Vector3d& vertex : vertices) box.extend(vertex);
-  return box;
+ModelList ModelsOf(const SitePaths& site, const ConvertOptions& options) {
+  return options.models.empty() ? ListModels(site) : ModelList{options.models, {}};
 }
 
-std::string Written(const Eigen::Vector3d& point) {
+std::string Written(const Vector3d& point) {
   char text[100];
   std::snprintf(text, sizeof(text), "(%.3f, %.3f, %.3f)", point.x(), point.y(), point.z());
   return text;
@@ -155,25 +295,63 @@ std::string Written(const Eigen::Vector3d& point) {
 
 }  // namespace
 
-Conversion ConvertBuilding(const SitePaths& site) {
-  const std::vector<fs::path> drawings = ListDrawings(site.building());
-  Converter converter(site.building() / "materials.json");
-  for (const fs::path& drawing : drawings) converter.Add(drawing);
+Conversion ConvertBuilding(const SitePaths& site, const ConvertOptions& options) {
+  const ModelList models = ModelsOf(site, options);
+  Converter converter(site, options);
+  for (const fs::path& model : models.files) converter.Add(model);
   Conversion conversion = converter.Finish();
-  const fs::path lights = site.building() / "lights.json";
-  if (fs::exists(lights)) conversion.environment.lights = ReadPointLights(lights);
+  conversion.warnings.insert(conversion.warnings.begin(), models.warnings.begin(),
+                             models.warnings.end());
   return conversion;
 }
 
+void RequireSurface(const SitePaths& site, const Conversion& conversion) {
+  if (!conversion.environment.triangles.empty()) return;
+  std::map<std::string, int> entities;
+  for (const ModelReport& model : conversion.models) {
+    for (const auto& [kind, count] : model.entities) entities[kind] += count;
+  }
+  const fs::path file =
+      conversion.models.size() == 1 ? conversion.models.front().file : site.building();
+  throw InputError(file, "has no surface to show, expected faces, meshes or solids; it has " +
+                             (entities.empty() ? "nothing" : Listed(entities)));
+}
+
+std::string MaterialsTemplate(const SitePaths& site, const ConvertOptions& options) {
+  std::map<std::string, std::map<std::string, Json::Value>> sections;
+  for (const fs::path& path : ModelsOf(site, options).files) {
+    for (const SurfaceNames& names : ReadModel(path, options.import).mesh.surfaces) {
+      Json::Value entry;
+      const Vector3d grey = Vector3d::Constant(0.5);
+      entry["diffuse_rgb"] = ToJson(Eigen::VectorXd(names.rgb.value_or(grey)));
+      entry["specular"] = "none";
+      sections["layers"].try_emplace(names.layer, entry);
+      if (!names.block.empty()) sections["blocks"].try_emplace(names.block, entry);
+      if (!names.material.empty()) sections["materials"].try_emplace(names.material, entry);
+    }
+  }
+  Json::Value root;
+  for (const auto& [section, entries] : sections) {
+    for (const auto& [name, entry] : entries) root[section][name] = entry;
+  }
+  return root.toStyledString();
+}
+
+Eigen::AlignedBox3d Conversion::Box() const {
+  Eigen::AlignedBox3d box;
+  for (const Vector3d& vertex : environment.vertices) box.extend(vertex);
+  return box;
+}
+
 std::string Conversion::BriefReport() const {
-  const Eigen::AlignedBox3d box = BoxOf(environment.vertices);
-  std::vector<int> triangles(environment.materials.size());
-  for (const int material : environment.material_of_triangle) ++triangles[material];
+  const Eigen::AlignedBox3d box = Box();
   std::string report = std::to_string(environment.triangles.size()) + " triangles, " +
                        std::to_string(environment.lights.size()) + " lights\n";
-  report += "  from " + Written(box.min()) + " to " + Written(box.max()) + " m\n";
-  for (size_t m = 0; m < triangles.size(); ++m) {
-    report += "  " + environment.materials[m].name + ": " + std::to_string(triangles[m]) + "\n";
+  if (!box.isEmpty()) {
+    report += "  from " + Written(box.min()) + " to " + Written(box.max()) + " m\n";
+  }
+  for (const auto& [layer, triangles] : triangles_of_layer) {
+    report += "  " + layer + ": " + std::to_string(triangles) + "\n";
   }
   for (const std::string& warning : warnings) report += "warning: " + warning + "\n";
   return report;

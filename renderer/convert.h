@@ -1,27 +1,67 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// CONVERT: the architect's model and its materials become the artificial environment. [Durisch92,
-// §5]
+// CONVERT: the architect's models and their materials become the artificial environment.
+// [Durisch92, §5]
 #pragma once
 
+#include <Eigen/Geometry>
+#include <filesystem>
+#include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "renderer/artificial_environment.h"
-#include "renderer/dxf.h"
+#include "renderer/model_file.h"
+#include "renderer/placement.h"
+#include "renderer/solids.h"
 
 namespace insitu {
 
+struct ConvertOptions {
+  ImportOptions import;
+  // Instead of the models in building/.
+  std::vector<std::filesystem::path> models;
+};
+
+// One model file as it was read.
+struct ModelReport {
+  std::filesystem::path file;
+  std::string format;
+  std::optional<double> metres_per_unit;  // as the file names it; nullopt: taken as metres
+  int triangles = 0;
+  Eigen::AlignedBox3d box_in_units;       // of the file's own coordinates, z up; may be empty
+  Placement placement;
+  std::map<std::string, int> entities;    // kind -> count
+  SkippedEntities skipped;
+  int degenerate_faces = 0;
+};
+
 struct Conversion {
   ArtificialEnvironment environment;
-  std::vector<std::string> warnings;  // entities skipped, layers without a material, ...
+  std::vector<ModelReport> models;
+  SolidsReport solids;
+  std::map<std::string, int> triangles_of_layer;
+  std::map<std::string, int> triangles_of_material;
+  // What materials.json does not list: label -> what the model itself says of its colour.
+  std::map<std::string, std::optional<Eigen::Vector3d>> unlisted;
+  std::vector<std::string> warnings;  // entities skipped, names without a material, ...
+
+  Eigen::AlignedBox3d Box() const;    // [m], world; empty without a surface
   std::string BriefReport() const;    // triangles, bounding box, layers, warnings
 };
 
-// Reads building/*.dxf, building/materials.json and, if there, building/lights.json.
-// A layer that materials.json does not list becomes a visible mid grey, with a warning.
-// Throws InputError: no drawing, no surface in it, unreadable materials, albedo outside 0..1, a
-// mirroring material with roughness > 0 (which this version cannot show), a light of negative
-// intensity.
-Conversion ConvertBuilding(const SitePaths& site);
+// Reads the models in building/ (of files with one name but several endings, the first of DXF, IFC,
+// glTF, COLLADA, OBJ, PLY, STL), placement.json, materials.json and lights.json there if they are.
+// A name that materials.json does not list keeps the colour of the model's own material, else it
+// becomes a visible mid grey; both with a warning that lists them.
+// Throws InputError: no model, what the readers of the files state, a texture that is named and used
+// but not there. A building without a surface is none: see RequireSurface.
+Conversion ConvertBuilding(const SitePaths& site, const ConvertOptions& options = {});
+
+// Throws InputError, naming what the models hold instead, if there is no surface.
+void RequireSurface(const SitePaths& site, const Conversion& conversion);
+
+// A materials.json with an entry for every layer, block and material name of the models.
+std::string MaterialsTemplate(const SitePaths& site, const ConvertOptions& options = {});
 
 }  // namespace insitu

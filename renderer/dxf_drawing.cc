@@ -2,63 +2,107 @@
 #include "renderer/dxf_drawing.h"
 
 #include <algorithm>
+#include <cmath>
+#include <cstdlib>
 
+#include "renderer/dxf_color.h"
 #include "renderer/dxf_units.h"
 
 namespace insitu {
 namespace {
 
-using Records = std::span<const DxfRecord>;
-
 constexpr size_t kDeepest = 64;
-constexpr double kMostPieces = 20e6;  // vertices, entities and copies of blocks
-
-// How many records come before the next one of this kind.
-size_t CountUntil(Records records, std::string_view kind) {
-  const auto found = std::ranges::find(records, kind, &DxfRecord::kind);
-  return static_cast<size_t>(found - records.begin());
-}
 
 // The header's variables are pairs: 9 and a name, then the value.
-void ReadHeader(const DxfRecord& header, DxfDrawing* drawing) {
+void ReadHeader(const DxfRecord& header, DxfReader* reader, DxfDrawing* drawing) {
   const auto tags = header.tags();
   for (size_t i = 0; i + 1 < tags.size(); ++i) {
-    if (tags[i].code != 9 || tags[i].value != "$INSUNITS") continue;
-    const int units = header.IntegerOf(tags[i + 1]);
+    if (tags[i].code != 9) continue;
+    const DxfTag& value = tags[i + 1];
+    if (tags[i].value == "$ACADVER") drawing->version = value.value;
+    if (tags[i].value == "$DWGCODEPAGE") reader->SetCodePage(std::string(value.value));
+    if (tags[i].value != "$INSUNITS") continue;
+    const int units = header.IntegerOf(value);
     drawing->metres_per_unit = MetresPerDxfUnit(units);
     if (units != 0 && !drawing->metres_per_unit) {
       throw header.ErrorAt(
-          tags[i + 1], "$INSUNITS is " + std::to_string(units) + ", expected 0 to 24 (6: metres)");
+          value, "$INSUNITS is " + std::to_string(units) + ", expected 0 to 24 (6: metres)");
     }
   }
 }
 
-void ReadTables(Records records, DxfDrawing* drawing) {
-  for (const DxfRecord& record : records) {
-    if (record.kind() != "LAYER") continue;
-    const bool frozen = record.Integer(70, 0) & 1;
-    const bool off = record.Integer(62, 7) < 0;  // the colour, negative if off
-    drawing->layers[DxfKey(record.Name(2))] = {frozen, off};
+void ReadTableEntry(const DxfRecord& record, DxfDrawing* drawing) {
+  if (record.kind() != "LAYER") return;
+  DxfLayer layer;
+  const int color = record.Integer(62, 7);  // negative if off
+  layer.frozen = record.Integer(70, 0) & 1;
+  layer.off = color < 0;
+  layer.no_plot = record.Integer(290, 1) == 0;
+  layer.rgb = ColorOfIndex(color == -2147483647 - 1 ? 0 : std::abs(color));
+  if (const DxfTag* tag = record.Find(420)) {
+    layer.rgb = LinearFromSrgb24(static_cast<uint32_t>(record.IntegerOf(*tag)) & 0xFFFFFF);
   }
+  drawing->layers[DxfKey(record.Name(2))] = layer;
 }
 
-void ReadBlocks(Records records, DxfDrawing* drawing) {
-  while (!records.empty()) {
-    const DxfRecord& head = records.front();
-    records = records.subspan(1);
-    if (head.kind() != "BLOCK") continue;
-    const size_t count = CountUntil(records, "ENDBLK");
-    if (count == records.size()) {
-      throw head.Error("block \"" + head.Name(2) + "\" is not closed, expected an ENDBLK");
+// Reads the records of one section, whose end must come.
+class SectionReader {
+ public:
+  SectionReader(DxfReader* reader, DxfDrawing* drawing) : reader_(reader), drawing_(drawing) {}
+
+  // `head` is the SECTION; it is gone after the first record.
+  void Read(const DxfRecord& head) {
+    const std::string name = head.Name(2);
+    const DxfPlace place = head.place();
+    if (name == "HEADER") ReadHeader(head, reader_, drawing_);
+    DxfEntityReader entities(&drawing_->model_space);
+    while (const DxfRecord* record = reader_->Next()) {
+      if (record->kind() == "ENDSEC") return Finish(&entities);
+      if (name == "TABLES") ReadTableEntry(*record, drawing_);
+      if (name == "BLOCKS") ReadBlockRecord(*record);
+      if (name == "ENTITIES") entities.Add(*record);
     }
+    throw place.Error("section " + name + " is not closed, expected an ENDSEC");
+  }
+
+ private:
+  void Finish(DxfEntityReader* entities) {
+    if (block_) {
+      throw block_place_.Error("block \"" + block_->name +
+                               "\" is not closed, expected an ENDBLK");
+    }
+    entities->Finish();
+  }
+
+  void ReadBlockRecord(const DxfRecord& record) {
+    if (!block_) {
+      if (record.kind() == "BLOCK") BeginBlock(record);
+    } else if (record.kind() == "ENDBLK") {
+      block_entities_->Finish();
+      drawing_->blocks[DxfKey(block_->name)] = std::move(*block_);
+      block_entities_.reset();
+      block_.reset();
+    } else {
+      block_entities_->Add(record);
+    }
+  }
+
+  void BeginBlock(const DxfRecord& head) {
     constexpr int kExternal = 4 | 8;  // attached, overlaid
-    DxfBlock block = ReadDxfEntities(records.first(count));
-    block.base = head.FindPoint(10).value_or(Eigen::Vector3d(Eigen::Vector3d::Zero()));
-    block.external = head.Integer(70, 0) & kExternal;
-    drawing->blocks[DxfKey(head.Name(2))] = std::move(block);
-    records = records.subspan(count);
+    block_place_ = head.place();
+    block_.emplace();
+    block_->name = head.Name(2);
+    block_->base = head.FindPoint(10).value_or(Eigen::Vector3d(Eigen::Vector3d::Zero()));
+    block_->external = head.Integer(70, 0) & kExternal;
+    block_entities_.emplace(&*block_);
   }
-}
+
+  DxfReader* reader_;
+  DxfDrawing* drawing_;
+  DxfPlace block_place_;
+  std::optional<DxfBlock> block_;
+  std::optional<DxfEntityReader> block_entities_;
+};
 
 // Of a block with all that it inserts.
 struct Extent {
@@ -67,16 +111,16 @@ struct Extent {
 };
 
 double OwnPieces(const DxfBlock& block) {
-  double pieces = static_cast<double>(block.content.mesh.vertices.size());
-  for (const auto& [kind, count] : block.content.entities) pieces += count;
-  for (const auto& [kind, count] : block.content.skipped) pieces += count;
+  double pieces = static_cast<double>(block.vertices.size());
+  for (const auto& [kind, count] : block.entities) pieces += count;
   return pieces;
 }
 
 // Looks at every block that the model space uses, once, before any is copied.
 class InsertCheck {
  public:
-  explicit InsertCheck(const DxfDrawing& drawing) : drawing_(drawing) {}
+  InsertCheck(const DxfDrawing& drawing, double most_pieces)
+      : drawing_(drawing), most_pieces_(most_pieces) {}
 
   Extent AllInserted(const DxfBlock& holder) {
     Extent all;
@@ -84,8 +128,10 @@ class InsertCheck {
       const Extent one = Inserted(insert);
       all.pieces += one.pieces * insert.rows * insert.columns;
       all.depth = std::max(all.depth, one.depth);
-      if (all.pieces > kMostPieces) {
-        throw insert.record.Error("copies of blocks come to over 20 million pieces");
+      if (all.pieces > most_pieces_) {
+        throw insert.place.Error("copies of blocks come to over " +
+                                 std::to_string(std::lround(most_pieces_ / 1e6)) +
+                                 " million pieces");
       }
     }
     return all;
@@ -95,12 +141,12 @@ class InsertCheck {
   Extent Inserted(const DxfInsert& insert) {
     const DxfBlock& block = InsertedBlock(drawing_, insert);
     if (std::ranges::find(nesting_, &block) != nesting_.end()) {
-      throw insert.record.Error("block \"" + insert.block + "\" inserts itself");
+      throw insert.place.Error("block \"" + insert.block + "\" inserts itself");
     }
     const auto known = extents_.find(&block);
     const size_t depth = nesting_.size() + (known == extents_.end() ? 1 : known->second.depth);
     if (depth > kDeepest) {
-      throw insert.record.Error("blocks within blocks, more than 64 deep");
+      throw insert.place.Error("blocks within blocks, more than 64 deep");
     }
     if (known != extents_.end()) return known->second;
     nesting_.push_back(&block);
@@ -110,6 +156,7 @@ class InsertCheck {
   }
 
   const DxfDrawing& drawing_;
+  double most_pieces_;
   std::vector<const DxfBlock*> nesting_;
   std::map<const DxfBlock*, Extent> extents_;
 };
@@ -127,32 +174,21 @@ std::string DxfKey(const std::string& name) {
 const DxfBlock& InsertedBlock(const DxfDrawing& drawing, const DxfInsert& insert) {
   const auto found = drawing.blocks.find(DxfKey(insert.block));
   if (found == drawing.blocks.end()) {
-    throw insert.record.Error("INSERT of block \"" + insert.block +
+    throw insert.place.Error("INSERT of block \"" + insert.block +
                               "\", which the drawing does not define");
   }
   return found->second;
 }
 
-DxfDrawing ReadDxfDrawing(const DxfFile& file) {
+DxfDrawing ReadDxfDrawing(const std::filesystem::path& path, double most_pieces) {
   DxfDrawing drawing;
-  Records records = file.records();
-  while (!records.empty()) {
-    const DxfRecord& head = records.front();
-    records = records.subspan(1);
-    if (head.kind() != "SECTION") continue;
-    const std::string name = head.Name(2);
-    const size_t count = CountUntil(records, "ENDSEC");
-    if (count == records.size()) {
-      throw head.Error("section " + name + " is not closed, expected an ENDSEC");
-    }
-    const Records content = records.first(count);
-    if (name == "HEADER") ReadHeader(head, &drawing);
-    if (name == "TABLES") ReadTables(content, &drawing);
-    if (name == "BLOCKS") ReadBlocks(content, &drawing);
-    if (name == "ENTITIES") drawing.model_space = ReadDxfEntities(content);
-    records = records.subspan(count);
+  DxfReader reader(path);
+  drawing.binary = reader.binary();
+  SectionReader section(&reader, &drawing);
+  while (const DxfRecord* record = reader.Next()) {
+    if (record->kind() == "SECTION") section.Read(*record);
   }
-  InsertCheck(drawing).AllInserted(drawing.model_space);
+  InsertCheck(drawing, most_pieces).AllInserted(drawing.model_space);
   return drawing;
 }
 

@@ -3,46 +3,16 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <array>
-#include <cstdint>
+#include <cmath>
+#include <numbers>
 
-#include "renderer/dxf_block.h"
+#include "renderer/face_mesh.h"
 #include "renderer/face_triangles.h"
 
 namespace insitu {
 namespace {
 
 using Eigen::Vector3d;
-
-// Adds the vertices of one entity and returns the index of the first.
-int AddVertices(const std::vector<Vector3d>& vertices, DxfModel* model) {
-  std::vector<Vector3d>& all = model->mesh.vertices;
-  const int first = static_cast<int>(all.size());
-  all.insert(all.end(), vertices.begin(), vertices.end());
-  return first;
-}
-
-int LayerIndex(const std::string& name, LayeredMesh* mesh) {
-  const auto found = std::ranges::find(mesh->layers, name);
-  const int index = static_cast<int>(found - mesh->layers.begin());
-  if (found == mesh->layers.end()) mesh->layers.push_back(name);
-  return index;
-}
-
-// `corners` count from vertex `first` of the model's mesh.
-void AddFace(const std::string& layer, int first, std::vector<int> corners, DxfModel* model) {
-  for (int& corner : corners) corner += first;
-  LayeredMesh& mesh = model->mesh;
-  const std::vector<Eigen::Vector3i> triangles = FaceTriangles(mesh.vertices, corners);
-  if (triangles.empty()) {
-    ++model->degenerate_faces;
-    return;
-  }
-  mesh.triangles.insert(mesh.triangles.end(), triangles.begin(), triangles.end());
-  mesh.layer_of_triangle.resize(mesh.triangles.size(), LayerIndex(layer, &mesh));
-}
-
-std::string LayerOf(const DxfRecord& entity) { return entity.Name(8, "0"); }
 
 // The values of a MESH come in a fixed order; this walks through them.
 class TagWalk {
@@ -54,6 +24,11 @@ class TagWalk {
   }
   void SkipTo(int code) {
     SkipUntil([&](const DxfTag& tag) { return tag.code == code; });
+  }
+  // The next tag if it carries this code.
+  std::optional<DxfTag> NextIf(int code) {
+    if (rest_.empty() || rest_.front().code != code) return std::nullopt;
+    return Next(code);
   }
   // The next tag, which must carry this code.
   const DxfTag& Next(int code) {
@@ -111,11 +86,117 @@ std::vector<int> MeshFace(const DxfRecord& entity, int vertices, TagWalk* walk) 
   return corners;
 }
 
-// Corners of a polyface's face record: 1-based, negative where the edge is invisible, 0 for none.
-std::vector<int> PolyfaceCorners(const DxfRecord& face, int vertices) {
+// Edges that stay sharp: pairs of vertices, then a value each; -1 is for ever.
+std::map<std::pair<int, int>, double> MeshCreases(const DxfRecord& entity, int vertices,
+                                                  TagWalk* walk) {
+  std::map<std::pair<int, int>, double> creases;
+  const std::optional<DxfTag> count_tag = walk->NextIf(94);
+  const int count = count_tag ? entity.IntegerOf(*count_tag) : 0;
+  std::vector<std::pair<int, int>> edges;
+  for (int i = 0; i < count; ++i) {
+    int ends[2];
+    for (int& end : ends) {
+      const DxfTag tag = walk->Next(90);
+      end = entity.IntegerOf(tag);
+      if (end < 0 || end >= vertices) {
+        throw entity.ErrorAt(tag, "an edge names vertex " + std::to_string(end) +
+                                      ", expected 0 to " + std::to_string(vertices - 1));
+      }
+    }
+    edges.emplace_back(std::min(ends[0], ends[1]), std::max(ends[0], ends[1]));
+  }
+  const std::optional<DxfTag> crease_tag = walk->NextIf(95);
+  const int crease_count = crease_tag ? entity.IntegerOf(*crease_tag) : 0;
+  for (int i = 0; i < crease_count; ++i) {
+    const double value = entity.NumberOf(walk->Next(140));
+    if (i < count && value != 0) creases[edges[i]] = value < 0 ? kFinestSmoothing + 1 : value;
+  }
+  return creases;
+}
+
+constexpr size_t kMostSmoothedFaces = 1000000;
+
+}  // namespace
+
+int AddDxfVertices(const std::vector<Vector3d>& vertices, DxfBlock* block) {
+  std::vector<Vector3d>& all = block->vertices;
+  const int first = static_cast<int>(all.size());
+  all.insert(all.end(), vertices.begin(), vertices.end());
+  return first;
+}
+
+void AddDxfFace(int look, int first, std::vector<int> corners, DxfBlock* block) {
+  for (int& corner : corners) corner += first;
+  const std::vector<Eigen::Vector3i> triangles = FaceTriangles(block->vertices, corners);
+  if (triangles.empty()) ++block->degenerate_faces;
+  block->triangles.insert(block->triangles.end(), triangles.begin(), triangles.end());
+  block->look_of_triangle.resize(block->triangles.size(), look);
+}
+
+void AddDxf3dFace(const DxfRecord& entity, int look, DxfBlock* block) {
+  const Vector3d third = entity.Point(12);
+  const Vector3d fourth = entity.FindPoint(13).value_or(third);
+  std::vector<Vector3d> vertices = {entity.Point(10), entity.Point(11), third};
+  std::vector<int> corners = {0, 1, 2};
+  if (fourth != third) {
+    vertices.push_back(fourth);
+    corners.push_back(3);
+  }
+  AddDxfFace(look, AddDxfVertices(vertices, block), corners, block);
+}
+
+void AddDxfSolid(const DxfRecord& entity, int look, DxfBlock* block) {
+  const Eigen::Matrix3d axes = DxfEntityAxes(entity);
+  const Vector3d third = entity.Point(12);
+  // The corners are stored crosswise: 1, 2, 4, 3 go round.
+  std::vector<Vector3d> vertices = {entity.Point(10), entity.Point(11),
+                                    entity.FindPoint(13).value_or(third), third};
+  const Vector3d height(0, 0, entity.Number(39, 0));
+  for (int i = 0; i < 4; ++i) vertices.push_back(vertices[i] + height);
+  for (Vector3d& vertex : vertices) vertex = axes * vertex;
+  if (height.z() == 0) {
+    vertices.resize(4);
+    AddDxfFace(look, AddDxfVertices(vertices, block), {0, 1, 2, 3}, block);
+    return;
+  }
+  const int first = AddDxfVertices(vertices, block);
+  AddDxfFace(look, first, {3, 2, 1, 0}, block);
+  AddDxfFace(look, first, {4, 5, 6, 7}, block);
+  for (int i = 0, next = 1; i < 4; ++i, next = (i + 1) % 4) {
+    if (vertices[i] == vertices[next]) continue;  // a triangle's fourth corner is its third
+    AddDxfFace(look, first, {i, next, next + 4, i + 4}, block);
+  }
+}
+
+void AddDxfMesh(const DxfRecord& entity, int look, DxfBlock* block) {
+  TagWalk walk(entity);
+  walk.SkipTo(100, "AcDbSubDMesh");
+  walk.SkipTo(92);
+  FaceMesh mesh;
+  mesh.vertices = MeshVertices(entity, &walk);
+  const DxfTag size_tag = walk.Next(93);
+  const int list_size = entity.IntegerOf(size_tag);
+  int64_t read = 0;
+  while (read < list_size) {
+    mesh.faces.push_back(MeshFace(entity, static_cast<int>(mesh.vertices.size()), &walk));
+    read += static_cast<int64_t>(mesh.faces.back().size()) + 1;
+  }
+  if (read > list_size) {
+    throw entity.ErrorAt(size_tag, "the faces of this MESH take " + std::to_string(read) +
+                                       " numbers, not " + std::to_string(list_size));
+  }
+  mesh.creases = MeshCreases(entity, static_cast<int>(mesh.vertices.size()), &walk);
+  const int level = std::clamp(entity.Integer(91, 0), 0, kFinestSmoothing);
+  for (int i = 0; i < level && mesh.faces.size() < kMostSmoothedFaces; ++i) mesh = Smoothed(mesh);
+  const int first = AddDxfVertices(mesh.vertices, block);
+  for (std::vector<int>& face : mesh.faces) AddDxfFace(look, first, std::move(face), block);
+}
+
+std::vector<int> DxfPolyfaceCorners(const DxfRecord& face, int64_t vertices) {
   std::vector<int> corners;
   for (int code = 71; code <= 74; ++code) {
     const DxfTag* tag = face.Find(code);
+    // Negative where the edge is invisible, 0 for none.
     const int64_t number = tag ? std::abs(int64_t{face.IntegerOf(*tag)}) : 0;
     if (number > vertices) {
       throw face.ErrorAt(*tag, "a face names vertex " + std::to_string(number) +
@@ -126,109 +207,70 @@ std::vector<int> PolyfaceCorners(const DxfRecord& face, int vertices) {
   return corners;
 }
 
-}  // namespace
-
-void AddDxf3dFace(const DxfRecord& entity, DxfModel* model) {
-  const Vector3d third = entity.Point(12);
-  const int first = AddVertices(
-      {entity.Point(10), entity.Point(11), third, entity.FindPoint(13).value_or(third)}, model);
-  AddFace(LayerOf(entity), first, {0, 1, 2, 3}, model);
-}
-
-void AddDxfSolid(const DxfRecord& entity, DxfModel* model) {
-  const Eigen::Matrix3d axes = DxfEntityAxes(entity);
-  const Vector3d third = entity.Point(12);
-  // The corners are stored crosswise: 1, 2, 4, 3 go round.
-  std::vector<Vector3d> vertices = {entity.Point(10), entity.Point(11),
-                                    entity.FindPoint(13).value_or(third), third};
-  const Vector3d height(0, 0, entity.Number(39, 0));
-  for (int i = 0; i < 4; ++i) vertices.push_back(vertices[i] + height);
-  for (Vector3d& vertex : vertices) vertex = axes * vertex;
-  const std::string layer = LayerOf(entity);
-  if (height.z() == 0) {
-    vertices.resize(4);
-    AddFace(layer, AddVertices(vertices, model), {0, 1, 2, 3}, model);
-    return;
-  }
-  const int first = AddVertices(vertices, model);
-  AddFace(layer, first, {3, 2, 1, 0}, model);
-  AddFace(layer, first, {4, 5, 6, 7}, model);
-  for (int i = 0, next = 1; i < 4; ++i, next = (i + 1) % 4) {
-    if (vertices[i] == vertices[next]) continue;  // a triangle's fourth corner is its third
-    AddFace(layer, first, {i, next, next + 4, i + 4}, model);
-  }
-}
-
-void AddDxfMesh(const DxfRecord& entity, DxfModel* model) {
-  TagWalk walk(entity);
-  walk.SkipTo(100, "AcDbSubDMesh");
-  walk.SkipTo(92);
-  const std::vector<Vector3d> vertices = MeshVertices(entity, &walk);
-  const int first = AddVertices(vertices, model);
-  const DxfTag size_tag = walk.Next(93);
-  const int list_size = entity.IntegerOf(size_tag);
-  int64_t read = 0;
-  while (read < list_size) {
-    const std::vector<int> corners = MeshFace(entity, static_cast<int>(vertices.size()), &walk);
-    AddFace(LayerOf(entity), first, corners, model);
-    read += static_cast<int64_t>(corners.size()) + 1;
-  }
-  if (read > list_size) {
-    throw entity.ErrorAt(size_tag, "the faces of this MESH take " + std::to_string(read) +
-                                       " numbers, not " + std::to_string(list_size));
-  }
-  if (entity.Integer(91, 0) > 0) ++model->smoothed_meshes;
-}
-
-void AddDxfPolyface(const DxfRecord& polyline, std::span<const DxfRecord> vertices,
-                    DxfModel* model) {
-  constexpr int kLocation = 64, kPolyface = 128;
-  std::vector<Vector3d> locations;
-  std::vector<const DxfRecord*> faces;
-  for (const DxfRecord& vertex : vertices) {
-    const int flags = vertex.Integer(70, 0);
-    if (flags & kLocation) {
-      locations.push_back(vertex.Point(10));
-    } else if (flags & kPolyface) {
-      faces.push_back(&vertex);
-    }
-  }
-  const int first = AddVertices(locations, model);
-  for (const DxfRecord* face : faces) {
-    // Many programs leave the faces on layer 0.
-    const std::string own_layer = LayerOf(*face);
-    AddFace(own_layer == "0" ? LayerOf(polyline) : own_layer, first,
-            PolyfaceCorners(*face, static_cast<int>(locations.size())), model);
-  }
-}
-
-void AddDxfPolygonMesh(const DxfRecord& polyline, std::span<const DxfRecord> vertices,
-                       DxfModel* model) {
-  constexpr int kClosedAlongRows = 1, kSmoothed = 4, kClosedAlongColumns = 32;
-  constexpr int kControlPoint = 16;  // of a smoothed mesh: not on its surface
-  const int flags = polyline.Integer(70, 0);
-  const bool smoothed = flags & kSmoothed;
-  const int rows = polyline.Integer(smoothed ? 73 : 71, 0);
-  const int columns = polyline.Integer(smoothed ? 74 : 72, 0);
-  std::vector<Vector3d> grid;
-  for (const DxfRecord& vertex : vertices) {
-    if (!(vertex.Integer(70, 0) & kControlPoint)) grid.push_back(vertex.Point(10));
-  }
-  if (rows < 2 || columns < 2 || int64_t{rows} * columns != static_cast<int64_t>(grid.size())) {
-    throw polyline.Error("a polygon mesh of " + std::to_string(rows) + " x " +
-                         std::to_string(columns) + " vertices has " + std::to_string(grid.size()) +
-                         " of them");
-  }
-  const int first = AddVertices(grid, model);
-  const auto index = [&](int row, int column) { return row % rows * columns + column % columns; };
-  const int row_count = flags & kClosedAlongRows ? rows : rows - 1;
-  const int column_count = flags & kClosedAlongColumns ? columns : columns - 1;
+void AddDxfGrid(const DxfGrid& grid, const std::vector<Vector3d>& vertices, int look,
+                DxfBlock* block) {
+  const int first = AddDxfVertices(vertices, block);
+  const auto index = [&](int row, int column) {
+    return row % grid.rows * grid.columns + column % grid.columns;
+  };
+  const int row_count = grid.closed_along_rows ? grid.rows : grid.rows - 1;
+  const int column_count = grid.closed_along_columns ? grid.columns : grid.columns - 1;
   for (int m = 0; m < row_count; ++m) {
     for (int n = 0; n < column_count; ++n) {
-      AddFace(LayerOf(polyline), first,
-              {index(m, n), index(m + 1, n), index(m + 1, n + 1), index(m, n + 1)}, model);
+      AddDxfFace(look, first,
+                 {index(m, n), index(m + 1, n), index(m + 1, n + 1), index(m, n + 1)}, block);
     }
   }
+}
+
+DxfPath DxfLinePath(const DxfRecord& entity) {
+  DxfPath path;
+  path.axes = DxfEntityAxes(entity);
+  path.thickness = entity.Number(39, 0);
+  for (const int code : {10, 11}) {  // the ends of a LINE are in the world's axes
+    path.vertices.push_back({path.axes.transpose() * entity.Point(code), 0, 0, 0});
+  }
+  return path;
+}
+
+DxfPath DxfArcPath(const DxfRecord& entity) {
+  constexpr double kDegree = std::numbers::pi / 180;
+  DxfPath path;
+  path.axes = DxfEntityAxes(entity);
+  path.thickness = entity.Number(39, 0);
+  path.closed = path.capped = entity.kind() == "CIRCLE";
+  const double radius = entity.Number(40, 0);
+  const double start = path.closed ? 0 : entity.Number(50, 0);
+  double sweep = path.closed ? 360 : std::fmod(entity.Number(51, 360) - start, 360);
+  if (sweep <= 0) sweep += 360;
+  constexpr int kPieces = 4;  // a bulge holds less than a full turn
+  for (int i = 0; i < kPieces + (path.closed ? 0 : 1); ++i) {
+    const double angle = (start + sweep * i / kPieces) * kDegree;
+    path.vertices.push_back(
+        {entity.Point(10) + radius * Vector3d(std::cos(angle), std::sin(angle), 0),
+         std::tan(sweep * kDegree / kPieces / 4), 0, 0});
+  }
+  return path;
+}
+
+DxfPath DxfLwPolylinePath(const DxfRecord& entity) {
+  DxfPath path;
+  path.axes = DxfEntityAxes(entity);
+  path.thickness = entity.Number(39, 0);
+  path.closed = entity.Integer(70, 0) & 1;
+  const double elevation = entity.Number(38, 0), width = entity.Number(43, 0);
+  for (const DxfTag& tag : entity.tags()) {
+    if (tag.code == 10) {
+      path.vertices.push_back({{entity.NumberOf(tag), 0, elevation}, 0, width, width});
+    }
+    if (path.vertices.empty()) continue;
+    DxfPathVertex& vertex = path.vertices.back();
+    if (tag.code == 20) vertex.point.y() = entity.NumberOf(tag);
+    if (tag.code == 40) vertex.start_width = entity.NumberOf(tag);
+    if (tag.code == 41) vertex.end_width = entity.NumberOf(tag);
+    if (tag.code == 42) vertex.bulge = entity.NumberOf(tag);
+  }
+  return path;
 }
 
 }  // namespace insitu

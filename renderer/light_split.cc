@@ -174,9 +174,11 @@ Spectrum LampIrradiance(const MontageScene& scene, const SurfacePoint& surface) 
     const double distance = path.norm();
     const double cosine = surface.normal.dot(path) / distance;
     if (cosine <= 0) continue;
+    const double share = lamp.distribution ? lamp.distribution->At(-path / distance) : 1;
+    if (share <= 0) continue;
     const Ray ray = {origin, path / distance, 0, distance};
     if (IsBlocked(scene.artificial_rays, ray) || IsBlocked(scene.natural_rays, ray)) continue;
-    irradiance += lamp.intensity * (cosine / (distance * distance));
+    irradiance += lamp.intensity * (share * cosine / (distance * distance));
   }
   return irradiance;
 }

@@ -7,6 +7,7 @@
 
 #include "calibration/error.h"
 #include "calibration/program.h"
+#include "calibration/site_cameras.h"
 #include "renderer/profile.h"
 
 namespace insitu {
@@ -42,19 +43,38 @@ const PosedCamera& CameraOf(const NaturalEnvironment& natural, const SitePaths& 
                                            "; run insitu-reconstruct and insitu-light again");
 }
 
+// The camera of each photograph's input image.
+std::map<std::string, Camera> ReadPinholes(const SitePaths& site) {
+  const std::vector<std::filesystem::path> photos = ListPhotographs(site);
+  const std::vector<std::string> cameras = CamerasOfPhotos(site, photos);
+  std::map<std::string, Camera> pinhole_of_photo;
+  for (size_t i = 0; i < photos.size(); ++i) {
+    const std::filesystem::path pinhole = site.pinhole_camera(cameras[i]);
+    RequireResult(pinhole, "insitu-undistort");
+    pinhole_of_photo.emplace(photos[i].stem().string(), ReadCamera(pinhole));
+  }
+  return pinhole_of_photo;
+}
+
 MontageScene LoadScene(const SitePaths& site, bool with_building) {
   const PhaseScope phase(Phase::kFiles);
   NaturalEnvironment natural = ReadEnvironment(site);
   const ArtificialEnvironment building =
       with_building ? ReadArtificialEnvironment(site) : ArtificialEnvironment();
-  RequireResult(site.pinhole_camera(), "insitu-undistort");
+  const std::map<std::string, Camera> pinhole_of_photo = ReadPinholes(site);
+  std::vector<Camera> pinholes;
   std::vector<Raster> images;
   for (const PosedCamera& camera : natural.scene.cameras) {
+    const auto pinhole = pinhole_of_photo.find(camera.photo);
+    if (pinhole == pinhole_of_photo.end()) {
+      throw InputError(site.photos(), "no photograph is named " + camera.photo +
+                                          " as in the environment; run insitu-reconstruct again");
+    }
+    pinholes.push_back(pinhole->second);
     images.push_back(ReadPhotograph(site.input_image(camera.photo)).linear);
   }
-  const Camera pinhole = ReadCamera(site.pinhole_camera());
   const PhaseScope shading(Phase::kShading);
-  return MakeMontageScene(std::move(natural), building, pinhole, std::move(images));
+  return MakeMontageScene(std::move(natural), building, pinholes, std::move(images));
 }
 
 struct View {
@@ -68,7 +88,7 @@ View LoadView(const SitePaths& site, const MontageScene& scene,
   const std::string name = photograph.stem().string();
   View view = {CameraOf(scene.natural, site, name), ReadPhotograph(photograph)};
   if (frame == Frame::kPinhole) {
-    view.camera.camera = ReadCamera(site.pinhole_camera());
+    view.camera.camera = ReadPinholes(site).at(name);
     view.photo.linear = ReadPhotograph(site.input_image(name)).linear;
   }
   const Raster& image = view.photo.linear;

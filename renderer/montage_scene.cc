@@ -6,6 +6,7 @@
 
 #include "calibration/error.h"
 #include "renderer/mean_brdf.h"
+#include "renderer/spectral_table.h"
 
 namespace insitu {
 namespace {
@@ -52,8 +53,19 @@ SpectralMaterial NaturalSurface(const NaturalEnvironment& natural, const Polygon
 }
 
 SpectralMaterial ArtificialSurface(const SpectralBasis& spectra, const SurfaceMaterial& material) {
-  return {material.diffuse_weight,
-          spectra.ReflectanceFromRgb(material.diffuse_rgb) / std::numbers::pi, material.specular};
+  const Spectrum albedo = material.reflectance.empty()
+                              ? spectra.ReflectanceFromRgb(material.diffuse_rgb)
+                              : Sampled(material.reflectance, spectra.bins());
+  return {material.diffuse_weight, albedo / std::numbers::pi, material.specular};
+}
+
+// The lamp's own spectrum has its shape, its intensity the luminance.
+Spectrum LampIntensity(const SpectralBasis& spectra, const PointLight& lamp) {
+  const Spectrum from_rgb = spectra.SpectrumFromRgb(lamp.intensity_rgb);
+  if (lamp.spectrum.empty() || lamp.intensity_rgb.maxCoeff() <= 0) return from_rgb;
+  const Spectrum shape = Sampled(lamp.spectrum, spectra.bins());
+  const double luminance = Tristimulus(from_rgb, spectra.bins()).y();
+  return shape * (luminance / Tristimulus(shape, spectra.bins()).y());
 }
 
 // Within ten degrees of level.
@@ -81,8 +93,9 @@ std::optional<int> LargestLevelPolygon(const SceneGeometry& scene) {
 }  // namespace
 
 MontageScene MakeMontageScene(NaturalEnvironment natural, const ArtificialEnvironment& artificial,
-                              const Camera& pinhole, std::vector<Raster> images) {
+                              const std::vector<Camera>& pinholes, std::vector<Raster> images) {
   INSITU_CHECK(images.size() == natural.scene.cameras.size());
+  INSITU_CHECK(pinholes.size() == images.size());
   const Eigen::Vector3d origin = natural.scene.origin;
   PolygonMesh polygons = MeshOfPolygons(natural.scene);
   const TriangleMesh building = LocalMesh(artificial, origin);
@@ -114,7 +127,7 @@ MontageScene MakeMontageScene(NaturalEnvironment natural, const ArtificialEnviro
   }
   for (const PointLight& lamp : artificial.lights) {
     scene.lamps.push_back(
-        {lamp.position - origin, site.spectra.SpectrumFromRgb(lamp.intensity_rgb)});
+        {lamp.position - origin, LampIntensity(site.spectra, lamp), lamp.distribution});
   }
   scene.facets = MakeSkyFacets(site.light.zenith_direction, site.light.polar_facets);
   INSITU_CHECK(scene.facets.directions.size() <= kMostFacets);
@@ -127,7 +140,7 @@ MontageScene MakeMontageScene(NaturalEnvironment natural, const ArtificialEnviro
   scene.solar_disc_radius = std::sqrt(1 - cosine * cosine) / cosine;
   for (size_t i = 0; i < scene.input_images.size(); ++i) {
     PosedCamera camera = site.scene.cameras[i];
-    camera.camera = pinhole;
+    camera.camera = pinholes[i];
     scene.images.emplace_back(camera, origin, scene.input_images[i]);
   }
   scene.mean_brdf_of_polygon = MeanBrdfOfPolygons(scene);

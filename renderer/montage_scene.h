@@ -25,6 +25,7 @@ struct SpectralMaterial {
 struct LampSpectrum {
   Eigen::Vector3d position;  // [m], local
   Spectrum intensity;        // radiance unit times m^2
+  std::optional<LightDistribution> distribution;
 };
 
 // An axis-aligned box about the planned building; a light ray that misses it is not blocked by it.
@@ -75,8 +76,8 @@ struct MontageScene {
 };
 
 // `artificial` may be empty: the site as it is. `images` are the input images, in the order of
-// natural.scene.cameras, all seen by `pinhole`.
+// natural.scene.cameras, as are the pinhole cameras that see them.
 MontageScene MakeMontageScene(NaturalEnvironment natural, const ArtificialEnvironment& artificial,
-                              const Camera& pinhole, std::vector<Raster> images);
+                              const std::vector<Camera>& pinholes, std::vector<Raster> images);
 
 }  // namespace insitu

@@ -1,24 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// reconstruction_figures DATA [FIGURE...]: the adjustment's figures beside those of other programs,
-// as JSON. DATA holds the projects of ../shared/data/adjustment and calibration; what is missing is
-// left out and named on stderr.
-#include <json/json.h>
+#include "reconstruction_figures.h"
 
 #include <chrono>
 #include <cmath>
-#include <cstdlib>
 #include <fstream>
 #include <functional>
-#include <iostream>
 #include <map>
 #include <regex>
-#include <set>
 #include <sstream>
 
 #include "../reconstruction/network_statistics.h"
 #include "calibration/external_program.h"
-#include "calibration/json_file.h"
-#include "reconstruction/colmap_network.h"
+#include "reconstruction/colmap_export.h"
+#include "reconstruction/colmap_model.h"
 #include "reconstruction/import_project.h"
 #include "reconstruction/lens_residual.h"
 #include "reconstruction/solve_network.h"
@@ -245,7 +239,7 @@ double SecondsOfColmap(const Network& network) {
   const fs::path folder = fs::temp_directory_path() / "insitu_roma_colmap";
   fs::remove_all(folder);
   fs::create_directories(folder / "out");
-  WriteNetworkAsColmap(folder / "in", network);
+  WriteColmapText(folder / "in", ColmapFromNetwork(network));
   return SecondsOf([&] {
     RunExternal(
         {{"colmap", "bundle_adjuster", "--input_path", (folder / "in").string(), "--output_path",
@@ -287,7 +281,7 @@ Json::Value RomaArch(const fs::path& data) {
 
 // ---- synthetic -----------------------------------------------------------------------------
 
-Json::Value Synthetic(const fs::path&) {
+Json::Value Coverage(const fs::path&) {
   const NetworkStatistics statistics = SampleNetworkStatistics(500);
   Json::Value json;
   json["pose"] = statistics.coverage_95.pose;
@@ -302,47 +296,17 @@ Json::Value Synthetic(const fs::path&) {
   return json;
 }
 
-struct Figure {
-  std::string key, folder;  // that it needs; empty: none
-  std::function<Json::Value(const fs::path&)> measure;
-};
-
-const std::vector<Figure> kFigures = {
-    {"coverage_95", "", Synthetic},
-    {"jaicov_aicon", "adjustment/jaicov_aicon", JaicovAicon},
-    {"dbat_camcal", "calibration/dbat_camcal_c4040z", DbatCamcal},
-    {"sxb_aerial", "adjustment/sxb_aerial", SxbAerial},
-    {"roma_arch", "adjustment/roma_arch", RomaArch},
-};
-
-int Run(int argc, char** argv) {
-  if (argc < 2) {
-    std::cerr << "reconstruction_figures DATA [FIGURE...]\n";
-    return 2;
-  }
-  const fs::path data = argv[1];
-  const std::set<std::string> chosen(argv + 2, argv + argc);
-  Json::Value json(Json::objectValue);
-  for (const Figure& figure : kFigures) {
-    if (!chosen.empty() && !chosen.contains(figure.key)) continue;
-    if (!fs::exists(data / figure.folder)) {
-      std::cerr << "skipped " << figure.key << ": no " << (data / figure.folder).string() << '\n';
-      continue;
-    }
-    json[figure.key] = figure.measure(data);
-  }
-  std::cout << json << '\n';
-  return 0;
-}
-
 }  // namespace
-}  // namespace insitu
 
-int main(int argc, char** argv) {
-  try {
-    return insitu::Run(argc, argv);
-  } catch (const std::exception& error) {
-    std::cerr << error.what() << '\n';
-    return 1;
-  }
+const std::vector<ReconstructionFigure>& ReconstructionFigures() {
+  static const std::vector<ReconstructionFigure> kFigures = {
+      {"coverage_95", "", Coverage},
+      {"jaicov_aicon", "adjustment/jaicov_aicon", JaicovAicon},
+      {"dbat_camcal", "calibration/dbat_camcal_c4040z", DbatCamcal},
+      {"sxb_aerial", "adjustment/sxb_aerial", SxbAerial},
+      {"roma_arch", "adjustment/roma_arch", RomaArch},
+  };
+  return kFigures;
 }
+
+}  // namespace insitu

@@ -11,7 +11,6 @@
 namespace insitu {
 namespace {
 
-constexpr int kSquares = 11;      // across; one less interior corners
 constexpr double kSquare = 0.08;  // [m]
 constexpr int kSamples = 4;       // per pixel and direction
 
@@ -35,15 +34,17 @@ Rigid3 CamFromBoard(const View& view) {
 }
 
 // Reflected light at a point of the board's plane [m]: white border two thirds of a square wide.
-double BoardLight(double x, double y) {
-  const double u = x / kSquare + kSquares / 2.0, v = y / kSquare + kSquares / 2.0;
+double BoardLight(const Board& board, double x, double y) {
+  const int columns = board.interior_corners_x + 1, rows = board.interior_corners_y + 1;  // squares
+  const double u = x / kSquare + columns / 2.0, v = y / kSquare + rows / 2.0;
   const double border = 2.0 / 3;
-  if (std::min(u, v) < -border || std::max(u, v) > kSquares + border) return 0.2;
-  if (std::min(u, v) < 0 || std::max(u, v) >= kSquares) return 0.8;
+  if (std::min(u, v) < -border || u > columns + border || v > rows + border) return 0.2;
+  if (std::min(u, v) < 0 || u >= columns || v >= rows) return 0.8;
   return (static_cast<int>(u) + static_cast<int>(v)) % 2 == 0 ? 0.05 : 0.8;
 }
 
-double LightOfPixel(const SightMap& sights, const Rigid3& board_from_cam, int x, int y) {
+double LightOfPixel(const Board& board, const SightMap& sights, const Rigid3& board_from_cam, int x,
+                    int y) {
   double sum = 0;
   for (int i = 0; i < kSamples * kSamples; ++i) {
     const Eigen::Vector2d offset((i % kSamples + 0.5) / kSamples, (i / kSamples + 0.5) / kSamples);
@@ -51,7 +52,7 @@ double LightOfPixel(const SightMap& sights, const Rigid3& board_from_cam, int x,
         board_from_cam.rotation * sights.Direction(Eigen::Vector2d(x - 0.5, y - 0.5) + offset);
     const Eigen::Vector3d& center = board_from_cam.translation;
     const Eigen::Vector3d hit = center - center.z() / sight.z() * sight;
-    sum += BoardLight(hit.x(), hit.y());
+    sum += BoardLight(board, hit.x(), hit.y());
   }
   return sum / (kSamples * kSamples);
 }
@@ -62,9 +63,11 @@ Camera BoardPhotosLens() {
   return Camera("LENSMODEL_OPENCV4", {560, 560, 322, 237, -0.12, 0.02, 0, 0}, 640, 480);
 }
 
-Board BoardPhotosBoard() { return {kSquares - 1, kSquares - 1, kSquare, "board.txt"}; }
+Board BoardPhotosBoard() { return {10, 10, kSquare, "board.txt"}; }
 
-void WriteBoardPhotos(const std::filesystem::path& folder) {
+Board RectangularBoard() { return {10, 7, kSquare, "board.txt"}; }
+
+void WriteBoardPhotos(const std::filesystem::path& folder, const Board& board) {
   const Camera lens = BoardPhotosLens();
   const SightMap sights(lens);
   int number = 0;
@@ -73,7 +76,8 @@ void WriteBoardPhotos(const std::filesystem::path& folder) {
     Raster photo(lens.width(), lens.height());
     for (int y = 0; y < photo.height; ++y) {
       for (int x = 0; x < photo.width; ++x) {
-        photo.SetRgb(x, y, Eigen::Vector3d::Constant(LightOfPixel(sights, board_from_cam, x, y)));
+        const double light = LightOfPixel(board, sights, board_from_cam, x, y);
+        photo.SetRgb(x, y, Eigen::Vector3d::Constant(light));
       }
     }
     WritePng(folder / ("board_" + std::to_string(++number) + ".png"), photo, Encoding::kSrgb8);

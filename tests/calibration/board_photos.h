@@ -15,7 +15,10 @@ Camera BoardPhotosLens();
 // 10x10 interior corners, 0.08 m.
 Board BoardPhotosBoard();
 
+// 10x7, else the same.
+Board RectangularBoard();
+
 // Writes eight photographs board_1.png ... board_8.png, the whole board visible in each.
-void WriteBoardPhotos(const std::filesystem::path& folder);
+void WriteBoardPhotos(const std::filesystem::path& folder, const Board& board = BoardPhotosBoard());
 
 }  // namespace insitu

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "calibration/board.h"
 
+#include "calibration/board_calibration.h"
 #include "calibration/photograph.h"
 #include "tests/calibration/scratch_folder.h"
 
@@ -68,19 +69,14 @@ class BoardPhotos : public testing::Test {
   const std::filesystem::path model_ = folder_.path() / "work/camera.cameramodel";
 };
 
-TEST_F(BoardPhotos, NonSquareBoard) {
-  const Board board{10, 7, 0.08, "board.txt"};
-  EXPECT_EQ(InputErrorOf([&] { CalibrateFromBoards({BlankPhoto("a.png", 64)}, board, model_); }),
-            "board.txt: a board of 10x7 interior corners, expected a square one for mrgingham");
-}
-
 TEST_F(BoardPhotos, UnequalSizes) {
   const std::vector<std::filesystem::path> photos = {BlankPhoto("a.png", 64),
                                                      BlankPhoto("b.png", 65)};
   EXPECT_EQ(InputErrorOf([&] {
               CalibrateFromBoards(photos, {10, 10, 0.08, ""}, model_);
             }),
-            photos[1].string() + ": is 65x48 px, expected 64x48 px as a.png");
+            photos[1].string() + ": is 65x48 px, expected 64x48 px as a.png; boards of another camera or another "
+                "format belong in a folder of their own");
 }
 
 TEST_F(BoardPhotos, TooFewBoardsFound) {
@@ -89,8 +85,25 @@ TEST_F(BoardPhotos, TooFewBoardsFound) {
   EXPECT_EQ(InputErrorOf([&] {
               CalibrateFromBoards(photos, {10, 10, 0.08, ""}, model_);
             }),
-            folder_.path().string() + ": whole boards found in 0 of 2 photos, expected at least 3");
+            folder_.path().string() +
+                ": whole boards found in 0 of 2 photos, expected at least 3; each photo must show "
+                "the whole board with its white border, sharp, and board.txt must count its "
+                "interior corners");
   EXPECT_FALSE(std::filesystem::exists(model_));
+}
+
+TEST_F(BoardPhotos, OnePhoto) {
+  const auto photo = BlankPhoto("a.png", 64);
+  EXPECT_EQ(InputErrorOf([&] { CalibrateFromBoards({photo}, {7, 5, 0.08, ""}, model_); })
+                .substr(0, folder_.path().string().size() + 46),
+            folder_.path().string() + ": whole boards found in 0 of 1 photos, expected");
+}
+
+TEST_F(BoardPhotos, APngThatIsNone) {
+  const auto photo = folder_.Write("a.png", "no picture");
+  EXPECT_EQ(InputErrorOf([&] { CalibrateFromBoards({photo}, {7, 5, 0.08, ""}, model_); })
+                .find(photo.string() + ": not a readable image"),
+            0u);
 }
 
 }  // namespace

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "calibration/site_calibration.h"
 
+#include <Eigen/Eigenvalues>
+
 #include "calibration/json_file.h"
 #include "calibration/photograph.h"
 #include "calibration/undistort.h"
@@ -33,11 +35,11 @@ class Site : public testing::Test {
 TEST_F(Site, BoardsGiveTheLensBack) {
   WriteBoardPhotos(site_.boards());
   folder_.Write("calibration/board.txt", kBoard);
-  const SiteCalibration calibration =
-      CalibrateSite(site_, {.lens_model = "LENSMODEL_OPENCV4", .focal_px = 500});
+  const CameraCalibration calibration =
+      CalibrateSite(site_, {.lens_model = "LENSMODEL_OPENCV4", .focal_px = 500}).cameras.front();
   ASSERT_TRUE(calibration.boards);
   EXPECT_EQ(calibration.boards->boards_found, 8);
-  EXPECT_LT(calibration.boards->rms_px, 0.3);
+  EXPECT_LT(calibration.lens->rms_px, 0.3);
   EXPECT_NEAR(calibration.camera.focal_px(), 560, 0.005 * 560);
   const Camera truth = BoardPhotosLens();
   for (const Eigen::Vector2d& pixel : {Eigen::Vector2d(320, 240), Eigen::Vector2d(150, 120)}) {
@@ -58,16 +60,76 @@ TEST_F(Site, BoardsGiveTheLensBack) {
             report.At("uncertainty").At("center_px").Number());
   EXPECT_NE(ReadWhole(site_.camera()).find("optimization_inputs"), std::string::npos);
 
+  // The boards' own accounts add up, and their photographs are named.
+  int corners = 0;
+  for (const BoardView& board : calibration.lens->boards) {
+    corners += board.corners;
+    EXPECT_TRUE(board.photo.starts_with("board_")) << board.photo;
+  }
+  EXPECT_EQ(corners, report.At("points").Integer());
+  EXPECT_NEAR(calibration.lens->boards[0].distance_m, 1.35, 0.02);
+  EXPECT_LT(calibration.lens->boards[0].tilt_deg, 2);
+  EXPECT_NEAR(calibration.lens->boards[1].tilt_deg, 29, 1);  // cos 0.5 cos 0.1
+
+  // Two halves of eight boards: another lens, but not a wholly other one.
+  EXPECT_GT(report.At("cross_validation").At("rms_px").Number(), 0);
+  EXPECT_LT(report.At("cross_validation").At("rms_px").Number(), 10);
+
+  const auto covariance = ReadIntrinsicsCovariance(site_, "");
+  ASSERT_TRUE(covariance);
+  ASSERT_EQ(covariance->rows(), 8);
+  EXPECT_LT((*covariance - covariance->transpose()).norm(), 1e-9 * covariance->norm());
+  EXPECT_GT(Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(*covariance).eigenvalues().minCoeff(), 0);
+  EXPECT_LT(std::abs(calibration.camera.focal_px() - 560), 5 * std::sqrt((*covariance)(0, 0)));
+
+  const std::string page = ReadWhole(site_.calibration_page());
+  EXPECT_NE(page.find("\"cross_validation\""), std::string::npos);
+
   // The same boards give the same bytes: no date, no random start.
   const std::string first = ReadWhole(site_.camera());
   CalibrateSite(site_, {.lens_model = "LENSMODEL_OPENCV4", .focal_px = 500});
   EXPECT_EQ(ReadWhole(site_.camera()), first);
 }
 
+// A brought model that holds its solution is assessed again, and gives the same covariance.
+TEST_F(Site, RectangularBoardsAndABroughtSolution) {
+  WriteBoardPhotos(site_.boards(), RectangularBoard());
+  folder_.Write("calibration/board.txt",
+                "type chessboard\ninterior_corners_x 10\ninterior_corners_y 7\nsquare_m 0.08\n");
+  const CameraCalibration made =
+      CalibrateSite(site_, {.lens_model = "LENSMODEL_OPENCV4", .focal_px = 500}).cameras.front();
+  EXPECT_EQ(made.boards->boards_found, 8);
+  EXPECT_LT(made.lens->rms_px, 0.2);
+  EXPECT_NEAR(made.camera.focal_px(), 560, 0.01 * 560);
+  const auto covariance = ReadIntrinsicsCovariance(site_, "");
+  ASSERT_TRUE(covariance);
+
+  fs::copy_file(site_.camera(), site_.brought_camera());
+  const CameraCalibration brought = CalibrateSite(site_).cameras.front();
+  EXPECT_FALSE(brought.boards);
+  ASSERT_TRUE(brought.lens);
+  EXPECT_EQ(brought.lens->rms_px, made.lens->rms_px);
+  EXPECT_EQ(brought.lens->boards[0].photo, "board 1");
+  EXPECT_LT((*ReadIntrinsicsCovariance(site_, "") - *covariance).norm(),
+            1e-9 * covariance->norm());
+}
+
+TEST_F(Site, SquaresCountedForCorners) {
+  WriteBoardPhotos(site_.boards(), RectangularBoard());
+  folder_.Write("calibration/board.txt",
+                "type chessboard\ninterior_corners_x 11\ninterior_corners_y 8\nsquare_m 0.08\n");
+  EXPECT_EQ(InputErrorOf([&] { CalibrateSite(site_); }),
+            site_.boards().string() +
+                ": whole boards found in 0 of 8 photos, expected at least 3; board_1.png shows a "
+                "board of 10x7 interior corners: board.txt must count interior corners, not "
+                "squares");
+}
+
 TEST_F(Site, BroughtCameraIsTakenAsItIs) {
   BringCamera();
-  const SiteCalibration calibration = CalibrateSite(site_);
+  const CameraCalibration calibration = CalibrateSite(site_).cameras.front();
   EXPECT_FALSE(calibration.boards);
+  EXPECT_FALSE(ReadIntrinsicsCovariance(site_, ""));
   EXPECT_EQ(ReadWhole(site_.camera()), ReadWhole(site_.brought_camera()));
   EXPECT_EQ(JsonNode::Load(site_.calibration_report()).At("source").Text(), "brought");
 }
@@ -91,11 +153,11 @@ TEST_F(Site, UndistortsEveryPhotograph) {
   AddPhoto("a.png");
   const SiteUndistortion result = UndistortSite(site_);
   EXPECT_EQ(result.photos, 2);
-  EXPECT_EQ(ReadCamera(site_.pinhole_camera()).intrinsics(), result.pinhole.intrinsics());
+  EXPECT_EQ(ReadCamera(site_.pinhole_camera()).intrinsics(), result.pinholes[0].intrinsics());
   const Photograph input = ReadPhotograph(site_.input_image("a"));
   EXPECT_EQ(input.encoding, Encoding::kLinear);
   const Raster original = ReadPhotograph(site_.photos() / "a.png").linear;
-  EXPECT_EQ(input.linear.data, Reproject(original, BoardPhotosLens(), result.pinhole).data);
+  EXPECT_EQ(input.linear.data, Reproject(original, BoardPhotosLens(), result.pinholes[0]).data);
 }
 
 TEST_F(Site, PhotographOfAnotherSizeStopsBeforeAnyIsWritten) {

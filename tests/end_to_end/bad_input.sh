@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Bad input: status 2, one line on stderr that names file and line, nothing half-written.
-# shellcheck disable=SC2317 # the functions are called through check
+# shellcheck disable=SC2016,SC2317 # awk has $ of its own; the functions are called through check
 set -euo pipefail
 # shellcheck source=assertions.sh
 source "$(dirname -- "${BASH_SOURCE[0]}")/assertions.sh"
@@ -87,6 +87,96 @@ check 'NaN in a coordinate' refuses reconstruct 'survey/control_points\.csv:3: '
 fresh_site
 sed -i '4s/\(,[^,]*\),[^,]*/\1,nan/' "$(survey observations.csv)"
 check 'NaN in a mark' refuses reconstruct 'survey/observations\.csv:4: '
+
+# What surveyors mix up: each is told with its remedy.
+# edit_table FILE STATEMENT: an awk statement on each row of survey/FILE but its header.
+edit_table() {
+  awk -F, -v OFS=, -v CONVFMT=%.14g "NR > 1 { $2 } 1" "$DEMO_SITE/survey/$1" >"$(survey "$1")"
+}
+
+# line_of FILE PATTERN: the number of the first line of survey/FILE that matches.
+line_of() { grep -n -m 1 -- "$2" "$(survey "$1")" | cut -d: -f1; }
+
+fresh_site
+edit_table control_points.csv 't = $2; $2 = $3; $3 = t'
+check 'control with x and y exchanged' refuses reconstruct \
+  'survey/control_points\.csv:2: .*left-handed.*x and y are exchanged.*as given, to [0-9.]+ px'
+
+fresh_site
+edit_table control_points.csv '$2 = -$2'
+check 'control of the other hand' refuses reconstruct \
+  'survey/control_points\.csv:2: .*left-handed.*an axis counts backwards'
+
+fresh_site
+edit_table control_points.csv '$4 = $4 / 0.3048'
+check 'heights in feet' refuses reconstruct \
+  'survey/control_points\.csv:2: z of the control points in feet'
+
+fresh_site
+edit_table observations.csv 't = $3; $3 = $4; $4 = t'
+check 'marks with x and y exchanged' refuses reconstruct \
+  "survey/observations\.csv:2: the marks' x and y are exchanged"
+
+fresh_site
+height=$(oiiotool --info "$photo" | sed 's/.* x *\([0-9]*\),.*/\1/')
+edit_table observations.csv "\$4 = $height - 1 - \$4"
+check 'marks counted from the bottom' refuses reconstruct \
+  "survey/observations\.csv:2: the marks' y is counted from the bottom"
+
+fresh_site
+edit_table control_points.csv 'for (i = 2; i <= 7; ++i) $i *= 1000'
+printf 'photo,x,y,z,sigma_x,sigma_y,sigma_z,role\n' >"$(survey camera_positions.csv)"
+/usr/bin/python3 - "$site/truth/truth.json" "$name" >>"$(survey camera_positions.csv)" <<'PYTHON'
+import json, sys
+path, photo = sys.argv[1:]
+print(photo, *json.load(open(path))['photos'][photo]['center'], 0.02, 0.02, 0.02, 'weighted', sep=',')
+PYTHON
+check 'millimetres for metres, a camera position tells' refuses reconstruct \
+  'survey/camera_positions\.csv:2: .*control points in millimetres'
+
+fresh_site
+edit_table control_points.csv 'for (i = 2; i <= 7; ++i) $i *= 1000'
+asks_for_millimetres() {
+  "$INSITU_BIN/insitu-reconstruct" "$site" 2>&1 |
+    grep 'control_points.csv:2: .*are these in millimetres?'
+}
+check 'millimetres for metres, nothing tells: a question' asks_for_millimetres
+
+fresh_site
+edit_table control_points.csv 'if ($1 ~ /^tower_[01]$/) $1 = $1 == "tower_0" ? "tower_1" : "tower_0"'
+check 'two control points exchanged' refuses reconstruct \
+  "survey/control_points\.csv:2: points 'tower_1' and 'tower_0' .*exchanged"
+
+fresh_site
+edit_table observations.csv "if (\$1 == \"$name\" && \$2 ~ /^tower_[01]\$/)
+  \$2 = \$2 == \"tower_0\" ? \"tower_1\" : \"tower_0\""
+check 'two marks exchanged' refuses reconstruct \
+  "survey/observations\.csv:[0-9]+: .*exchanged on this photo; did you mean 'tower_[01]'"
+
+fresh_site
+sed -i "s/^$name,tower_0,/$name,Tower 0,/" "$(survey observations.csv)"
+check 'a name misspelt' refuses reconstruct \
+  "survey/observations\.csv:$(line_of observations.csv 'Tower 0'): .*did you mean 'tower_0'\?"
+
+fresh_site
+edit_table control_points.csv 'if (NR % 3 == 0) { $2 -= 2000000; $3 -= 1000000 }'
+check 'two coordinate systems' refuses reconstruct \
+  'survey/control_points\.csv:3: the control points are in two coordinate systems'
+
+fresh_site
+sed -i '4s/^\([^,]*,[^,]*\),[^,]*/\1,1e9/' "$(survey observations.csv)"
+check 'a mark at 1e9 pixels' refuses reconstruct \
+  'survey/observations\.csv:4: x is 1e9, expected a pixel position'
+
+fresh_site
+cp -- "$photo" "$site/photos/twin.jpg"
+check 'a photo twice' refuses reconstruct \
+  "photos/[a-z]+\.jpg: is the same photograph as '[a-z]+\.jpg'"
+
+fresh_site
+printf '{"constraints": [\n{"kind": "distance", "points": ["tower_0", "tower_1"], "value_m": 1}]}\n' \
+  >"$(survey constraints.json)"
+check 'a constraint without sigma' refuses reconstruct 'survey/constraints\.json:2: .*sigma_m'
 
 fresh_site
 edit_json samples.json 'data["haze"][0].update(data["horizon"][0])'

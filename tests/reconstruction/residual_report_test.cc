@@ -75,6 +75,10 @@ TEST_F(Report, SumsItsGroupsToTheWhole) {
   EXPECT_NEAR(redundancy, report["summary"]["redundancy"].asDouble(), 1e-6);
   EXPECT_NEAR(squares, report["summary"]["global_test"]["statistic"].asDouble(), 1e-6 * squares);
   EXPECT_EQ(report["observations"]["count"].asInt(), count);
+  int unknowns = 0;
+  for (const Json::Value& part : report["summary"]["unknowns_of"]) unknowns += part.asInt();
+  EXPECT_EQ(unknowns, report["summary"]["unknowns"].asInt());
+  EXPECT_EQ(report["summary"]["unknowns_of"]["exterior orientations"].asInt(), 4 * 6);
   EXPECT_EQ(report["photos"].size(), 4u);
   EXPECT_EQ(report["polygons"].size(), network_.survey.polygons.size());
   EXPECT_EQ(report["check"]["points"].size(), 2u);

@@ -77,6 +77,16 @@ TEST_F(Verdict, FailsOnAGrossErrorAndNamesIt) {
   EXPECT_NE(suspect->remedy.find("measure mark '" + wrong.point + "'"), std::string::npos);
 }
 
+TEST_F(Verdict, FailsOnASurelyWrongMarkButNotOnAWrongMatch) {
+  Adjustment adjustment = Adjusted();
+  adjustment.residuals[0].w = 8;
+  EXPECT_EQ(Find(Judge(adjustment), "the suspect is")->severity, Severity::kFail);
+  adjustment.residuals[0].is_tie_point = true;
+  EXPECT_EQ(Find(Judge(adjustment), "the suspect is tie point")->severity, Severity::kReview);
+  adjustment.residuals[0].w = 3;
+  EXPECT_FALSE(Find(Judge(adjustment), "the suspect is"));
+}
+
 TEST_F(Verdict, FailsWhenCheckPointsAreFarOff) {
   for (ControlPoint& point : survey_.control_points) {
     if (point.role == ControlRole::kCheck) point.position.x() += 0.5;

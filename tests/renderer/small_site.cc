@@ -37,7 +37,7 @@ void AddTriangle(ArtificialEnvironment& building, const Eigen::Vector3i& corners
 }  // namespace
 
 MontageScene SmallSite::With(const ArtificialEnvironment& building) const {
-  return MakeMontageScene(natural, building, pinhole, {photo});
+  return MakeMontageScene(natural, building, {pinhole}, {photo});
 }
 
 SmallSite MakeSmallSite() {

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What a photograph's metadata tell of its camera.
+#pragma once
+
+#include <Eigen/Core>
+#include <filesystem>
+#include <optional>
+#include <string>
+
+namespace insitu {
+
+struct ExifCamera {
+  std::string model;                          // maker's name of the camera; may be empty
+  std::optional<double> focal_mm;             // as set
+  std::optional<double> focal_35mm;           // that would show the same on 35 mm film
+  std::optional<double> pixel_mm;             // of the focal plane, as the maker states it
+  Eigen::Vector2i size = {0, 0};              // of the file itself [px]
+  bool IsEmpty() const { return model.empty() && !focal_mm && !focal_35mm; }
+
+  // The focal length in pixels, from focal_mm and pixel_mm if both are there, else from focal_35mm
+  // by the diagonal; nullopt: neither.
+  std::optional<double> FocalPx() const;
+};
+
+// All but the size is empty when the file holds no metadata. Throws InputError: not an image.
+ExifCamera ReadExifCamera(const std::filesystem::path& photo);
+
+}  // namespace insitu

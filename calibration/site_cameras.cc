@@ -1,0 +1,238 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "calibration/site_cameras.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <optional>
+#include <set>
+
+#include "calibration/camera_file.h"
+#include "calibration/error.h"
+#include "calibration/exif.h"
+#include "calibration/film.h"
+#include "calibration/json_file.h"
+
+namespace insitu {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr double kSameFocal = 0.02;  // zoom lenses state their focal length roughly
+
+// ---- folders -------------------------------------------------------------------------------
+
+std::vector<fs::path> SortedFiles(const fs::path& folder) {
+  std::vector<fs::path> files;
+  if (!fs::is_directory(folder)) return files;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
+    if (entry.is_regular_file()) files.push_back(entry.path());
+  }
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+// The camera file among a folder's files.
+std::optional<fs::path> FindCameraFile(const std::vector<fs::path>& files) {
+  std::optional<fs::path> found;
+  for (const fs::path& file : files) {
+    if (file.filename() == "camera.cameramodel") return file;
+  }
+  for (const fs::path& file : files) {
+    if (!IsCameraFile(file)) continue;
+    if (found) {
+      throw InputError(file, "is a second camera file beside " + found->filename().string() +
+                                 ", expected one a folder");
+    }
+    found = file;
+  }
+  return found;
+}
+
+std::optional<CameraFolder> ReadCameraFolder(const std::string& name, const fs::path& folder) {
+  CameraFolder camera{name, folder, CameraSource::kFile, {}, {}};
+  const std::vector<fs::path> files = SortedFiles(folder);
+  if (const auto file = FindCameraFile(files)) {
+    camera.file = *file;
+    return camera;
+  }
+  if (fs::exists(folder / "film.json") || fs::exists(folder / "fiducials.csv")) {
+    for (const char* needed : {"film.json", "fiducials.csv"}) {
+      if (!fs::exists(folder / needed)) {
+        throw InputError(folder / needed, "no such file, expected film.json and fiducials.csv "
+                                          "together for scanned film");
+      }
+    }
+    camera.source = CameraSource::kFilm;
+    camera.file = folder / "film.json";
+    return camera;
+  }
+  for (const fs::path& file : files) {
+    if (file.filename().string().starts_with("board_") && IsPhotograph(file)) {
+      camera.board_photos.push_back(file);
+    }
+  }
+  camera.source = CameraSource::kBoards;
+  if (camera.board_photos.empty()) return std::nullopt;
+  return camera;
+}
+
+// ---- which photo is whose ------------------------------------------------------------------
+
+std::string Stem(const fs::path& photo) { return photo.stem().string(); }
+
+std::string Names(const std::vector<CameraFolder>& folders) {
+  std::string names;
+  for (const CameraFolder& folder : folders) names += (names.empty() ? "" : ", ") + folder.name;
+  return names;
+}
+
+// "cameras" of site.json.
+std::map<std::string, std::string> ReadAssignment(const SitePaths& site,
+                                                  const std::vector<CameraFolder>& folders,
+                                                  const std::vector<fs::path>& photos) {
+  std::map<std::string, std::string> camera_of_photo;
+  if (!fs::exists(site.description())) return camera_of_photo;
+  const auto node = JsonNode::Load(site.description()).Find("cameras");
+  if (!node) return camera_of_photo;
+  for (const auto& [photo, camera] : node->Members()) {
+    const std::string name = camera.Text();
+    const bool is_known = std::any_of(folders.begin(), folders.end(),
+                                      [&](const CameraFolder& each) { return each.name == name; });
+    if (!is_known) {
+      throw camera.Error("is \"" + name + "\", expected a folder of calibration/: " +
+                         Names(folders));
+    }
+    const bool is_photo = std::any_of(photos.begin(), photos.end(), [&](const fs::path& each) {
+      return Stem(each) == photo;
+    });
+    if (!is_photo) throw camera.Error("is of a photo that is not in the folder photos");
+    camera_of_photo[photo] = name;
+  }
+  return camera_of_photo;
+}
+
+// What is known of the photographs that a camera takes; no size: a file that does not tell it.
+struct Profile {
+  ExifCamera exif;
+  bool has_size = true;
+};
+
+Profile ProfileOf(const CameraFolder& folder) {
+  if (folder.source == CameraSource::kBoards) return {ReadExifCamera(folder.board_photos.front())};
+  Profile profile;
+  try {
+    const CameraFile file = ReadCameraFile(folder.file, {std::nullopt, folder.name});
+    profile.exif.size = {file.camera.width(), file.camera.height()};
+  } catch (const InputError&) {  // said when it is calibrated
+    profile.has_size = false;
+  }
+  return profile;
+}
+
+bool MayBe(const ExifCamera& photo, const Profile& camera) {
+  if (camera.has_size && photo.size != camera.exif.size) return false;
+  if (!photo.model.empty() && !camera.exif.model.empty() && photo.model != camera.exif.model) {
+    return false;
+  }
+  if (!photo.focal_mm || !camera.exif.focal_mm) return true;
+  return std::abs(*photo.focal_mm / *camera.exif.focal_mm - 1) < kSameFocal;
+}
+
+std::string MatchByExif(const SitePaths& site, const fs::path& photo,
+                        const std::vector<CameraFolder>& folders,
+                        const std::vector<Profile>& profiles) {
+  const ExifCamera exif = ReadExifCamera(photo);
+  std::vector<CameraFolder> fitting;
+  for (size_t i = 0; i < folders.size(); ++i) {
+    if (MayBe(exif, profiles[i])) fitting.push_back(folders[i]);
+  }
+  if (fitting.size() == 1) return fitting.front().name;
+  const std::string what =
+      fitting.empty() ? "its size, model and focal length fit none of the cameras " + Names(folders)
+                      : "its size, model and focal length fit the cameras " + Names(fitting);
+  throw InputError(photo, what + "; expected \"cameras\": {\"" + Stem(photo) +
+                              "\": \"...\"} in " + site.description().string());
+}
+
+// The folder of scanned film that lists a photo.
+std::map<std::string, fs::path> FilmOfPhotos(const std::vector<CameraFolder>& folders,
+                                             const std::vector<fs::path>& photos) {
+  std::set<std::string> names;
+  for (const fs::path& photo : photos) names.insert(Stem(photo));
+  std::map<std::string, fs::path> film_of_photo;
+  for (const CameraFolder& folder : folders) {
+    if (folder.source != CameraSource::kFilm) continue;
+    const fs::path fiducials = folder.folder / "fiducials.csv";
+    for (const auto& [photo, marks] : ReadFiducials(fiducials)) {
+      if (!names.contains(photo)) {
+        throw InputError(fiducials, "photo " + photo + " is not in the folder photos");
+      }
+      if (std::any_of(folders.begin(), folders.end(),
+                      [&](const CameraFolder& each) { return each.name == photo; })) {
+        throw InputError(fiducials, "photo " + photo + " is named as a camera folder, expected "
+                                                       "another name for one of them");
+      }
+      const auto [other, is_new] = film_of_photo.emplace(photo, folder.folder);
+      if (is_new) continue;
+      throw InputError(fiducials, "photo " + photo + " has marks in " + other->second.string() +
+                                      " too, expected one camera for it");
+    }
+  }
+  return film_of_photo;
+}
+
+}  // namespace
+
+std::vector<CameraFolder> ListCameraFolders(const SitePaths& site) {
+  std::vector<CameraFolder> folders;
+  if (!fs::is_directory(site.boards())) return folders;
+  if (const auto only = ReadCameraFolder("", site.boards())) folders.push_back(*only);
+  for (const fs::directory_entry& entry : fs::directory_iterator(site.boards())) {
+    if (!entry.is_directory() || entry.path().filename().string().starts_with('.')) continue;
+    const auto folder = ReadCameraFolder(entry.path().filename().string(), entry.path());
+    if (folder) folders.push_back(*folder);
+  }
+  std::sort(folders.begin(), folders.end(),
+            [](const CameraFolder& a, const CameraFolder& b) { return a.name < b.name; });
+  if (folders.size() > 1 && folders.front().name.empty()) {
+    throw InputError(site.boards(), "holds a camera of its own beside that in " +
+                                        folders[1].folder.filename().string() +
+                                        ", expected each camera in a folder");
+  }
+  return folders;
+}
+
+std::vector<std::string> CamerasOfPhotos(const SitePaths& site,
+                                         const std::vector<fs::path>& photos) {
+  const std::vector<CameraFolder> folders = ListCameraFolders(site);
+  if (folders.empty()) return std::vector<std::string>(photos.size());
+  const auto film_of_photo = FilmOfPhotos(folders, photos);
+  const auto assigned = ReadAssignment(site, folders, photos);
+  std::vector<CameraFolder> lenses;  // those that are no scanned film's
+  std::copy_if(folders.begin(), folders.end(), std::back_inserter(lenses),
+               [](const CameraFolder& each) { return each.source != CameraSource::kFilm; });
+  std::vector<Profile> profiles;
+  if (lenses.size() > 1) {
+    std::transform(lenses.begin(), lenses.end(), std::back_inserter(profiles), ProfileOf);
+  }
+  std::vector<std::string> cameras;
+  for (const fs::path& photo : photos) {
+    const auto named = assigned.find(Stem(photo));
+    if (film_of_photo.contains(Stem(photo))) {
+      cameras.push_back(Stem(photo));
+    } else if (lenses.empty()) {
+      throw InputError(folders.front().folder / "fiducials.csv",
+                       "has no marks of photo " + Stem(photo) +
+                           ", expected three or more of every scanned photo");
+    } else if (named != assigned.end()) {
+      cameras.push_back(named->second);
+    } else if (lenses.size() == 1) {
+      cameras.push_back(lenses.front().name);
+    } else {
+      cameras.push_back(MatchByExif(site, photo, lenses, profiles));
+    }
+  }
+  return cameras;
+}
+
+}  // namespace insitu

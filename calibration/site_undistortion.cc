@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <cstdio>
+#include <map>
+
+#include "calibration/error.h"
+#include "calibration/photograph.h"
+#include "calibration/program.h"
+#include "calibration/site_calibration.h"
+#include "calibration/site_cameras.h"
+#include "calibration/undistort.h"
+
+namespace insitu {
+namespace fs = std::filesystem;
+namespace {
+
+struct Lens {
+  Camera camera, pinhole;
+};
+
+// Each camera that photographs need.
+std::map<std::string, Lens> ReadLenses(const SitePaths& site,
+                                       const std::vector<std::string>& cameras) {
+  std::map<std::string, Lens> lenses;
+  for (const std::string& name : cameras) {
+    if (lenses.contains(name)) continue;
+    const fs::path adjusted = site.adjusted_camera(name);
+    const fs::path model = fs::exists(adjusted) ? adjusted : site.camera(name);
+    if (!fs::exists(model)) {
+      throw InputError(model, "no such file, expected insitu-calibrate to have made it");
+    }
+    const Camera camera = ReadCamera(model);
+    lenses.emplace(name, Lens{camera, PinholeCovering(camera)});
+  }
+  return lenses;
+}
+
+std::string SizeText(int width, int height) {
+  return std::to_string(width) + "x" + std::to_string(height) + " px";
+}
+
+void CheckPhotoSize(const fs::path& photo, const Camera& camera) {
+  const Eigen::Vector2i size = ReadPhotographSize(photo);
+  if (size == Eigen::Vector2i(camera.width(), camera.height())) return;
+  throw InputError(photo, "is " + SizeText(size.x(), size.y()) + ", expected " +
+                              SizeText(camera.width(), camera.height()) +
+                              " as the camera was calibrated");
+}
+
+}  // namespace
+
+SiteUndistortion UndistortSite(const SitePaths& site) {
+  const std::vector<fs::path> photos = ListPhotographs(site);
+  const std::vector<std::string> cameras = CamerasOfPhotos(site, photos);
+  const std::map<std::string, Lens> lenses = ReadLenses(site, cameras);
+  for (size_t i = 0; i < photos.size(); ++i) {
+    CheckPhotoSize(photos[i], lenses.at(cameras[i]).camera);
+  }
+  Progress progress("undistorting", static_cast<int>(photos.size()));
+  for (size_t i = 0; i < photos.size(); ++i) {
+    const Lens& lens = lenses.at(cameras[i]);
+    const Raster original = ReadPhotograph(photos[i]).linear;
+    WriteExr(site.input_image(photos[i].stem()), Reproject(original, lens.camera, lens.pinhole));
+    progress.Step();
+  }
+  SiteUndistortion result;
+  for (const auto& [name, lens] : lenses) {
+    WritePosedCamera(site.pinhole_camera(name), {"pinhole", lens.pinhole, Rigid3()},
+                     "camera of the undistorted input images");
+    result.pinholes.push_back(lens.pinhole);
+  }
+  result.photos = static_cast<int>(photos.size());
+  return result;
+}
+
+std::string SiteUndistortion::BriefReport() const {
+  std::string text = std::to_string(photos) + " photographs undistorted to ";
+  text += pinholes.size() == 1 ? "a pinhole" : std::to_string(pinholes.size()) + " pinholes";
+  for (size_t i = 0; i < pinholes.size(); ++i) {
+    char focal[32];
+    std::snprintf(focal, sizeof(focal), "%.2f", pinholes[i].focal_px());
+    text += (i == 0 ? " of " : ", ") + std::string(focal);
+  }
+  return text + " px focal length";
+}
+
+}  // namespace insitu

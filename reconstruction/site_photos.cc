@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "reconstruction/site_photos.h"
+
+#include "calibration/site_calibration.h"
+#include "calibration/site_cameras.h"
+
+namespace insitu {
+
+SitePhotos ReadSitePhotos(const SitePaths& site) {
+  SitePhotos photos;
+  photos.paths = ListPhotographs(site);
+  for (const std::string& camera : CamerasOfPhotos(site, photos.paths)) {
+    RequireResult(site.camera(camera), "insitu-calibrate");
+    photos.names.push_back(photos.paths[photos.names.size()].stem().string());
+    photos.cameras.push_back(ReadCamera(site.camera(camera)));
+    PhotoLens lens;
+    if (!camera.empty()) lens.camera = camera;
+    if (const auto covariance = ReadIntrinsicsCovariance(site, camera)) {
+      lens.covariance = *covariance;
+    }
+    photos.lenses.push_back(lens);
+  }
+  return photos;
+}
+
+std::string CameraFolderName(const std::string& camera) {
+  return camera == PhotoLens().camera ? std::string() : camera;
+}
+
+}  // namespace insitu

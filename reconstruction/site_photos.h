@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A site's photographs with what their calibration tells of their lenses.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "calibration/camera.h"
+#include "calibration/site.h"
+#include "reconstruction/adjustment.h"
+
+namespace insitu {
+
+// By photograph, sorted by name.
+struct SitePhotos {
+  std::vector<std::filesystem::path> paths;
+  std::vector<std::string> names;  // stems
+  std::vector<Camera> cameras;
+  std::vector<PhotoLens> lenses;
+};
+
+// Throws InputError: no photographs, a photo whose camera is unknown or not calibrated yet.
+SitePhotos ReadSitePhotos(const SitePaths& site);
+
+// The name of a site's camera in SitePaths, given PhotoLens::camera.
+std::string CameraFolderName(const std::string& camera);
+
+}  // namespace insitu

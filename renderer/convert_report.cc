@@ -1,0 +1,267 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "renderer/convert_report.h"
+
+#include <cstdio>
+#include <initializer_list>
+
+#include "calibration/json_file.h"
+#include "calibration/photograph.h"
+#include "calibration/whole_file.h"
+#include "renderer/preview_image.h"
+
+namespace insitu {
+namespace {
+
+using Eigen::Vector3d;
+
+Json::Value PointJson(const Vector3d& point) { return ToJson(Eigen::VectorXd(point)); }
+
+Json::Value CountsJson(const std::map<std::string, int>& counts) {
+  Json::Value json(Json::objectValue);
+  for (const auto& [name, count] : counts) json[name] = count;
+  return json;
+}
+
+void AddBox(const Eigen::AlignedBox3d& box, const std::string& suffix, Json::Value* json) {
+  (*json)["bbox_min" + suffix] = box.isEmpty() ? Json::Value() : PointJson(box.min());
+  (*json)["bbox_max" + suffix] = box.isEmpty() ? Json::Value() : PointJson(box.max());
+}
+
+Json::Value SkippedJson(const SkippedEntities& skipped) {
+  Json::Value json(Json::arrayValue);
+  for (const auto& [what, count] : skipped) {
+    Json::Value entry;
+    entry["kind"] = what.first;
+    entry["reason"] = what.second;
+    entry["count"] = count;
+    json.append(entry);
+  }
+  return json;
+}
+
+Json::Value PairsJson(const Placement& placement) {
+  const AdjustedSimilarity& adjusted = *placement.adjusted;
+  Json::Value json;
+  json["sigma0"] = adjusted.sigma0;
+  json["redundancy"] = adjusted.redundancy;
+  json["sigma_shift"] = PointJson(adjusted.sigma_shift);
+  json["sigma_rotation_rad"] = PointJson(adjusted.sigma_rotation);
+  json["sigma_scale"] = adjusted.sigma_scale;
+  json["scale_if_adjusted"] = adjusted.free_scale;
+  for (size_t i = 0; i < placement.pairs.size(); ++i) {
+    Json::Value pair;
+    pair["name"] = placement.pairs[i].name;
+    pair["sigma"] = placement.pairs[i].sigma;
+    pair["residual"] = PointJson(adjusted.residuals[i]);
+    json["pairs"].append(pair);
+  }
+  return json;
+}
+
+Json::Value PlacementJson(const Placement& placement) {
+  Json::Value json;
+  json["scale"] = placement.world_from_model.scale;
+  json["rotation"] = ToJson(Eigen::MatrixXd(placement.world_from_model.rotation));
+  json["shift"] = PointJson(placement.world_from_model.shift);
+  if (placement.y_up) json["up"] = "y";
+  if (!placement.model_crs.empty()) {
+    json["model_crs"] = placement.model_crs;
+    json["survey_crs"] = placement.survey_crs;
+  }
+  if (placement.adjusted) json["adjusted"] = PairsJson(placement);
+  return json;
+}
+
+Json::Value ModelJson(const ModelReport& model) {
+  Json::Value json;
+  json["file"] = model.file.filename().string();
+  json["format"] = model.format;
+  const auto unit =
+      model.placement.metres_per_unit ? model.placement.metres_per_unit : model.metres_per_unit;
+  json["metres_per_unit"] = unit ? Json::Value(*unit) : Json::Value();
+  json["triangles"] = model.triangles;
+  AddBox(model.box_in_units, "_in_units", &json);
+  json["entities"] = CountsJson(model.entities);
+  json["skipped"] = SkippedJson(model.skipped);
+  json["degenerate_faces"] = model.degenerate_faces;
+  json["placement"] = PlacementJson(model.placement);
+  return json;
+}
+
+Json::Value SolidsJson(const SolidsReport& solids) {
+  Json::Value json;
+  json["bodies"] = solids.bodies;
+  json["closed_bodies"] = solids.closed_bodies;
+  json["one_sided_bodies"] = solids.one_sided_bodies;
+  json["open_edges"] = solids.open_edges;
+  json["crowded_edges"] = solids.crowded_edges;
+  json["flipped_faces"] = solids.flipped_faces;
+  json["unmended_faces"] = solids.unmended_faces;
+  json["duplicate_faces"] = solids.duplicate_faces;
+  json["degenerate_faces"] = solids.degenerate_faces;
+  json["coincident_faces"] = solids.coincident_faces;
+  return json;
+}
+
+struct Sums {
+  std::map<std::string, int> entities;
+  SkippedEntities skipped;
+};
+
+Sums SumOver(const std::vector<ModelReport>& models) {
+  Sums sums;
+  for (const ModelReport& model : models) {
+    for (const auto& [kind, count] : model.entities) sums.entities[kind] += count;
+    for (const auto& [what, count] : model.skipped) sums.skipped[what] += count;
+  }
+  return sums;
+}
+
+std::string Escaped(const std::string& text) {
+  std::string escaped;
+  for (const char c : text) {
+    if (c == '&') {
+      escaped += "&amp;";
+    } else if (c == '<') {
+      escaped += "&lt;";
+    } else if (c == '>') {
+      escaped += "&gt;";
+    } else if (c == '"') {
+      escaped += "&quot;";
+    } else {
+      escaped += c;
+    }
+  }
+  return escaped;
+}
+
+std::string Row(std::initializer_list<std::string> cells) {
+  std::string row = "<tr>";
+  for (const std::string& cell : cells) row += "<td>" + Escaped(cell) + "</td>";
+  return row + "</tr>\n";
+}
+
+std::string CountsTable(const std::string& title, const std::string& what,
+                        const std::map<std::string, int>& counts) {
+  std::string table = "<section><h2>" + title + "</h2><table><tr><th>" + what +
+                      "</th><th>count</th></tr>\n";
+  for (const auto& [name, count] : counts) table += Row({name, std::to_string(count)});
+  return table + "</table></section>\n";
+}
+
+std::string SkippedTable(const SkippedEntities& skipped) {
+  std::string table =
+      "<section><h2>Left out</h2><table><tr><th>kind</th><th>count</th><th>reason</th></tr>\n";
+  for (const auto& [what, count] : skipped) {
+    table += Row({what.first, std::to_string(count), what.second});
+  }
+  return table + "</table></section>\n";
+}
+
+std::string Number(double value) {
+  char text[40];
+  std::snprintf(text, sizeof(text), "%.3f", value);
+  return text;
+}
+
+std::string FilesTable(const Conversion& conversion) {
+  std::string table =
+      "<section><h2>Files</h2><table><tr><th>file</th><th>format</th><th>metres per unit</th>"
+      "<th>triangles</th></tr>\n";
+  for (const ModelReport& model : conversion.models) {
+    const auto unit = model.placement.metres_per_unit ? model.placement.metres_per_unit
+                                                      : model.metres_per_unit;
+    char metres[40];
+    std::snprintf(metres, sizeof(metres), "%g", unit.value_or(1));
+    table += Row({model.file.filename().string(), model.format, unit ? metres : "1 (not named)",
+                  std::to_string(model.triangles)});
+  }
+  return table + "</table></section>\n";
+}
+
+std::string BoxTable(const Eigen::AlignedBox3d& box) {
+  if (box.isEmpty()) return "<p>There is no surface.</p>\n";
+  std::string table =
+      "<section><h2>Box</h2><table><tr><th></th><th>from [m]</th><th>to [m]</th>"
+      "<th>size [m]</th></tr>\n";
+  for (int axis = 0; axis < 3; ++axis) {
+    table += Row({std::string(1, "xyz"[axis]), Number(box.min()[axis]), Number(box.max()[axis]),
+                  Number(box.sizes()[axis])});
+  }
+  return table + "</table></section>\n";
+}
+
+constexpr char kPageHead[] = R"(<!DOCTYPE html>
+<html lang="en"><head><meta charset="utf-8"><title>Building</title>
+<meta name="viewport" content="width=device-width, initial-scale=1">
+<style>
+ body { font: 15px/1.45 system-ui, sans-serif; margin: 2rem auto; max-width: 72rem;
+        padding: 0 1rem; color: #222; }
+ img { max-width: 100%; height: auto; border: 1px solid #ddd; }
+ main { display: grid; grid-template-columns: repeat(auto-fit, minmax(20rem, 1fr)); gap: 0 2rem; }
+ table { border-collapse: collapse; width: 100%; }
+ th, td { text-align: left; padding: .15rem .6rem .15rem 0; border-bottom: 1px solid #eee;
+          vertical-align: top; overflow-wrap: anywhere; }
+ h2 { font-size: 1.05rem; margin-bottom: .3rem; }
+ li { margin-bottom: .2rem; }
+</style></head><body>
+<h1>The planned building</h1>
+)";
+
+std::string Page(const std::string& picture, const Conversion& conversion) {
+  const Sums sums = SumOver(conversion.models);
+  std::string page = kPageHead;
+  page += "<p>" + std::to_string(conversion.environment.triangles.size()) + " triangles, " +
+          std::to_string(conversion.environment.lights.size()) + " lights. Seen from the south-west," +
+          " z up; material colours.</p>\n";
+  page += "<img src=\"" + Escaped(picture) + "\" alt=\"three-quarter view of the building\">\n";
+  if (!conversion.warnings.empty()) {
+    page += "<h2>Warnings</h2><ul>\n";
+    for (const std::string& warning : conversion.warnings) {
+      page += "<li>" + Escaped(warning) + "</li>\n";
+    }
+    page += "</ul>\n";
+  }
+  page += "<main>\n" + BoxTable(conversion.Box()) + FilesTable(conversion) +
+          CountsTable("Triangles by layer", "layer", conversion.triangles_of_layer) +
+          CountsTable("Triangles by material", "material", conversion.triangles_of_material) +
+          CountsTable("Entities", "kind", sums.entities) + SkippedTable(sums.skipped);
+  std::map<std::string, int> solids;
+  const Json::Value json = SolidsJson(conversion.solids);
+  for (const std::string& name : json.getMemberNames()) solids[name] = json[name].asInt();
+  return page + CountsTable("Solids", "what", solids) + "</main></body></html>\n";
+}
+
+}  // namespace
+
+void WriteConvertReport(const std::filesystem::path& path, const Conversion& conversion) {
+  const Sums sums = SumOver(conversion.models);
+  Json::Value json;
+  json["format"] = "insitu convert report";
+  json["version"] = 1;
+  json["triangles"] = Json::Value::Int64(conversion.environment.triangles.size());
+  json["lights"] = Json::Value::Int64(conversion.environment.lights.size());
+  AddBox(conversion.Box(), "", &json);
+  json["layers"] = CountsJson(conversion.triangles_of_layer);
+  json["materials"] = CountsJson(conversion.triangles_of_material);
+  json["entities"] = CountsJson(sums.entities);
+  json["skipped"] = SkippedJson(sums.skipped);
+  json["solids"] = SolidsJson(conversion.solids);
+  json["files"] = Json::arrayValue;
+  for (const ModelReport& model : conversion.models) json["files"].append(ModelJson(model));
+  json["unlisted_materials"] = Json::arrayValue;
+  for (const auto& [name, rgb] : conversion.unlisted) json["unlisted_materials"].append(name);
+  json["warnings"] = Json::arrayValue;
+  for (const std::string& warning : conversion.warnings) json["warnings"].append(warning);
+  WriteJson(path, json);
+}
+
+void WritePreview(const std::filesystem::path& stem, const Conversion& conversion) {
+  std::filesystem::path picture = stem, page = stem;
+  picture += ".png";
+  page += ".html";
+  WritePng(picture, PreviewImage(conversion.environment), Encoding::kSrgb8);
+  WriteWhole(page, Page(picture.filename().string(), conversion));
+}
+
+}  // namespace insitu

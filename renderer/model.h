@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A planned building as its file has it, whatever the format: the one face of all importers.
+#pragma once
+
+#include <Eigen/Core>
+#include <compare>
+#include <map>
+#include <optional>
+#include <string>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+namespace insitu {
+
+// What a face is called in its file; materials.json is asked for these names.
+struct SurfaceNames {
+  std::string layer;                   // DXF layer, or the node's name in other formats
+  std::string block;                   // innermost named block about it; may be empty
+  std::string material;                // of the file's own materials; may be empty
+  std::optional<Eigen::Vector3d> rgb;  // its colour there, linear Rec. 709, 0..1
+  double opacity = 1;                  // there; 0: clear
+  std::string texture;                 // image file of its colour, as named there; may be empty
+  std::string texture_place;           // where it is named, "file:line", for messages
+
+  bool operator==(const SurfaceNames&) const = default;
+};
+
+struct ModelMesh {
+  std::vector<SurfaceNames> surfaces;
+  std::vector<Eigen::Vector3d> vertices;
+  std::vector<Eigen::Vector3i> triangles;       // indices into vertices
+  std::vector<int> surface_of_triangle;         // index into surfaces
+  std::vector<Eigen::Vector3f> corner_normals;  // empty, or three a triangle: unit
+  std::vector<Eigen::Vector2f> corner_uvs;      // empty, or three a triangle
+};
+
+// Kind and reason -> how many.
+using SkippedEntities = std::map<std::pair<std::string, std::string>, int>;
+
+struct Model {
+  ModelMesh mesh;                         // [m], in the model's own frame, z up
+  std::string format;                     // "DXF R2000, binary", "IFC2X3", ...
+  std::optional<double> metres_per_unit;  // nullopt: the file names no unit; taken as metres
+  std::map<std::string, int> entities;    // kind -> count, each as often as the file holds it
+  SkippedEntities skipped;                // what carries no surface, is hidden, or cannot be read
+  int degenerate_faces = 0;               // dropped: no area, or an outline that crosses itself
+  std::vector<std::string> warnings;      // anything else a user must know
+};
+
+// Finds or adds surfaces of a mesh in constant time.
+class SurfaceIndex {
+ public:
+  explicit SurfaceIndex(std::vector<SurfaceNames>* surfaces) : surfaces_(surfaces) {}
+  int IndexOf(const SurfaceNames& names);
+
+ private:
+  std::vector<SurfaceNames>* surfaces_;
+  std::unordered_map<std::string, int> index_of_key_;
+};
+
+// Vertices and surfaces that no triangle uses are removed: they would widen the model's box and
+// ask for materials.
+void DropUnused(ModelMesh* mesh);
+
+// `triangles` of `other`, with what they use, appended. Corner attributes of a mesh that has none
+// become facet normals and zero UV.
+void Append(const ModelMesh& other, ModelMesh* mesh);
+
+}  // namespace insitu

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The figures on the shared data, held to what the other programs print. Roma's time is no test.
+#include "reconstruction_figures.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+
+namespace insitu {
+namespace {
+
+// nullopt: the data is not there, and the test is skipped with a word.
+Json::Value Measure(const std::string& key) {
+  const char* shared = std::getenv("INSITU_SHARED");
+  const std::filesystem::path data =
+      (shared ? std::filesystem::path(shared)
+              : std::filesystem::path(INSITU_SOURCE_FOLDER).parent_path() / "shared") /
+      "data";
+  for (const ReconstructionFigure& figure : ReconstructionFigures()) {
+    if (figure.key == key && std::filesystem::exists(data / figure.folder)) {
+      return figure.measure(data);
+    }
+  }
+  return {};
+}
+
+TEST(ReconstructionFigures, AiconsReportIsReproduced) {
+  const Json::Value figures = Measure("jaicov_aicon");
+  if (figures.isNull()) GTEST_SKIP() << "no shared data";
+  EXPECT_NEAR(figures["s0_mm"].asDouble(), 0.000405, 0.0000005);
+  EXPECT_EQ(figures["redundancy"].asInt(), 18804);
+  EXPECT_EQ(figures["unknowns"].asInt(), 1147);
+  EXPECT_EQ(figures["compared_observations"].asInt(), 19944);
+  EXPECT_LE(figures["max_redundancy_number_difference"].asDouble(), 0.00501);
+  EXPECT_LE(figures["max_w_test_difference"].asDouble(), 0.00501);
+  EXPECT_LE(figures["max_point_difference_mm"].asDouble(), 0.0001);
+  EXPECT_LE(figures["max_point_sigma_difference_mm"].asDouble(), 0.0000501);
+}
+
+TEST(ReconstructionFigures, DbatsSelfCalibrationIsReproduced) {
+  const Json::Value figures = Measure("dbat_camcal");
+  if (figures.isNull()) GTEST_SKIP() << "no shared data";
+  EXPECT_NEAR(figures["sigma0"].asDouble(), 1.6148, 0.00005);
+  EXPECT_EQ(figures["redundancy"].asInt(), 3725);
+  EXPECT_LE(figures["max_parameter_difference_in_sigma"].asDouble(), 0.05);
+  EXPECT_LE(figures["max_relative_sigma_difference"].asDouble(), 0.005);
+}
+
+TEST(ReconstructionFigures, DbatsAerialBlockIsReproduced) {
+  const Json::Value figures = Measure("sxb_aerial");
+  if (figures.isNull()) GTEST_SKIP() << "no shared data";
+  EXPECT_NEAR(figures["sigma0"].asDouble(), 1.1786, 0.00005);
+  EXPECT_NEAR(figures["sigma0_px"].asDouble(), 0.589299, 0.0000005);
+  EXPECT_EQ(figures["redundancy"].asInt(), 1261);
+  EXPECT_NEAR(figures["control_rms_m"].asDouble(), 0.035, 0.0005);
+  EXPECT_NEAR(figures["check_rms_m"].asDouble(), 0.421, 0.0005);
+}
+
+TEST(ReconstructionFigures, IntervalsOfRandomNetworksHoldTheTruth) {
+  const Json::Value figures = Measure("coverage_95");
+  for (const char* key : {"pose", "vertex", "plane", "sun", "zenith"}) {
+    EXPECT_NEAR(figures[key].asDouble(), 0.95, 0.02) << key;
+  }
+  EXPECT_NEAR(figures["w_false_alarms_at_5_percent"].asDouble(), 0.05, 0.002);
+  EXPECT_GE(figures["blunders_of_twice_the_detectable_bias_found"].asDouble(), 0.95);
+}
+
+}  // namespace
+}  // namespace insitu
