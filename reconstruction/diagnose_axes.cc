@@ -124,6 +124,7 @@ Survey Corrected(const DiagnosisInput& input, const Hypothesis& hypothesis) {
   if (!hypothesis.pixel) return survey;
   for (ImageObservation& mark : survey.observations) {
     const auto photo = std::find(input.photos.begin(), input.photos.end(), mark.photo);
+    INSITU_CHECK(photo != input.photos.end());
     mark.pixel = hypothesis.pixel(mark.pixel, input.cameras[photo - input.photos.begin()]);
   }
   return survey;

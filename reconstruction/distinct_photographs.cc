@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <map>
 #include <string>
+#include <system_error>
 
 #include "calibration/error.h"
 #include "calibration/whole_file.h"
@@ -13,7 +14,10 @@ namespace insitu {
 void RequireDistinctPhotographs(const std::vector<std::filesystem::path>& photographs) {
   std::map<std::uintmax_t, std::vector<std::filesystem::path>> of_size;
   for (const std::filesystem::path& photograph : photographs) {
-    of_size[std::filesystem::file_size(photograph)].push_back(photograph);
+    std::error_code failure;
+    const std::uintmax_t size = std::filesystem::file_size(photograph, failure);
+    if (failure) throw InputError(photograph, "cannot be read: " + failure.message());
+    of_size[size].push_back(photograph);
   }
   for (const auto& [size, alike] : of_size) {
     if (alike.size() < 2) continue;

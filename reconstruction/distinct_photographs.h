@@ -7,8 +7,8 @@
 
 namespace insitu {
 
-// Throws InputError at a file that is, byte for byte, another of the list. Only files of one size
-// are read.
+// Throws InputError at a file that is, byte for byte, another of the list, or that cannot be read.
+// Only files of one size are read.
 void RequireDistinctPhotographs(const std::vector<std::filesystem::path>& photographs);
 
 }  // namespace insitu

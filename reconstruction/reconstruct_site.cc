@@ -96,7 +96,7 @@ Adjustment ReconstructSite(const SitePaths& site, AdjustmentOptions options,
   options.lenses = site_photos.lenses;
   const auto tie_points = TiePointsOf(site, photos);
   Survey survey =
-      ReadSurvey(site, photos, tie_points ? SurveyFiles::kOptional : SurveyFiles::kRequired);
+      ReadSurvey(site, photos, tie_points ? SurveyFolder::kOptional : SurveyFolder::kRequired);
   survey.tie_points = tie_points;
   if (!start_poses.empty()) options.initial_cam_from_world = ReadStartPoses(start_poses, photos);
   Adjustment adjustment = Adjust(survey, photos, site_photos.cameras, options);

@@ -85,10 +85,10 @@ double SelectedInverse::Raw(int row, int column) const {
 
 double SelectedInverse::At(int row, int column) const {
   double value = Raw(row, column);
-  if (motion_.cols() == 0) return value;
-  value -=
-      motion_.row(row).dot(response_.row(column)) + response_.row(row).dot(motion_.row(column));
-  return value + motion_.row(row) * core_ * motion_.row(column).transpose();
+  for (Eigen::Index k = 0; k < motion_.cols(); ++k) {
+    value -= motion_(row, k) * shift_(column, k) + shift_(row, k) * motion_(column, k);
+  }
+  return value;
 }
 
 Eigen::MatrixXd SelectedInverse::Block(int row, int rows, int column, int columns) const {
@@ -101,19 +101,19 @@ Eigen::MatrixXd SelectedInverse::Block(int row, int rows, int column, int column
 
 Eigen::MatrixXd SelectedInverse::Times(const Eigen::MatrixXd& b) const {
   const Eigen::MatrixXd scaled = scales_.asDiagonal() * b;
-  Eigen::MatrixXd product = scales_.asDiagonal() * factor_->solve(scaled);
+  const Eigen::MatrixXd product = scales_.asDiagonal() * factor_->solve(scaled);
   if (motion_.cols() == 0) return product;
-  const Eigen::MatrixXd along_motion = motion_.transpose() * b;
-  product -= motion_ * (response_.transpose() * b) + response_ * along_motion;
-  return product + motion_ * (core_ * along_motion);
+  return product - motion_ * (shift_.transpose() * b) - shift_ * (motion_.transpose() * b);
 }
 
+// With M = G (B^T G)^-1, R = Q B and C = B^T Q B: S Q S^T = Q - M R^T - R M^T + M C M^T, and C is
+// symmetric, so T = R - M C / 2.
 void SelectedInverse::ChangeDatum(const Eigen::MatrixXd& g, const Eigen::MatrixXd& b) {
   INSITU_CHECK(motion_.cols() == 0);
   const Eigen::MatrixXd response = Times(b);
-  core_ = b.transpose() * response;
-  motion_ = g * (b.transpose() * g).inverse();
-  response_ = response;
+  const Eigen::MatrixXd motion = g * (b.transpose() * g).inverse();
+  shift_ = response - motion * (b.transpose() * response) / 2;
+  motion_ = motion;
 }
 
 }  // namespace insitu

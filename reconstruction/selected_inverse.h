@@ -44,7 +44,8 @@ class SelectedInverse {
   Eigen::VectorXd scales_;
   std::vector<int> start_, row_, permuted_;   // the factor's strictly lower columns; new from old
   std::vector<double> lower_, diagonal_;      // Q at that pattern, scaled
-  Eigen::MatrixXd motion_, response_, core_;  // S Q S^T = Q - M R^T - R M^T + M C M^T; or empty
+  using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+  Rows motion_, shift_;  // S Q S^T = Q - M T^T - T M^T; or empty
 };
 
 }  // namespace insitu

@@ -10,11 +10,11 @@
 namespace insitu {
 
 Survey ReadSurvey(const SitePaths& site, const std::vector<std::string>& photos,
-                  SurveyFiles files) {
+                  SurveyFolder files) {
   const std::filesystem::path folder = site.survey();
   const auto has = [&](const char* file) { return std::filesystem::exists(folder / file); };
   const auto is_to_be_read = [&](const char* file) {
-    return files == SurveyFiles::kRequired || has(file);
+    return files == SurveyFolder::kRequired || has(file);
   };
   Survey survey;
   if (is_to_be_read("control_points.csv")) {

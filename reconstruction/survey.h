@@ -109,7 +109,7 @@ struct Survey {
 };
 
 // Photographs with tie points need no survey at all.
-enum class SurveyFiles { kRequired, kOptional };
+enum class SurveyFolder { kRequired, kOptional };
 
 // Reads the survey folder and resolves every name. Throws InputError at the offending line: a name
 // twice, an observation of a photo that is not there or of a point that no other file names, a
@@ -119,7 +119,7 @@ enum class SurveyFiles { kRequired, kOptional };
 // ones. control_points.csv, observations.csv and polygons.json must be there unless
 // `files` says otherwise, the other files may. tie_points stays empty: reconstruct_site.h sets it.
 Survey ReadSurvey(const SitePaths& site, const std::vector<std::string>& photos,
-                  SurveyFiles files = SurveyFiles::kRequired);
+                  SurveyFolder files = SurveyFolder::kRequired);
 
 // The points that are to be found: marked, vertices, ends of direction pairs and edges, or part of
 // a constraint. Control points that nothing refers to are not among them.

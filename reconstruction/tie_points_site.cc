@@ -6,8 +6,8 @@
 
 #include "calibration/error.h"
 #include "calibration/photograph.h"
-#include "calibration/whole_file.h"
 #include "reconstruction/align_tie_points.h"
+#include "reconstruction/distinct_photographs.h"
 #include "reconstruction/site_photos.h"
 #include "reconstruction/survey.h"
 
@@ -41,7 +41,7 @@ std::map<std::string, Camera> CamerasByPhoto(const std::vector<fs::path>& photos
 Survey SurveyIfAny(const SitePaths& site, const std::vector<fs::path>& photos) {
   std::vector<std::string> names;
   for (const fs::path& photo : photos) names.push_back(photo.stem());
-  return ReadSurvey(site, names, SurveyFiles::kOptional);
+  return ReadSurvey(site, names, SurveyFolder::kOptional);
 }
 
 std::vector<MatchedModel> ModelsOfColmap(const SitePaths& site, const std::vector<fs::path>& photos,
@@ -56,11 +56,13 @@ std::vector<MatchedModel> ModelsOfColmap(const SitePaths& site, const std::vecto
   }
   std::vector<MatchedModel> models = RunColmap(matching, site.tie_points().parent_path(), options);
   if (!models.empty()) return models;
-  throw InputError(site.photos(),
-                   "COLMAP connects no two of the " + std::to_string(photos.size()) +
-                       " photographs, expected ones that overlap by half or more and show texture "
-                       "from places some steps apart; its logs are in " +
-                       (site.tie_points().parent_path() / "logs").string());
+  throw InputError(
+      site.photos(),
+      "COLMAP connects no two of the " + std::to_string(photos.size()) +
+          " photographs, expected ones that overlap by half or more and show texture "
+          "from places some steps apart, or three control points marked on each; its logs "
+          "are in " +
+          (site.tie_points().parent_path() / "logs").string());
 }
 
 MatchedModel BroughtModel(const fs::path& folder, const std::vector<fs::path>& photos,
@@ -159,20 +161,6 @@ void NameWhatIsMissing(const std::vector<fs::path>& photos, TiePoints* tie_point
 
 }  // namespace
 
-void RequireDistinctPhotographs(const std::vector<fs::path>& photos) {
-  std::map<std::pair<uintmax_t, size_t>, std::vector<fs::path>> alike;  // by size and hash
-  for (const fs::path& photo : photos) {
-    const std::string content = ReadWhole(photo);
-    auto& others = alike[{content.size(), std::hash<std::string>()(content)}];
-    for (const fs::path& other : others) {
-      if (ReadWhole(other) != content) continue;
-      throw InputError(photo, "is the same photograph as " + other.filename().string() +
-                                  ", expected each photograph once: remove one of them");
-    }
-    others.push_back(photo);
-  }
-}
-
 SiteTiePoints MakeTiePoints(const SitePaths& site, const std::vector<fs::path>& photos,
                             const std::vector<Camera>& cameras, const TiePointsOptions& options) {
   INSITU_CHECK(photos.size() == cameras.size());
@@ -194,6 +182,21 @@ SiteTiePoints MakeTiePoints(const SitePaths& site, const std::vector<fs::path>& 
   WriteColmapText(site.tie_points().parent_path() / "model", models[0].colmap);
   WriteTiePoints(site, result.tie_points);
   return result;
+}
+
+bool NeedsTiePoints(const SitePaths& site) {
+  const std::vector<fs::path> photos = ListPhotographs(site);
+  const Survey survey = SurveyIfAny(site, photos);
+  std::set<std::string> control;
+  for (const ControlPoint& point : survey.control_points) {
+    if (point.role == ControlRole::kControl) control.insert(point.name);
+  }
+  return std::any_of(photos.begin(), photos.end(), [&](const fs::path& photo) {
+    return std::count_if(survey.observations.begin(), survey.observations.end(),
+                         [&](const ImageObservation& mark) {
+                           return mark.photo == photo.stem() && control.contains(mark.point);
+                         }) < 3;
+  });
 }
 
 SiteTiePoints MakeTiePoints(const SitePaths& site, const TiePointsOptions& options) {

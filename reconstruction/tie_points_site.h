@@ -40,7 +40,8 @@ SiteTiePoints MakeTiePoints(const SitePaths& site, const std::vector<std::filesy
 // The same with the site's own photographs and camera.
 SiteTiePoints MakeTiePoints(const SitePaths& site, const TiePointsOptions& options = {});
 
-// Throws InputError naming both, if two photographs are the same file under two names.
-void RequireDistinctPhotographs(const std::vector<std::filesystem::path>& photos);
+// Whether some photograph shows fewer than three control points, so that it cannot be resected
+// alone.
+bool NeedsTiePoints(const SitePaths& site);
 
 }  // namespace insitu

@@ -39,7 +39,9 @@ void JudgeObservations(const Adjustment& adjustment, std::vector<Objection>* obj
       adjustment.residuals.begin(), adjustment.residuals.end(),
       [&](const auto& row) { return std::abs(row.w.value_or(0)) > adjustment.critical_w; });
   const std::string number = std::to_string(flagged);
-  objections->push_back({Severity::kReview,
+  const bool is_surely_wrong =
+      !suspect->is_tie_point && std::abs(*suspect->w) > 2 * adjustment.critical_w;
+  objections->push_back({is_surely_wrong ? Severity::kFail : Severity::kReview,
                          number + (flagged == 1 ? " observation has" : " observations have") +
                              " a test value over " + Number("%.2f", adjustment.critical_w) +
                              "; the suspect is " + Describe(*suspect) + ", w " +
