@@ -123,16 +123,16 @@ fs::path Solver::Solve(const std::string& lens_model, const fs::path& corners,
                        const std::string& name) const {
   const fs::path made = folder / "made", log = folder / (name + ".log");
   fs::create_directory(made);
-  RunExternal({.command = {kPython, kRunSeeded, "mrcal-calibrate-cameras", "--corners-cache",
-                           corners.filename().string(), "--lensmodel", lens_model, "--focal",
-                           Digits(focal_px), "--object-spacing", Digits(board.square_m),
-                           "--object-width-n", std::to_string(board.interior_corners_x),
-                           "--object-height-n", std::to_string(board.interior_corners_y),
-                           "--outdir", "made", "photos/*"},
-               .package = "python3-mrcal",
-               .folder = folder,
-               .output = log,
-               .log = log});
+  RunExternal(
+      {.command = {kPython, kRunSeeded, "mrcal-calibrate-cameras", "--corners-cache",
+                   corners.filename().string(), "--lensmodel", lens_model, "--focal",
+                   Digits(focal_px), "--object-spacing", Digits(board.square_m), "--object-width-n",
+                   std::to_string(board.interior_corners_x), "--object-height-n",
+                   std::to_string(board.interior_corners_y), "--outdir", "made", "photos/*"},
+       .package = "python3-mrcal",
+       .folder = folder,
+       .output = log,
+       .log = log});
   const fs::path model = folder / (name + ".cameramodel");
   CopyModel(made / "camera-0.cameramodel", model);
   fs::remove_all(made);

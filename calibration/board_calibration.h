@@ -22,12 +22,12 @@ struct BoardCalibration {
   std::filesystem::path model;  // the .cameramodel, optimization inputs and all
   std::string lens_model, splined_lens_model;
   int board_photos = 0, boards_found = 0;
-  std::vector<std::string> not_found;  // the photos in which no board was found
-  LensAssessment lens;                 // of the lens model asked for
-  LensAssessment splined;              // of mrcal's splined model on the same boards
-  ProjectionDifference splined_difference;         // between those two
-  std::optional<ProjectionDifference> halves;      // between the lenses of two halves of the
-                                                   // boards; nullopt: fewer than six were found
+  std::vector<std::string> not_found;          // the photos in which no board was found
+  LensAssessment lens;                         // of the lens model asked for
+  LensAssessment splined;                      // of mrcal's splined model on the same boards
+  ProjectionDifference splined_difference;     // between those two
+  std::optional<ProjectionDifference> halves;  // between the lenses of two halves of the
+                                               // boards; nullopt: fewer than six were found
   std::string BriefReport() const;
 };
 

@@ -43,7 +43,8 @@ void JudgeSpread(const FrameCells& cells, std::vector<CalibrationFinding>* findi
       const int cell = (corner.row + i / columns) * cells.columns + corner.column + i % columns;
       filled += cells.counts[cell] > 0;
     }
-    if (2 * filled < columns * rows) empty += (empty.empty() ? "" : ", ") + std::string(corner.name);
+    if (2 * filled < columns * rows)
+      empty += (empty.empty() ? "" : ", ") + std::string(corner.name);
   }
   if (empty.empty()) return;
   findings->push_back({Severity::kReview, "Hardly any board corners in the frame's " + empty + ".",
@@ -68,8 +69,8 @@ void JudgeViews(const std::vector<BoardView>& boards, std::vector<CalibrationFin
       [](const BoardView& a, const BoardView& b) { return a.distance_m < b.distance_m; });
   if (far->distance_m < kDistanceRatio * near->distance_m) {
     findings->push_back({Severity::kReview,
-                         Text("All boards stand at one distance, %.2f to %.2f m.",
-                              near->distance_m, far->distance_m),
+                         Text("All boards stand at one distance, %.2f to %.2f m.", near->distance_m,
+                              far->distance_m),
                          "Add boards that fill the frame and boards twice as far away."});
   }
 }
@@ -78,11 +79,11 @@ void JudgeResiduals(const LensAssessment& lens, const Eigen::Vector2i& size,
                     std::vector<CalibrationFinding>* findings) {
   const double high = std::max(kHighRms_px, kHighRmsOfDiagonal * size.cast<double>().norm());
   if (lens.rms_px > high) {
-    findings->push_back({lens.rms_px > 2 * high ? Severity::kFail : Severity::kReview,
-                         Text("The residuals are high: RMS %.2f px, expected below %.2f px.",
-                              lens.rms_px, high),
-                         "Look at the worst boards: blurred, bent or moved while the shutter was "
-                         "open? Keep focus, zoom and stabiliser fixed, the board flat."});
+    findings->push_back(
+        {lens.rms_px > 2 * high ? Severity::kFail : Severity::kReview,
+         Text("The residuals are high: RMS %.2f px, expected below %.2f px.", lens.rms_px, high),
+         "Look at the worst boards: blurred, bent or moved while the shutter was "
+         "open? Keep focus, zoom and stabiliser fixed, the board flat."});
   }
   const double share = lens.outliers / std::max(1.0, 1.0 * lens.points + lens.outliers);
   if (share > kManyOutliers) {

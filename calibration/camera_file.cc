@@ -17,8 +17,9 @@ std::string SizeText(int width, int height) {
 
 void CheckSize(const fs::path& path, int line, int width, int height) {
   if (width > 0 && height > 0 && width < 1000000 && height < 1000000) return;
-  throw InputError(path, line, "a frame of " + SizeText(width, height) +
-                                   ", expected the photographs' width and height");
+  throw InputError(
+      path, line,
+      "a frame of " + SizeText(width, height) + ", expected the photographs' width and height");
 }
 
 CameraFile ReadByEnding(const fs::path& path, const CameraFileOptions& options) {
@@ -29,8 +30,9 @@ CameraFile ReadByEnding(const fs::path& path, const CameraFileOptions& options) 
   if (ending == ".ior") return ReadAiconCamera(path, options);
   if (ending == ".json") return ReadJsonCamera(path, options);
   if (path.filename() == "cameras.txt") return ReadColmapCamera(path, options);
-  throw InputError(path, "no camera file that is read, expected .cameramodel, .yml, .yaml, .xml, "
-                         ".ior, .json or cameras.txt");
+  throw InputError(path,
+                   "no camera file that is read, expected .cameramodel, .yml, .yaml, .xml, "
+                   ".ior, .json or cameras.txt");
 }
 
 }  // namespace
@@ -49,8 +51,9 @@ CameraFile ExactCamera(const fs::path& path, int line, const std::string& format
       throw InputError(path, line, error.what());
     }
   }
-  throw InputError(path, line, std::to_string(intrinsics.size() - 4) +
-                                   " distortion coefficients, expected at most 12");
+  throw InputError(
+      path, line,
+      std::to_string(intrinsics.size() - 4) + " distortion coefficients, expected at most 12");
 }
 
 CameraFile FittedCamera(const fs::path& path, int line, const std::string& format,
@@ -58,9 +61,10 @@ CameraFile FittedCamera(const fs::path& path, int line, const std::string& forma
   CheckSize(path, line, width, height);
   const auto fit = FitCamera(sight_of_pixel, width, height);
   if (fit) return {fit->camera, format, fit->largest_deviation_px, std::nullopt};
-  throw InputError(path, line, "a lens that cannot be shown on " + SizeText(width, height) +
-                                   ": its distortion folds over or it looks farther than 80 "
-                                   "degrees off its axis, expected one for a plane image");
+  throw InputError(path, line,
+                   "a lens that cannot be shown on " + SizeText(width, height) +
+                       ": its distortion folds over or it looks farther than 80 "
+                       "degrees off its axis, expected one for a plane image");
 }
 
 CameraFile MetricCameraFile(const fs::path& path, int line, const std::string& format,

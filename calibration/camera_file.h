@@ -28,12 +28,13 @@ struct CameraFileOptions {
 
 // What is read, by the file's ending:
 //   .cameramodel  mrcal;
-//   .yml .yaml    OpenCV (camera_matrix, distortion_coefficients of 0 to 12 numbers; M1 D1 M2 D2 of a
+//   .yml .yaml    OpenCV (camera_matrix, distortion_coefficients of 0 to 12 numbers; M1 D1 M2 D2 of
+//   a
 //                 stereo pair, chosen as camera "left" or "right"), ROS camera_info, BoofCV;
-//   cameras.txt   COLMAP, all models of 3.8; its pixels count from the corner, ours from the centre;
-//   .xml          DBAT, its models 1 to 3 (backward Brown);
-//   .ior          AICON 3D Studio (balanced radial);
-//   .json         OpenSfM's camera_models.json (perspective, brown, fisheye), or millimetres as
+//   cameras.txt   COLMAP, all models of 3.8; its pixels count from the corner, ours from the
+//   centre; .xml          DBAT, its models 1 to 3 (backward Brown); .ior          AICON 3D Studio
+//   (balanced radial); .json         OpenSfM's camera_models.json (perspective, brown, fisheye), or
+//   millimetres as
 //                 they stand in a certificate: {"metric": "backward_brown" | "balanced_radial",
 //                 "width", "height", "pixel_mm": [x, y], "origin": "corner" | "middle",
 //                 "balanced_radius_mm", "parameters": {name: value}}, see MetricCamera.

@@ -30,8 +30,8 @@ CameraFile MetricCameraFile(const std::filesystem::path& path, int line, const s
 // A fisheye lens: fx fy cx cy and the polynomial theta (1 + k1 theta^2 + k2 theta^4 ...) with p1 p2
 // sx1 sy1 acting on it as COLMAP's THIN_PRISM_FISHEYE; in our pixels.
 struct Fisheye {
-  std::vector<double> intrinsics;          // fx fy cx cy
-  std::vector<double> k;                   // any number
+  std::vector<double> intrinsics;  // fx fy cx cy
+  std::vector<double> k;           // any number
   double p1 = 0, p2 = 0, sx1 = 0, sy1 = 0;
 };
 CameraFile FisheyeCamera(const std::filesystem::path& path, int line, const std::string& format,

@@ -75,16 +75,18 @@ CameraFile OpensfmCamera(const fs::path& path, const JsonNode& camera) {
                                     (height - 1) / 2.0 + size * number("c_y")};
   const std::vector<double> k = {number("k1"), number("k2"), number("k3"), number("k4")};
   if (kind == "perspective" || kind == "brown") {
-    return ExactCamera(path, camera.line(), "OpenSfM " + kind,
-                       {core[0], core[1], core[2], core[3], k[0], k[1], number("p1"),
-                        number("p2"), k[2]},
-                       width, height);
+    return ExactCamera(
+        path, camera.line(), "OpenSfM " + kind,
+        {core[0], core[1], core[2], core[3], k[0], k[1], number("p1"), number("p2"), k[2]}, width,
+        height);
   }
   if (kind == "fisheye" || kind == "fisheye_opencv") {
     return FisheyeCamera(path, camera.line(), "OpenSfM " + kind, {core, k}, width, height);
   }
-  throw camera.At("projection_type").Error("is \"" + kind + "\", expected perspective, brown, "
-                                           "fisheye or fisheye_opencv");
+  throw camera.At("projection_type")
+      .Error("is \"" + kind +
+             "\", expected perspective, brown, "
+             "fisheye or fisheye_opencv");
 }
 
 }  // namespace

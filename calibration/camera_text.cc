@@ -54,9 +54,12 @@ std::vector<ColmapLine> ReadColmapLines(const fs::path& path) {
     if (words.size() < 5) {
       throw InputError(path, line, "cut short, expected CAMERA_ID MODEL WIDTH HEIGHT PARAMS");
     }
-    ColmapLine camera{line, words[0].text,
-                      {words[1].text, static_cast<int>(Number(path, words[2])),
-                       static_cast<int>(Number(path, words[3])), {}}};
+    ColmapLine camera{line,
+                      words[0].text,
+                      {words[1].text,
+                       static_cast<int>(Number(path, words[2])),
+                       static_cast<int>(Number(path, words[3])),
+                       {}}};
     for (size_t i = 4; i < words.size(); ++i) {
       camera.lens.params.push_back(Number(path, words[i]));
     }
@@ -89,7 +92,8 @@ std::vector<double> WithTwoFocalLengths(const ColmapLens& lens) {
 }
 
 // Devernay and Faugeras: the image's radius is atan(2 r tan(omega / 2)) / omega.
-std::optional<Eigen::Vector3d> FovSight(const std::vector<double>& p, const Eigen::Vector2d& pixel) {
+std::optional<Eigen::Vector3d> FovSight(const std::vector<double>& p,
+                                        const Eigen::Vector2d& pixel) {
   const Eigen::Vector2d image((pixel.x() - p[2]) / p[0], (pixel.y() - p[3]) / p[1]);
   const double omega = p[4], radius = image.norm();
   if (radius < 1e-12 || std::abs(omega) < 1e-9) return image.homogeneous();
@@ -149,16 +153,17 @@ CameraFile ReadColmapCamera(const fs::path& path, const CameraFileOptions& optio
   static const std::set<std::string> kFitted = {"SIMPLE_RADIAL_FISHEYE", "RADIAL_FISHEYE",
                                                 "OPENCV_FISHEYE", "THIN_PRISM_FISHEYE", "FOV"};
   if (!model || !kFitted.contains(lens.model)) {
-    throw error("model " + lens.model + " is not read, or its numbers are not a lens's; expected "
-                                        "one of COLMAP 3.8, e.g. OPENCV");
+    throw error("model " + lens.model +
+                " is not read, or its numbers are not a lens's; expected "
+                "one of COLMAP 3.8, e.g. OPENCV");
   }
   const std::vector<double> p = WithTwoFocalLengths(lens);
   if (lens.model != "FOV") {
     return FisheyeCamera(path, line, format, FisheyeOf(lens.model, p), lens.width, lens.height);
   }
-  return FittedCamera(path, line, format,
-                      [&](const Eigen::Vector2d& pixel) { return FovSight(p, pixel); }, lens.width,
-                      lens.height);
+  return FittedCamera(
+      path, line, format, [&](const Eigen::Vector2d& pixel) { return FovSight(p, pixel); },
+      lens.width, lens.height);
 }
 
 CameraFile ReadAiconCamera(const fs::path& path, const CameraFileOptions& options) {
@@ -170,8 +175,7 @@ CameraFile ReadAiconCamera(const fs::path& path, const CameraFileOptions& option
   }
   for (size_t first = 0; first < words.size(); first += kAiconNumbers) {
     if (words.size() > kAiconNumbers && words[first].text != options.camera) continue;
-    return MetricCameraFile(path, words[first].line, "AICON .ior",
-                            AiconCamera(path, words, first));
+    return MetricCameraFile(path, words[first].line, "AICON .ior", AiconCamera(path, words, first));
   }
   throw InputError(path, "holds " + std::to_string(words.size() / kAiconNumbers) +
                              " cameras, expected one, or to stand in a folder named after its "

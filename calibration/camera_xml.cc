@@ -32,8 +32,8 @@ std::vector<double> Numbers(const fs::path& path, const XMLElement& element, siz
     std::istringstream text(cell);
     double number = 0;
     if (!(text >> number) || !(text >> std::ws).eof() || !std::isfinite(number)) {
-      throw InputError(path, element.GetLineNum(), "\"" + cell + "\" in <" + element.Name() +
-                                                       ">, expected a finite number");
+      throw InputError(path, element.GetLineNum(),
+                       "\"" + cell + "\" in <" + element.Name() + ">, expected a finite number");
     }
     numbers.push_back(number);
   }
@@ -53,8 +53,8 @@ double NumberOr(const fs::path& path, const XMLElement& camera, const char* name
 
 // "width,height" [mm] of the sensor; "auto,height" gives square pixels. DBAT writes the width of an
 // adjusted camera as its own aspect has stretched it, and the aspect beside it as 1 - parameter.
-Eigen::Vector2d PixelMm(const fs::path& path, const XMLElement& camera, const Eigen::Vector2d& image,
-                        double aspect) {
+Eigen::Vector2d PixelMm(const fs::path& path, const XMLElement& camera,
+                        const Eigen::Vector2d& image, double aspect) {
   const XMLElement& sensor = At(path, camera, "sensor");
   const std::string text = sensor.GetText();
   if (text.starts_with("auto,")) {
@@ -84,8 +84,9 @@ MetricCamera DbatCamera(const fs::path& path, const XMLElement& xml) {
   const std::vector<double> image = Numbers(path, At(path, xml, "image"), 2);
   const double c = Numbers(path, At(path, xml, "cc"), 1)[0];
   if (!(c > 0 && image[0] > 0 && image[1] > 0)) {
-    throw InputError(path, xml.GetLineNum(), "<cc> or <image> is not positive, expected a "
-                                             "calibrated camera");
+    throw InputError(path, xml.GetLineNum(),
+                     "<cc> or <image> is not positive, expected a "
+                     "calibrated camera");
   }
   const std::vector<double> pp = Numbers(path, At(path, xml, "pp"), 2);
   const std::vector<double> k = Numbers(path, At(path, xml, "K"), 3, true);
@@ -120,8 +121,9 @@ CameraFile ReadDbatCamera(const fs::path& path, const CameraFileOptions& options
     if (!is_only && !(id && id->GetText() && id->GetText() == options.camera)) continue;
     return MetricCameraFile(path, xml->GetLineNum(), "DBAT XML", DbatCamera(path, *xml));
   }
-  throw InputError(path, "holds several cameras, expected one, or to stand in a folder named "
-                         "after its <id>");
+  throw InputError(path,
+                   "holds several cameras, expected one, or to stand in a folder named "
+                   "after its <id>");
 }
 
 }  // namespace insitu

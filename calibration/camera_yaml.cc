@@ -83,8 +83,9 @@ Eigen::Vector2i SizeOf(const Yaml& yaml, const CameraFileOptions& options) {
     if (numbers.size() == 2) return {static_cast<int>(numbers[0]), static_cast<int>(numbers[1])};
   }
   if (options.photo_size) return *options.photo_size;
-  throw yaml.Error("does not tell the size of its photographs, expected image_width and "
-                   "image_height");
+  throw yaml.Error(
+      "does not tell the size of its photographs, expected image_width and "
+      "image_height");
 }
 
 // fx fy cx cy of a 3 x 3 matrix.
@@ -131,12 +132,14 @@ CameraFile StereoCamera(const Yaml& yaml, const CameraFileOptions& options) {
     return OpencvCamera(yaml, "OpenCV YAML, right of a pair", yaml.At({"M2"}), yaml.Find({"D2"}),
                         options);
   }
-  throw InputError(yaml.path, "holds two cameras, M1 and M2, expected to stand in a folder that "
-                              "says which one: calibration/left or calibration/right");
+  throw InputError(yaml.path,
+                   "holds two cameras, M1 and M2, expected to stand in a folder that "
+                   "says which one: calibration/left or calibration/right");
 }
 
-// BoofCV: t1 t2 are OpenCV's p1 p2. Where its pixels count from is not documented; half a pixel more
-// or less changes nothing on its own example (RMS 0.149 px both ways), so it is taken as OpenCV's.
+// BoofCV: t1 t2 are OpenCV's p1 p2. Where its pixels count from is not documented; half a pixel
+// more or less changes nothing on its own example (RMS 0.149 px both ways), so it is taken as
+// OpenCV's.
 CameraFile BoofcvCamera(const Yaml& yaml) {
   const Yaml pinhole = yaml.At({"pinhole"});
   const auto number = [&](const char* key) { return pinhole.At({key}).Number(); };
@@ -161,13 +164,14 @@ CameraFile ReadYamlCamera(const fs::path& path, const CameraFileOptions& options
   if (yaml.Find({"M1"})) return StereoCamera(yaml, options);
   const auto matrix = yaml.Find({"camera_matrix", "Camera_Matrix", "cameraMatrix", "K"});
   if (!matrix) {
-    throw InputError(path, "no camera in it, expected camera_matrix and distortion_coefficients "
-                           "(OpenCV, ROS), M1 and D1 (a stereo pair) or pinhole (BoofCV)");
+    throw InputError(path,
+                     "no camera in it, expected camera_matrix and distortion_coefficients "
+                     "(OpenCV, ROS), M1 and D1 (a stereo pair) or pinhole (BoofCV)");
   }
   const bool is_ros = yaml.Find({"distortion_model"}).has_value();
   return OpencvCamera(yaml, is_ros ? "ROS YAML" : "OpenCV YAML", *matrix,
-                      yaml.Find({"distortion_coefficients", "Distortion_Coefficients",
-                                 "distCoeffs", "dist_coeffs", "D"}),
+                      yaml.Find({"distortion_coefficients", "Distortion_Coefficients", "distCoeffs",
+                                 "dist_coeffs", "D"}),
                       options);
 }
 

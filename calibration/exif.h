@@ -10,11 +10,11 @@
 namespace insitu {
 
 struct ExifCamera {
-  std::string model;                          // maker's name of the camera; may be empty
-  std::optional<double> focal_mm;             // as set
-  std::optional<double> focal_35mm;           // that would show the same on 35 mm film
-  std::optional<double> pixel_mm;             // of the focal plane, as the maker states it
-  Eigen::Vector2i size = {0, 0};              // of the file itself [px]
+  std::string model;                 // maker's name of the camera; may be empty
+  std::optional<double> focal_mm;    // as set
+  std::optional<double> focal_35mm;  // that would show the same on 35 mm film
+  std::optional<double> pixel_mm;    // of the focal plane, as the maker states it
+  Eigen::Vector2i size = {0, 0};     // of the file itself [px]
   bool IsEmpty() const { return model.empty() && !focal_mm && !focal_35mm; }
 
   // The focal length in pixels, from focal_mm and pixel_mm if both are there, else from focal_35mm

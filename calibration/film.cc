@@ -147,9 +147,8 @@ FilmCamera ReadFilmCamera(const std::filesystem::path& path) {
   if (!table) return film;
   for (const JsonNode& row : table->Items()) {
     const std::vector<double> numbers = row.Numbers();
-    const bool rises =
-        numbers.size() == 2 &&
-        numbers[0] > (film.distortion.empty() ? 0 : film.distortion.back().x());
+    const bool rises = numbers.size() == 2 &&
+                       numbers[0] > (film.distortion.empty() ? 0 : film.distortion.back().x());
     if (!rises) throw row.Error("expected [radius_mm, distortion_mm] with radii rising from > 0");
     film.distortion.emplace_back(numbers[0], numbers[1]);
   }

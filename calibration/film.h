@@ -2,8 +2,8 @@
 // Scanned film: the fiducial marks of a metric camera tie each scan's bitmap to the image plane,
 // since the lens does not distort them. [Durisch92, §3.5]
 //
-// Image coordinates are millimetres on the plane, x right, y up, seen from the front of the picture;
-// bitmap coordinates are pixels of the scan.
+// Image coordinates are millimetres on the plane, x right, y up, seen from the front of the
+// picture; bitmap coordinates are pixels of the scan.
 #pragma once
 
 #include <Eigen/Core>
@@ -35,7 +35,8 @@ struct FilmMap {
   FilmTransformation transformation = FilmTransformation::kAffine;
   Eigen::Matrix3d bitmap_from_image = Eigen::Matrix3d::Identity();  // mm -> px, (2, 2) is 1
   std::vector<Eigen::Vector2d> residuals_px = {};  // of each mark, mapped - measured
-  std::optional<double> sigma_px = {};  // of a measured coordinate; nullopt: no mark more than needed
+  std::optional<double> sigma_px =
+      {};  // of a measured coordinate; nullopt: no mark more than needed
 };
 
 // Least squares of the bitmap positions. nullopt: fewer than three marks (projective: four), or
@@ -64,8 +65,8 @@ double DistortionAt(const FilmCamera& film, double radius_mm);
 Eigen::Vector3d SightOfFilm(const FilmCamera& film, const Eigen::Vector2d& image_mm);
 
 // One scan as a camera of mrcal: OPENCV8, or a splined model where that leaves more than
-// 0.05 px (the scan's own shear). The camera's axes are the bitmap's: CameraFit::fit_from_lens tells
-// how the scan lay. nullopt: a mirrored scan, or as FitCamera.
+// 0.05 px (the scan's own shear). The camera's axes are the bitmap's: CameraFit::fit_from_lens
+// tells how the scan lay. nullopt: a mirrored scan, or as FitCamera.
 std::optional<CameraFit> FitFilmCamera(const FilmCamera& film, const FilmMap& map, int width,
                                        int height);
 

@@ -12,7 +12,7 @@
 namespace insitu {
 namespace {
 
-constexpr int kFitColumns = 33, kFitRows = 25;     // nodes of the fit
+constexpr int kFitColumns = 33, kFitRows = 25;      // nodes of the fit
 constexpr int kCheckColumns = 65, kCheckRows = 49;  // and of the deviation
 const double kNarrowestCosine = std::cos(80 * M_PI / 180);
 
@@ -54,9 +54,8 @@ class ProjectionCost : public ceres::CostFunction {
     Jet turned[3];
     ceres::AngleAxisRotatePoint(turn, direction, turned);
     Eigen::Matrix<double, 2, 3> by_point;
-    const auto pixel = camera_.ProjectWith(
-        parameters[0], {turned[0].a, turned[1].a, turned[2].a}, &by_point,
-        jacobians ? jacobians[0] : nullptr);
+    const auto pixel = camera_.ProjectWith(parameters[0], {turned[0].a, turned[1].a, turned[2].a},
+                                           &by_point, jacobians ? jacobians[0] : nullptr);
     if (!pixel) return false;
     Eigen::Map<Eigen::Vector2d>(residuals, 2) = *pixel - sight_.pixel;
     if (jacobians && jacobians[1]) {
@@ -138,10 +137,10 @@ std::vector<std::string> Stages(const std::string& lens_model) {
 std::optional<CameraFit> FitCamera(const SightOfPixel& sight_of_pixel, int width, int height,
                                    const FitCameraOptions& options) {
   INSITU_CHECK(width > 0 && height > 0);
-  const auto sights = Sights(sight_of_pixel, options.start_fit_from_lens, width, height,
-                             kFitColumns, kFitRows);
-  const auto checks = Sights(sight_of_pixel, options.start_fit_from_lens, width, height,
-                             kCheckColumns, kCheckRows);
+  const auto sights =
+      Sights(sight_of_pixel, options.start_fit_from_lens, width, height, kFitColumns, kFitRows);
+  const auto checks =
+      Sights(sight_of_pixel, options.start_fit_from_lens, width, height, kCheckColumns, kCheckRows);
   if (!sights || !checks) return std::nullopt;
   std::vector<double> intrinsics = StartIntrinsics(*sights);
   if (!(intrinsics[0] > 0 && intrinsics[1] > 0)) return std::nullopt;  // a mirror image

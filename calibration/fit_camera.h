@@ -11,8 +11,8 @@
 
 namespace insitu {
 
-// Where a lens looks: direction of sight (of any length > 0, camera frame) of a pixel; nullopt where
-// it is undefined.
+// Where a lens looks: direction of sight (of any length > 0, camera frame) of a pixel; nullopt
+// where it is undefined.
 using SightOfPixel = std::function<std::optional<Eigen::Vector3d>(const Eigen::Vector2d& pixel)>;
 
 struct FitCameraOptions {

@@ -11,8 +11,8 @@
 namespace insitu {
 
 // The position p with map(p) = value, by Newton's method from `start`; `map` takes and gives
-// Eigen::Matrix<T, 2, 1> for T double or ceres::Jet. nullopt: no convergence to `tolerance`, or to a
-// place where the map has turned over (determinant <= 0).
+// Eigen::Matrix<T, 2, 1> for T double or ceres::Jet. nullopt: no convergence to `tolerance`, or to
+// a place where the map has turned over (determinant <= 0).
 template <typename Map>
 std::optional<Eigen::Vector2d> InvertPlane(const Map& map, const Eigen::Vector2d& value,
                                            const Eigen::Vector2d& start, double tolerance) {

@@ -23,7 +23,10 @@ std::vector<std::optional<double>> NumbersOrNull(const JsonNode& node) {
 }
 
 FrameCells CellsOf(const JsonNode& node) {
-  FrameCells cells{kFrameColumns, kFrameRows, {}, node.At("mean_x_px").Numbers(),
+  FrameCells cells{kFrameColumns,
+                   kFrameRows,
+                   {},
+                   node.At("mean_x_px").Numbers(),
                    node.At("mean_y_px").Numbers()};
   for (const JsonNode& count : node.At("counts").Items()) cells.counts.push_back(count.Integer());
   return cells;

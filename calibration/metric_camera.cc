@@ -26,7 +26,8 @@ Vector2<T> Corrected(const std::vector<double>& p, const Vector2<T>& measured) {
 
 // Ideal to measured position [mm]. See MetricModel::kBalancedRadial.
 template <typename T>
-Vector2<T> Distorted(const std::vector<double>& p, double balanced_radius, const Vector2<T>& ideal) {
+Vector2<T> Distorted(const std::vector<double>& p, double balanced_radius,
+                     const Vector2<T>& ideal) {
   const T x = ideal.x(), y = ideal.y();
   const T r2 = x * x + y * y;
   const double b2 = balanced_radius * balanced_radius, b4 = b2 * b2;
@@ -64,14 +65,14 @@ std::optional<Eigen::Vector2d> ProjectMetric(const MetricCamera& camera,
   Check(camera);
   if (!(point_in_cam.z() > 0)) return std::nullopt;
   const std::vector<double>& p = camera.parameters;
-  const Eigen::Vector2d ideal = p[0] / point_in_cam.z() *
-                                Eigen::Vector2d(point_in_cam.x(), -point_in_cam.y());
+  const Eigen::Vector2d ideal =
+      p[0] / point_in_cam.z() * Eigen::Vector2d(point_in_cam.x(), -point_in_cam.y());
   std::optional<Eigen::Vector2d> measured;
   if (camera.model == MetricModel::kBalancedRadial) {
     measured = Distorted<double>(p, camera.balanced_radius_mm, ideal);
   } else {
-    measured = InvertPlane([&]<typename T>(const Vector2<T>& m) { return Corrected<T>(p, m); }, ideal,
-                           ideal + PrincipalPoint(camera), Tolerance(camera));
+    measured = InvertPlane([&]<typename T>(const Vector2<T>& m) { return Corrected<T>(p, m); },
+                           ideal, ideal + PrincipalPoint(camera), Tolerance(camera));
   }
   if (!measured) return std::nullopt;
   const Eigen::Vector2d offset = measured->cwiseQuotient(camera.pixel_mm);

@@ -43,8 +43,7 @@ std::vector<Eigen::Vector2d> FrameNodes(int width, int height, int columns, int 
   std::vector<Eigen::Vector2d> nodes;
   for (int row = 0; row < rows; ++row) {
     for (int column = 0; column < columns; ++column) {
-      nodes.emplace_back((width - 1.0) * column / (columns - 1),
-                         (height - 1.0) * row / (rows - 1));
+      nodes.emplace_back((width - 1.0) * column / (columns - 1), (height - 1.0) * row / (rows - 1));
     }
   }
   return nodes;

@@ -17,7 +17,7 @@ struct ProjectionDifference {
   // nullopt where b does not look.
   std::vector<std::optional<double>> px = {};
   Eigen::Quaterniond b_from_a = Eigen::Quaterniond::Identity();  // the implied rotation
-  double rms_px = 0, largest_px = 0;                              // over the whole frame
+  double rms_px = 0, largest_px = 0;                             // over the whole frame
 };
 
 // What both cameras make of a point at infinity, after the rotation between them that calibration

@@ -123,10 +123,11 @@ FilmMap MapOfScan(const fs::path& fiducials, const std::string& photo, const Fil
   }
   const double limit = 0.005 * size.cast<double>().norm();  // film shrinks by less than this
   if (largest > limit) {
-    throw InputError(fiducials, "photo " + photo + Text(": its marks do not fit, off by %.1f px "
-                                                        "where film shrinks by less than %.1f px; "
-                                                        "marks exchanged, or another photo's?",
-                                                        largest, limit));
+    throw InputError(fiducials, "photo " + photo +
+                                    Text(": its marks do not fit, off by %.1f px "
+                                         "where film shrinks by less than %.1f px; "
+                                         "marks exchanged, or another photo's?",
+                                         largest, limit));
   }
   return *map;
 }
@@ -145,9 +146,9 @@ void JudgeScan(const FilmScan& scan, const Eigen::Vector2i& size, CameraCalibrat
   if (scan.film.distortion.empty()) return;
   double farthest = 0;
   const Eigen::Matrix3d image_from_bitmap = scan.map.bitmap_from_image.inverse();
-  for (const Eigen::Vector2d& corner : {Eigen::Vector2d(0, 0), Eigen::Vector2d(size.x(), 0),
-                                        Eigen::Vector2d(0, size.y()),
-                                        Eigen::Vector2d(size.x(), size.y())}) {
+  for (const Eigen::Vector2d& corner :
+       {Eigen::Vector2d(0, 0), Eigen::Vector2d(size.x(), 0), Eigen::Vector2d(0, size.y()),
+        Eigen::Vector2d(size.x(), size.y())}) {
     const Eigen::Vector2d image = (image_from_bitmap * corner.homogeneous()).hnormalized();
     farthest = std::max(farthest, (image - scan.film.principal_point_mm).norm());
   }
@@ -160,16 +161,16 @@ void JudgeScan(const FilmScan& scan, const Eigen::Vector2i& size, CameraCalibrat
        "Trust nothing near the scan's corners."});
 }
 
-CameraCalibration FromScan(const SitePaths& site, const FilmCamera& film,
-                           const fs::path& fiducials, const fs::path& photo,
-                           const std::vector<Fiducial>& marks) {
+CameraCalibration FromScan(const SitePaths& site, const FilmCamera& film, const fs::path& fiducials,
+                           const fs::path& photo, const std::vector<Fiducial>& marks) {
   const std::string name = photo.stem().string();
   const Eigen::Vector2i size = ReadPhotographSize(photo);
   CheckInside(fiducials, name, marks, size);
   const FilmMap map = MapOfScan(fiducials, name, film, marks, size);
   const auto fit = FitFilmCamera(film, map, size.x(), size.y());
   if (!fit) {
-    throw InputError(fiducials, "photo " + name + " is mirrored against its marks (or y_mm counts "
+    throw InputError(fiducials, "photo " + name +
+                                    " is mirrored against its marks (or y_mm counts "
                                     "down), or its lens cannot be shown; expected a scan seen from "
                                     "the front and y_mm counting up");
   }
@@ -212,9 +213,9 @@ CameraCalibration FromExif(const SitePaths& site, const std::vector<fs::path>& p
                                         photos.front().filename().string());
   }
   CameraCalibration camera{
-      .name = "", .camera = Camera::Pinhole(*focal, *focal, (exif.size.x() - 1) / 2.0,
-                                            (exif.size.y() - 1) / 2.0, exif.size.x(),
-                                            exif.size.y())};
+      .name = "",
+      .camera = Camera::Pinhole(*focal, *focal, (exif.size.x() - 1) / 2.0,
+                                (exif.size.y() - 1) / 2.0, exif.size.x(), exif.size.y())};
   camera.exif_focal_px = *focal;
   camera.findings.push_back(
       {Severity::kFail,

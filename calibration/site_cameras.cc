@@ -58,8 +58,9 @@ std::optional<CameraFolder> ReadCameraFolder(const std::string& name, const fs::
   if (fs::exists(folder / "film.json") || fs::exists(folder / "fiducials.csv")) {
     for (const char* needed : {"film.json", "fiducials.csv"}) {
       if (!fs::exists(folder / needed)) {
-        throw InputError(folder / needed, "no such file, expected film.json and fiducials.csv "
-                                          "together for scanned film");
+        throw InputError(folder / needed,
+                         "no such file, expected film.json and fiducials.csv "
+                         "together for scanned film");
       }
     }
     camera.source = CameraSource::kFilm;
@@ -99,12 +100,11 @@ std::map<std::string, std::string> ReadAssignment(const SitePaths& site,
     const bool is_known = std::any_of(folders.begin(), folders.end(),
                                       [&](const CameraFolder& each) { return each.name == name; });
     if (!is_known) {
-      throw camera.Error("is \"" + name + "\", expected a folder of calibration/: " +
-                         Names(folders));
+      throw camera.Error("is \"" + name +
+                         "\", expected a folder of calibration/: " + Names(folders));
     }
-    const bool is_photo = std::any_of(photos.begin(), photos.end(), [&](const fs::path& each) {
-      return Stem(each) == photo;
-    });
+    const bool is_photo = std::any_of(photos.begin(), photos.end(),
+                                      [&](const fs::path& each) { return Stem(each) == photo; });
     if (!is_photo) throw camera.Error("is of a photo that is not in the folder photos");
     camera_of_photo[photo] = name;
   }
@@ -150,8 +150,8 @@ std::string MatchByExif(const SitePaths& site, const fs::path& photo,
   const std::string what =
       fitting.empty() ? "its size, model and focal length fit none of the cameras " + Names(folders)
                       : "its size, model and focal length fit the cameras " + Names(fitting);
-  throw InputError(photo, what + "; expected \"cameras\": {\"" + Stem(photo) +
-                              "\": \"...\"} in " + site.description().string());
+  throw InputError(photo, what + "; expected \"cameras\": {\"" + Stem(photo) + "\": \"...\"} in " +
+                              site.description().string());
 }
 
 // The folder of scanned film that lists a photo.
@@ -169,8 +169,9 @@ std::map<std::string, fs::path> FilmOfPhotos(const std::vector<CameraFolder>& fo
       }
       if (std::any_of(folders.begin(), folders.end(),
                       [&](const CameraFolder& each) { return each.name == photo; })) {
-        throw InputError(fiducials, "photo " + photo + " is named as a camera folder, expected "
-                                                       "another name for one of them");
+        throw InputError(fiducials, "photo " + photo +
+                                        " is named as a camera folder, expected "
+                                        "another name for one of them");
       }
       const auto [other, is_new] = film_of_photo.emplace(photo, folder.folder);
       if (is_new) continue;

@@ -33,8 +33,8 @@ std::vector<CameraFolder> ListCameraFolders(const SitePaths& site);
 // The camera of each photograph, as SitePaths::camera() and pinhole_camera() take it; "" where the
 // site has one camera in calibration/ itself, or none. A photo with fiducials has its own. Else
 // site.json tells ("cameras": {photo: camera}), or there is only one, or EXIF model, focal length
-// and size fit only one. Throws InputError: a photo that fits no camera or several, site.json naming
-// what is not there, scanned photos without fiducials.
+// and size fit only one. Throws InputError: a photo that fits no camera or several, site.json
+// naming what is not there, scanned photos without fiducials.
 std::vector<std::string> CamerasOfPhotos(const SitePaths& site,
                                          const std::vector<std::filesystem::path>& photos);
 

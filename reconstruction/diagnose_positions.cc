@@ -90,7 +90,8 @@ std::vector<Diagnosis> AllWrong(const std::vector<Pair>& pairs, double site_size
     const Pair& first = pairs.front();
     return {{first.surveyed->place, "the camera positions " + correction.fault +
                                         ": that of photo '" + first.surveyed->photo + "' lies " +
-                                        Off(first) + ", corrected it agrees. Expected: " + correction.remedy}};
+                                        Off(first) +
+                                        ", corrected it agrees. Expected: " + correction.remedy}};
   }
   return {};
 }

@@ -10,7 +10,7 @@
 
 namespace insitu {
 
-std::optional<ProjectionUncertainty> ProjectWithUncertainty(const PosedCamera& posed,
+std::optional<ImageUncertainty> ProjectWithUncertainty(const PosedCamera& posed,
                                                             const Eigen::MatrixXd& covariance,
                                                             const Eigen::Vector3d& world) {
   const Camera& camera = posed.camera;
@@ -32,7 +32,7 @@ std::optional<ProjectionUncertainty> ProjectWithUncertainty(const PosedCamera& p
   jacobian.middleCols<3>(3) = -by_point * cam_from_world;
   if (covariance.cols() > 6) jacobian.rightCols(intrinsics) = by_lens;
 
-  ProjectionUncertainty result;
+  ImageUncertainty result;
   result.pixel = *pixel;
   result.covariance_px = jacobian * covariance * jacobian.transpose();
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes(result.covariance_px);

@@ -9,7 +9,7 @@
 
 namespace insitu {
 
-struct ProjectionUncertainty {
+struct ImageUncertainty {
   Eigen::Vector2d pixel;              // of the photograph
   Eigen::Matrix2d covariance_px;      // [px^2]
   double major_px = 0, minor_px = 0;  // semi-axes of the standard ellipse [px]
@@ -20,7 +20,7 @@ struct ProjectionUncertainty {
 // `covariance`: of the photo's left rotation increment [rad], centre [m] and, where its lens is
 // uncertain, all intrinsics in their order: 6 x 6 or (6 + n) x (6 + n).
 // nullopt: the point is not before the camera, or outside its photograph.
-std::optional<ProjectionUncertainty> ProjectWithUncertainty(const PosedCamera& camera,
+std::optional<ImageUncertainty> ProjectWithUncertainty(const PosedCamera& camera,
                                                             const Eigen::MatrixXd& covariance,
                                                             const Eigen::Vector3d& world);
 

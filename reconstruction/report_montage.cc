@@ -6,7 +6,7 @@
 namespace insitu {
 namespace {
 
-Json::Value ViewReport(const std::string& photo, const ProjectionUncertainty& seen) {
+Json::Value ViewReport(const std::string& photo, const ImageUncertainty& seen) {
   Json::Value json;
   json["photo"] = photo;
   json["pixel"] = ToJson(Eigen::VectorXd(seen.pixel));

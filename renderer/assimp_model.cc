@@ -258,6 +258,7 @@ class RenamingIo : public Assimp::DefaultIOSystem {
 Model ReadHere(const fs::path& path, ModelFormat format) {
   Assimp::Importer importer;
   importer.SetPropertyBool(AI_CONFIG_IMPORT_IFC_SKIP_SPACE_REPRESENTATIONS, true);
+  importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_USE_COLLADA_NAMES, true);
   std::string shown = path.string();
   const std::string ending = EndingFor(format, path);
   if (path.extension() != ending) shown += ending;

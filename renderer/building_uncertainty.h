@@ -14,7 +14,7 @@ namespace insitu {
 
 struct CornerUncertainty {
   Eigen::Vector3d corner;  // [m], world
-  ProjectionUncertainty image;
+  ImageUncertainty image;
 };
 
 // Of every distinct vertex of the building that lies within the photograph's frame, hidden ones

@@ -11,6 +11,7 @@
 #include "renderer/building_lights.h"
 #include "renderer/building_materials.h"
 #include "renderer/model_list.h"
+#include "renderer/overlaid_faces.h"
 #include "renderer/site_check.h"
 
 namespace insitu {
@@ -45,6 +46,15 @@ Vector3d MeanColor(const Raster& image) {
     for (int x = 0; x < image.width; ++x) sum += image.Rgb(x, y);
   }
   return sum / (static_cast<double>(image.width) * image.height);
+}
+
+// A drawing's colours tell layers apart on a screen: white and black become mid grey, no channel
+// exceeds what a surface reflects.
+Vector3d ShownColor(const Vector3d& rgb) {
+  constexpr double kBrightest = 0.8, kDarkest = 0.02;
+  const bool is_grey = rgb.maxCoeff() - rgb.minCoeff() < 1e-9;
+  if (is_grey && (rgb[0] > kBrightest || rgb[0] < kDarkest)) return Vector3d::Constant(0.5);
+  return rgb.cwiseMin(kBrightest).cwiseMax(kDarkest);
 }
 
 class Converter {
@@ -166,12 +176,14 @@ int Converter::Unlisted(const SurfaceNames& names) {
   const std::string label = LabelOf(names);
   conversion_.unlisted.try_emplace(label, names.rgb);
   const bool has_color = !names.material.empty() && (names.rgb || !names.texture.empty());
-  const std::string key = label + (has_color ? '\0' + std::to_string(names.opacity) : "");
+  std::string key = label + '\0' + std::to_string(names.opacity);
+  if (names.rgb) key.append(reinterpret_cast<const char*>(names.rgb->data()), 3 * sizeof(double));
   const auto [known, is_new] =
       index_of_unlisted_.try_emplace(key, static_cast<int>(materials.size()));
   if (!is_new) return known->second;
   SurfaceMaterial material;
   material.name = label;
+  if (!has_color && names.rgb) material.diffuse_rgb = ShownColor(*names.rgb);
   if (has_color) {
     material.texture = TextureOf(names);
     material.diffuse_rgb = names.rgb.value_or(Vector3d(Vector3d::Ones()));
@@ -182,7 +194,7 @@ int Converter::Unlisted(const SurfaceNames& names) {
     }
     material.transmission = 1 - names.opacity;
   }
-  (has_color ? own_color_ : grey_).insert(label);
+  (has_color || names.rgb ? own_color_ : grey_).insert(label);
   materials.push_back(material);
   return known->second;
 }
@@ -269,6 +281,12 @@ Conversion Converter::Finish() {
   ResolveMaterials();
   WarnOfMaterials();
   WarnOfSolids();
+  const int raised = RaiseOverlaidFaces(&mesh_);
+  if (raised > 0) {
+    Warn(site_.building(), std::to_string(raised) +
+                               " faces are drawn on larger ones of another name: put 2 mm before "
+                               "them");
+  }
   DropUnused(&mesh_);
   ArtificialEnvironment& environment = conversion_.environment;
   environment.vertices = std::move(mesh_.vertices);

@@ -52,8 +52,8 @@ struct Conversion {
 
 // Reads the models in building/ (of files with one name but several endings, the first of DXF, IFC,
 // glTF, COLLADA, OBJ, PLY, STL), placement.json, materials.json and lights.json there if they are.
-// A name that materials.json does not list keeps the colour of the model's own material, else it
-// becomes a visible mid grey; both with a warning that lists them.
+// A name that materials.json does not list keeps the colour of the model's own material or of the
+// drawing, else it becomes a visible mid grey; both with a warning that lists them.
 // Throws InputError: no model, what the readers of the files state, a texture that is named and used
 // but not there. A building without a surface is none: see RequireSurface.
 Conversion ConvertBuilding(const SitePaths& site, const ConvertOptions& options = {});

@@ -71,6 +71,8 @@ std::string ReasonFor(std::string_view kind) {
   return kLines.contains(kind) ? "a line or point, no surface" : "lettering or symbol, no surface";
 }
 
+bool HasThickness(const DxfRecord& record) { return record.Number(39, 0) != 0; }
+
 constexpr char kNoThickness[] = "without thickness or width, no surface";
 
 }  // namespace
@@ -140,6 +142,9 @@ bool DxfEntityReader::ReadSurface(const DxfRecord& record, int look) {
     AddDxfSolid(record, look, block_);
   } else if (kind == "MESH") {
     AddDxfMesh(record, look, block_);
+  } else if ((kind == "LINE" || kind == "CIRCLE" || kind == "ARC") && !HasThickness(record)) {
+    Skip(kind, kNoThickness);
+    return false;
   } else if (kind == "LINE" || kind == "CIRCLE" || kind == "ARC" || kind == "LWPOLYLINE") {
     DxfPath path = kind == "LINE"         ? DxfLinePath(record)
                    : kind == "LWPOLYLINE" ? DxfLwPolylinePath(record)

@@ -25,7 +25,7 @@ struct SpectralMaterial {
 struct LampSpectrum {
   Eigen::Vector3d position;  // [m], local
   Spectrum intensity;        // radiance unit times m^2
-  std::optional<LightDistribution> distribution;
+  std::optional<LightDistribution> distribution = {};
 };
 
 // An axis-aligned box about the planned building; a light ray that misses it is not blocked by it.

@@ -35,7 +35,7 @@ std::string Text(const char* format, double a, double b = 0) {
 }
 
 // Sizes a planned building may have, from a kiosk to a district [m].
-constexpr double kSmallest = 1.5, kLargest = 3000;
+constexpr double kSmallest = 1, kLargest = 3000;
 
 bool IsLikely(double size, const AlignedBox3d& site) {
   if (size < kSmallest || size > kLargest) return false;

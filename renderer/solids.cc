@@ -217,6 +217,12 @@ struct BodyState {
   int faces = 0, turned = 0;
   bool open = false, one_sided = false;
   double volume = 0;  // of the faces turned alike
+  double area = 0;
+
+  // Two sheets back to back hold nothing: they have no outside.
+  bool IsSolid() const {
+    return !open && !one_sided && std::abs(volume) > 1e-9 * area * std::sqrt(area);
+  }
 };
 
 class BodyCheck {
@@ -265,6 +271,9 @@ class BodyCheck {
       ++state.faces;
       state.turned += turned;
       state.volume += turned ? -volume : volume;
+      state.area += (mesh_.vertices[corners[1]] - mesh_.vertices[corners[0]])
+                        .cross(mesh_.vertices[corners[2]] - mesh_.vertices[corners[0]])
+                        .norm() / 2;
     }
     for (const int t : open_) state_[bodies_.Find(t).body].open = true;
     for (const int t : one_sided_) state_[bodies_.Find(t).body].one_sided = true;
@@ -272,7 +281,7 @@ class BodyCheck {
       if (state.faces == 0) continue;
       ++report_.bodies;
       report_.one_sided_bodies += state.one_sided;
-      if (!state.open && !state.one_sided) ++report_.closed_bodies;
+      report_.closed_bodies += state.IsSolid();
       if (state.open && !state.one_sided) {
         report_.unmended_faces += std::min(state.turned, state.faces - state.turned);
       }
@@ -283,7 +292,7 @@ class BodyCheck {
     for (size_t t = 0; t < mesh_.triangles.size(); ++t) {
       const auto [body, turned] = bodies_.Find(static_cast<int>(t));
       const BodyState& state = state_[body];
-      if (state.open || state.one_sided) continue;
+      if (!state.IsSolid()) continue;
       if (turned != (state.volume < 0)) Flip(t);
     }
   }

@@ -103,8 +103,9 @@ Json::Value FigueroaFigures(const fs::path& shared, const fs::path& work) {
 
 Json::Value BoofcvFigures(const fs::path& shared, const fs::path& work) {
   const fs::path folder = shared / "data/calibration/boofcv_sony_hx5v_chess";
-  const SitePaths site = BoardSite(
-      folder, "frame", "interior_corners_x 4\ninterior_corners_y 6\nsquare_m 0.03\n", work / "boofcv");
+  const SitePaths site =
+      BoardSite(folder, "frame", "interior_corners_x 4\ninterior_corners_y 6\nsquare_m 0.03\n",
+                work / "boofcv");
   return AgainstTheirs(site, folder / "intrinsic.yaml");
 }
 

@@ -18,7 +18,8 @@ class BoardCorners : public testing::Test {
     WriteBoardPhotos(folder_.path() / "photos", RectangularBoard());
   }
   Raster Photo(int number) {
-    return ReadPhotograph(folder_.path() / ("photos/board_" + std::to_string(number) + ".png")).linear;
+    return ReadPhotograph(folder_.path() / ("photos/board_" + std::to_string(number) + ".png"))
+        .linear;
   }
   ScratchFolder folder_;
 };

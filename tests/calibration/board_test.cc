@@ -75,7 +75,8 @@ TEST_F(BoardPhotos, UnequalSizes) {
   EXPECT_EQ(InputErrorOf([&] {
               CalibrateFromBoards(photos, {10, 10, 0.08, ""}, model_);
             }),
-            photos[1].string() + ": is 65x48 px, expected 64x48 px as a.png; boards of another camera or another "
+            photos[1].string() +
+                ": is 65x48 px, expected 64x48 px as a.png; boards of another camera or another "
                 "format belong in a folder of their own");
 }
 
@@ -94,15 +95,17 @@ TEST_F(BoardPhotos, TooFewBoardsFound) {
 
 TEST_F(BoardPhotos, OnePhoto) {
   const auto photo = BlankPhoto("a.png", 64);
-  EXPECT_EQ(InputErrorOf([&] { CalibrateFromBoards({photo}, {7, 5, 0.08, ""}, model_); })
-                .substr(0, folder_.path().string().size() + 46),
+  EXPECT_EQ(InputErrorOf([&] {
+              CalibrateFromBoards({photo}, {7, 5, 0.08, ""}, model_);
+            }).substr(0, folder_.path().string().size() + 46),
             folder_.path().string() + ": whole boards found in 0 of 1 photos, expected");
 }
 
 TEST_F(BoardPhotos, APngThatIsNone) {
   const auto photo = folder_.Write("a.png", "no picture");
-  EXPECT_EQ(InputErrorOf([&] { CalibrateFromBoards({photo}, {7, 5, 0.08, ""}, model_); })
-                .find(photo.string() + ": not a readable image"),
+  EXPECT_EQ(InputErrorOf([&] {
+              CalibrateFromBoards({photo}, {7, 5, 0.08, ""}, model_);
+            }).find(photo.string() + ": not a readable image"),
             0u);
 }
 

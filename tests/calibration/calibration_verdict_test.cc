@@ -13,8 +13,8 @@ LensAssessment GoodLens() {
   LensAssessment lens;
   lens.points = 2000;
   lens.rms_px = 0.2;
-  lens.uncertainty = {kFrameColumns, kFrameRows,
-                      std::vector<std::optional<double>>(kNodes, 0.1), 0.1};
+  lens.uncertainty = {kFrameColumns, kFrameRows, std::vector<std::optional<double>>(kNodes, 0.1),
+                      0.1};
   lens.cells = {kFrameColumns, kFrameRows, std::vector<int>(kNodes, 17),
                 std::vector<double>(kNodes, 0), std::vector<double>(kNodes, 0)};
   for (int i = 0; i < 20; ++i) lens.boards.push_back({"", 100, 0, 0.2, 0.6, 2.0 * i, 1 + 0.1 * i});
@@ -22,8 +22,12 @@ LensAssessment GoodLens() {
 }
 
 ProjectionDifference Difference(double px) {
-  return {kFrameColumns, kFrameRows, std::vector<std::optional<double>>(kNodes, px),
-          Eigen::Quaterniond::Identity(), px, px};
+  return {kFrameColumns,
+          kFrameRows,
+          std::vector<std::optional<double>>(kNodes, px),
+          Eigen::Quaterniond::Identity(),
+          px,
+          px};
 }
 
 BoardCalibration Good() {
@@ -89,8 +93,9 @@ TEST(CalibrationVerdict, ResidualsAndOutliers) {
 TEST(CalibrationVerdict, HalvesAndModels) {
   BoardCalibration calibration = Good();
   calibration.halves = Difference(1.5);
-  EXPECT_EQ(OnlyFinding(calibration).find("Two halves of the boards give different lenses: up to "
-                                          "1.50 px"),
+  EXPECT_EQ(OnlyFinding(calibration)
+                .find("Two halves of the boards give different lenses: up to "
+                      "1.50 px"),
             0u);
   calibration = Good();
   calibration.halves.reset();

@@ -35,8 +35,8 @@ class CameraFiles : public testing::Test {
 TEST_F(CameraFiles, OpencvYaml) {
   const CameraFile file = Read("camera.yml", kOpencv);
   EXPECT_EQ(file.camera.lens_model(), "LENSMODEL_OPENCV5");
-  EXPECT_EQ(file.camera.intrinsics(), (std::vector<double>{536, 537, 342.5, 235.5, -0.26, -0.038,
-                                                           1.7e-3, -2.8e-4, 0.238}));
+  EXPECT_EQ(file.camera.intrinsics(),
+            (std::vector<double>{536, 537, 342.5, 235.5, -0.26, -0.038, 1.7e-3, -2.8e-4, 0.238}));
   EXPECT_EQ(file.camera.width(), 640);
   EXPECT_EQ(file.largest_deviation_px, 0);
 }
@@ -64,8 +64,9 @@ TEST_F(CameraFiles, RosAndItsFisheye) {
                                  "[0.1, 0.2, 0.01, 0.02, 0.3]}\n")
                 .camera.lens_model(),
             "LENSMODEL_OPENCV5");
-  const CameraFile fisheye = Read("b.yaml", ros + "distortion_model: equidistant\n"
-                                                  "distortion_coefficients: {data: [0, 0, 0, 0]}\n");
+  const CameraFile fisheye = Read("b.yaml", ros +
+                                                "distortion_model: equidistant\n"
+                                                "distortion_coefficients: {data: [0, 0, 0, 0]}\n");
   EXPECT_GT(fisheye.largest_deviation_px, 0);
   EXPECT_LT(fisheye.largest_deviation_px, 0.05);
   // Equidistant: the angle off the axis is the distance from the middle.
@@ -132,8 +133,9 @@ TEST_F(CameraFiles, FaultsOfColmap) {
             std::string::npos);
   EXPECT_EQ(ErrorOf("cameras.txt", "1 PINHOLE 1000\n"),
             ":1: cut short, expected CAMERA_ID MODEL WIDTH HEIGHT PARAMS");
-  EXPECT_NE(ErrorOf("cameras.txt", "1 PINHOLE 0 800 900 900 500 400\n").find("a frame without pixels"),
-            std::string::npos);
+  EXPECT_NE(
+      ErrorOf("cameras.txt", "1 PINHOLE 0 800 900 900 500 400\n").find("a frame without pixels"),
+      std::string::npos);
 }
 
 const std::string kDbat =
@@ -184,9 +186,9 @@ TEST_F(CameraFiles, Aicon) {
 }
 
 TEST_F(CameraFiles, OpensfmAndCertificates) {
-  const CameraFile opensfm = Read(
-      "camera_models.json",
-      R"({"v2 phone": {"projection_type": "perspective", "width": 3264, "height": 2448,
+  const CameraFile opensfm =
+      Read("camera_models.json",
+           R"({"v2 phone": {"projection_type": "perspective", "width": 3264, "height": 2448,
           "focal": 0.87, "k1": 0.09, "k2": -0.23}})");
   EXPECT_EQ(opensfm.camera.intrinsics()[2], (3264 - 1) / 2.0);
   EXPECT_NEAR(opensfm.camera.focal_px(), 0.87 * 3264, 1e-9);

@@ -166,8 +166,8 @@ TEST_F(FilmFiles, Fiducials) {
 }
 
 TEST_F(FilmFiles, Film) {
-  const FilmCamera film = ReadFilmCamera(folder_.Write(
-      "film.json", R"({"focal_mm": 99.4, "principal_point_mm": [0.01, -0.02],
+  const FilmCamera film = ReadFilmCamera(
+      folder_.Write("film.json", R"({"focal_mm": 99.4, "principal_point_mm": [0.01, -0.02],
                        "distortion": [[10, 0.001], [20, 0.003]], "transformation": "projective"})"));
   EXPECT_EQ(film.distortion[1], Eigen::Vector2d(20, 0.003));
   EXPECT_EQ(film.transformation, FilmTransformation::kProjective);

@@ -15,8 +15,8 @@ SightOfPixel SightsOf(const Camera& camera) {
 }
 
 TEST(FitCamera, FindsALensOfItsOwnKindAgain) {
-  const Camera lens("LENSMODEL_OPENCV5",
-                    {1500, 1505, 910, 580, -0.21, 0.11, 4e-4, -7e-4, -0.03}, 1800, 1200);
+  const Camera lens("LENSMODEL_OPENCV5", {1500, 1505, 910, 580, -0.21, 0.11, 4e-4, -7e-4, -0.03},
+                    1800, 1200);
   const auto fit = FitCamera(SightsOf(lens), 1800, 1200);
   ASSERT_TRUE(fit);
   EXPECT_LT(fit->largest_deviation_px, 1e-4);

@@ -57,7 +57,8 @@ TEST_P(EitherModel, BehindTheCamera) {
 }
 
 INSTANTIATE_TEST_SUITE_P(MetricCamera, EitherModel,
-                         testing::Values(MetricModel::kBackwardBrown, MetricModel::kBalancedRadial));
+                         testing::Values(MetricModel::kBackwardBrown,
+                                         MetricModel::kBalancedRadial));
 
 // x' = x (1 + K1 r^2) of the measured place; the balanced one vanishes at its radius.
 TEST(MetricCamera, RadialTermsByHand) {

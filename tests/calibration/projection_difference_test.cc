@@ -11,7 +11,8 @@ Camera Lens(double focal, double center_x, double k1) {
 }
 
 TEST(ProjectionDifference, OfALensAgainstItselfIsNone) {
-  const ProjectionDifference same = CompareLenses(Lens(900, 600, -0.1), Lens(900, 600, -0.1), 13, 9);
+  const ProjectionDifference same =
+      CompareLenses(Lens(900, 600, -0.1), Lens(900, 600, -0.1), 13, 9);
   EXPECT_EQ(same.px.size(), 117u);
   EXPECT_LT(same.largest_px, 1e-9);
 }

@@ -79,7 +79,8 @@ TEST_F(Site, BoardsGiveTheLensBack) {
   ASSERT_TRUE(covariance);
   ASSERT_EQ(covariance->rows(), 8);
   EXPECT_LT((*covariance - covariance->transpose()).norm(), 1e-9 * covariance->norm());
-  EXPECT_GT(Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(*covariance).eigenvalues().minCoeff(), 0);
+  EXPECT_GT(Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(*covariance).eigenvalues().minCoeff(),
+            0);
   EXPECT_LT(std::abs(calibration.camera.focal_px() - 560), 5 * std::sqrt((*covariance)(0, 0)));
 
   const std::string page = ReadWhole(site_.calibration_page());
@@ -110,8 +111,7 @@ TEST_F(Site, RectangularBoardsAndABroughtSolution) {
   ASSERT_TRUE(brought.lens);
   EXPECT_EQ(brought.lens->rms_px, made.lens->rms_px);
   EXPECT_EQ(brought.lens->boards[0].photo, "board 1");
-  EXPECT_LT((*ReadIntrinsicsCovariance(site_, "") - *covariance).norm(),
-            1e-9 * covariance->norm());
+  EXPECT_LT((*ReadIntrinsicsCovariance(site_, "") - *covariance).norm(), 1e-9 * covariance->norm());
 }
 
 TEST_F(Site, SquaresCountedForCorners) {

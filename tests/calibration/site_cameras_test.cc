@@ -36,10 +36,10 @@ class SiteCameras : public testing::Test {
     return file;
   }
   void AddCamera(const std::string& name, int width, int height, double focal = 500) {
-    WritePosedCamera(site_.boards() / name / "camera.cameramodel",
-                     {"", Camera::Pinhole(focal, focal, width / 2.0, height / 2.0, width, height),
-                      Rigid3()},
-                     "");
+    WritePosedCamera(
+        site_.boards() / name / "camera.cameramodel",
+        {"", Camera::Pinhole(focal, focal, width / 2.0, height / 2.0, width, height), Rigid3()},
+        "");
   }
   std::vector<std::string> Cameras() { return CamerasOfPhotos(site_, ListPhotographs(site_)); }
   ScratchFolder folder_;
@@ -100,8 +100,9 @@ TEST_F(SiteCameras, SiteJsonMayErr) {
 TEST_F(SiteCameras, CameraHereAndInFolders) {
   AddCamera("", 64, 48);
   AddCamera("wide", 64, 48);
-  EXPECT_NE(InputErrorOf([&] { ListCameraFolders(site_); }).find("expected each camera in a folder"),
-            std::string::npos);
+  EXPECT_NE(
+      InputErrorOf([&] { ListCameraFolders(site_); }).find("expected each camera in a folder"),
+      std::string::npos);
 }
 
 TEST_F(SiteCameras, TwoCameraFilesSideBySide) {
@@ -155,7 +156,8 @@ class ScannedFilm : public SiteCameras {
  protected:
   ScannedFilm() {
     AddPhoto("photos/west.jpg", 480, 480);
-    folder_.Write("calibration/film.json", R"({"focal_mm": 60, "distortion": [[20, 0.01], [45, 0.05]]})");
+    folder_.Write("calibration/film.json",
+                  R"({"focal_mm": 60, "distortion": [[20, 0.01], [45, 0.05]]})");
     WriteMarks(kWest);
   }
   void WriteMarks(const std::string& rows) {
@@ -188,8 +190,9 @@ TEST_F(ScannedFilm, MarksOfAnotherPhoto) {
   WriteMarks(
       "1,-28,-28,west,16,463\n2,28,-28,west,464,463\n3,28,28,west,464,15\n4,-28,28,west,16,900\n");
   EXPECT_EQ(InputErrorOf([&] { CalibrateSite(site_); }),
-            fiducials + ": mark 4 of photo west lies at (16, 900), outside its 480x480 px; are "
-                        "these another photo's fiducials?");
+            fiducials +
+                ": mark 4 of photo west lies at (16, 900), outside its 480x480 px; are "
+                "these another photo's fiducials?");
   WriteMarks(
       "1,-28,-28,west,16,463\n2,28,-28,west,464,15\n3,28,28,west,464,463\n4,-28,28,west,16,15\n");
   EXPECT_NE(InputErrorOf([&] { CalibrateSite(site_); }).find("its marks do not fit"),
@@ -200,14 +203,17 @@ TEST_F(ScannedFilm, MarksOfAnotherPhoto) {
   AddPhoto("photos/south.jpg", 480, 480);
   WriteMarks(kWest);
   EXPECT_EQ(InputErrorOf([&] { CalibrateSite(site_); }),
-            fiducials + ": has no marks of photo south, expected three or more of every scanned "
-                        "photo");
+            fiducials +
+                ": has no marks of photo south, expected three or more of every scanned "
+                "photo");
   fs::remove(site_.photos() / "south.jpg");
-  WriteMarks("1,-28,-28,west,464,463\n2,28,-28,west,16,463\n3,28,28,west,16,15\n4,-28,28,west,464,15\n");
+  WriteMarks(
+      "1,-28,-28,west,464,463\n2,28,-28,west,16,463\n3,28,28,west,16,15\n4,-28,28,west,464,15\n");
   EXPECT_NE(InputErrorOf([&] { CalibrateSite(site_); }).find("is mirrored"), std::string::npos);
   WriteMarks("1,-28,-28,west,16,463\n2,28,-28,west,464,463\n");
-  EXPECT_NE(InputErrorOf([&] { CalibrateSite(site_); }).find("has 2 marks, expected at least three"),
-            std::string::npos);
+  EXPECT_NE(
+      InputErrorOf([&] { CalibrateSite(site_); }).find("has 2 marks, expected at least three"),
+      std::string::npos);
 }
 
 }  // namespace

@@ -15,14 +15,14 @@ using testing::HasSubstr;
 
 ArtificialEnvironment GlazedTriangle() {
   ArtificialEnvironment environment;
-  environment.materials = {{"WALL", {0.1, 1.0 / 3, 0.7}, 0.9, std::nullopt},
-                           {"GLASS", {0.03, 0.03, 0.03}, 1, Specular{0.8, 1.52}},
-                           {"MIRROR", {0, 0, 0}, 1, Specular{1, std::nullopt}}};
+  environment.materials = {{"WALL", {0.1, 1.0 / 3, 0.7}, 0.9, std::nullopt, {}, 0, 0, "wall.png"},
+                           {"GLASS", {0.03, 0.03, 0.03}, 1, Specular{0.8, 1.52}, {}, 0.1, 0.9, ""},
+                           {"MIRROR", {0, 0, 0}, 1, Specular{1, std::nullopt}, {}, 0, 0, ""}};
   environment.vertices = {
       {2600000.1, 1200000.2, 400.3}, {2600001, 1200000, 1.0 / 3}, {0, -1, 1e-9}};
   environment.triangles = {{0, 1, 2}, {2, 1, 0}};
   environment.material_of_triangle = {2, 0};
-  environment.lights = {{"lamp", {1, 2, 3}, {0.5, 0, 1e-7}}};
+  environment.lights = {{"lamp", {1, 2, 3}, {0.5, 0, 1e-7}, {}, {}, 0}};
   return environment;
 }
 
@@ -68,6 +68,31 @@ TEST(ArtificialEnvironment, ReturnsFromItsFilesToTheLastBit) {
   EXPECT_EQ(read.lights[0].intensity_rgb, written.lights[0].intensity_rgb);
 }
 
+TEST(ArtificialEnvironment, KeepsWhatTheRendererDoesNotShow) {
+  const ScratchFolder folder;
+  ArtificialEnvironment written = GlazedTriangle();
+  written.materials[2].reflectance = {{400, 0.1}, {700, 0.9}};
+  written.corner_normals.assign(6, Eigen::Vector3f(0, 0.6f, 0.8f));
+  written.corner_uvs = {{0, 0}, {1, 0}, {0, 1}, {0.5f, 0.25f}, {2, 2}, {-1, 3}};
+  written.lights[0].distribution =
+      LightDistribution{Eigen::Matrix3d::Identity(), {0, 30, 90}, {0, 90}, {1, 0.5, 0, 1, 0.4, 0}};
+  written.lights[0].spectrum = {{380, 1}, {780, 2}};
+  written.lights[0].candela = 120;
+  WriteArtificialEnvironment({folder.path()}, written);
+  const ArtificialEnvironment read = ReadArtificialEnvironment({folder.path()});
+  EXPECT_EQ(read.materials[0].texture, "wall.png");
+  EXPECT_EQ(read.materials[1].roughness, 0.1);
+  EXPECT_EQ(read.materials[1].transmission, 0.9);
+  EXPECT_EQ(read.materials[2].reflectance, written.materials[2].reflectance);
+  EXPECT_EQ(read.corner_normals, written.corner_normals);
+  EXPECT_EQ(read.corner_uvs, written.corner_uvs);
+  ASSERT_TRUE(read.lights[0].distribution);
+  EXPECT_EQ(read.lights[0].distribution->values, written.lights[0].distribution->values);
+  EXPECT_EQ(read.lights[0].spectrum, written.lights[0].spectrum);
+  EXPECT_EQ(read.lights[0].candela, 120);
+  EXPECT_EQ(NotShown(read).size(), 3u);
+}
+
 TEST(ArtificialEnvironment, SameInputSameBytes) {
   const ScratchFolder one, two;
   for (const ScratchFolder* folder : {&one, &two}) {
@@ -106,8 +131,8 @@ TEST(ArtificialEnvironment, BadInput) {
   Edit(site, "\"vertices\" : 3", "\"vertices\" : -3");
   EXPECT_THAT(Complaint(site), HasSubstr("is negative, expected a count"));
   WriteArtificialEnvironment(site, GlazedTriangle());
-  Edit(site, "\"version\" : 1", "\"version\" : 7");
-  EXPECT_THAT(Complaint(site), HasSubstr("is not a version this program reads, expected 1"));
+  Edit(site, "\"version\" : 2", "\"version\" : 7");
+  EXPECT_THAT(Complaint(site), HasSubstr("is not a version this program reads, expected 2"));
 }
 
 TEST(ArtificialEnvironment, IndicesOutOfRange) {

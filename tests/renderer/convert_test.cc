@@ -35,7 +35,12 @@ class Convert : public testing::Test {
   void Write(const std::string& name, const std::string& content) {
     folder_.Write("building/" + name, content);
   }
-  Conversion Converted() const { return ConvertBuilding({folder_.path()}); }
+  Conversion Converted() const {
+    const SitePaths site{folder_.path()};
+    Conversion conversion = ConvertBuilding(site);
+    RequireSurface(site, conversion);
+    return conversion;
+  }
   std::string Complaint() const {
     try {
       Converted();
@@ -60,7 +65,7 @@ TEST_F(Convert, LayersGetTheirMaterials) {
   Write("materials.json", kMaterials);
   const Conversion conversion = Converted();
   const ArtificialEnvironment& building = conversion.environment;
-  EXPECT_TRUE(conversion.warnings.empty());
+  EXPECT_THAT(conversion.warnings, ElementsAre(HasSubstr("2 faces lie on others of another name")));
   ASSERT_EQ(building.materials.size(), 2u);
   EXPECT_THAT(building.material_of_triangle, ElementsAre(0, 0, 1, 1));
   EXPECT_EQ(building.materials[0].name, "GLASS");
@@ -118,9 +123,9 @@ TEST_F(Convert, WarnsOfWhatItLeavesOutOrGuesses) {
   const Conversion conversion = Converted();
   EXPECT_THAT(
       conversion.warnings,
-      ElementsAre(HasSubstr("a.dxf: names no unit"), HasSubstr("carry surfaces: 1 3DSOLID"),
+      ElementsAre(HasSubstr("a.dxf: names no unit"), HasSubstr("left out: 1 3DSOLID (an ACIS solid"),
                   HasSubstr("left out: 2 LINE"), HasSubstr("1 faces of no area"),
-                  HasSubstr("materials.json: layer \"DOOR\" of the drawing is not listed"),
+                  HasSubstr("materials.json: not listed, shown in mid grey: \"DOOR\""),
                   HasSubstr("\"GLASS\" is listed but"), HasSubstr("\"WALL\" is listed but")));
   EXPECT_EQ(conversion.environment.materials[0].diffuse_rgb, Eigen::Vector3d(0.5, 0.5, 0.5));
   for (const std::string& warning : conversion.warnings) {
@@ -138,7 +143,7 @@ TEST_F(Convert, ReportNamesSizeAndPlace) {
 }
 
 TEST_F(Convert, NeedsADrawingWithSurfaces) {
-  EXPECT_THAT(Complaint(), HasSubstr("building: no drawing, expected at least one *.dxf"));
+  EXPECT_THAT(Complaint(), HasSubstr("building: no model, expected a DXF"));
   Write("materials.json", kMaterials);
   Write("a.dxf", DrawingText("0 LINE\n"));
   EXPECT_THAT(Complaint(), HasSubstr("a.dxf: has no surface to show"));
@@ -159,18 +164,24 @@ TEST_F(Convert, BadMaterials) {
   EXPECT_THAT(complaint("0.9", "-0.9"), HasSubstr("materials.json:7: "));
   EXPECT_THAT(complaint("1.5", "0.9"), HasSubstr("materials.json:8: "));
   EXPECT_THAT(complaint("1.5", "null"), HasSubstr("\"ior\" is missing"));
-  EXPECT_THAT(complaint("0.0}", "0.2}"), HasSubstr("materials.json:9: "));
-  EXPECT_THAT(complaint("0.0}", "0.2}"), HasSubstr("smooth mirrors only"));
+  EXPECT_THAT(complaint("0.0}", "1.2}"), HasSubstr("materials.json:9: "));
   EXPECT_THAT(complaint("\"layers\"", "\"layer\""), HasSubstr("\"layers\" is missing"));
   EXPECT_THAT(complaint("{\n", ""), HasSubstr("materials.json:"));
 }
 
-// A rough surface that mirrors nothing is just diffuse.
-TEST_F(Convert, RoughnessOfADiffuseMaterialMeansNothing) {
-  const std::string rough =
-      Replaced(kMaterials, "\"ior\": null, \"roughness\": null", "\"roughness\": 0.5");
-  ASSERT_NE(rough, kMaterials);
-  EXPECT_EQ(ComplaintAbout(rough), "");
+// What today's renderer cannot show is kept, and said.
+TEST_F(Convert, RoughnessTransmissionAndTextureAreKept) {
+  Write("a.dxf", DrawingText(UnitSquare("WALL") + UnitSquare("GLASS")));
+  Write("brick.png", "not looked at");
+  Write("materials.json",
+        Replaced(Replaced(kMaterials, "0.0}", "0.2, \"transmission\": 0.9}"),
+                 "\"roughness\": null", "\"texture\": \"brick.png\""));
+  const ArtificialEnvironment building = Converted().environment;
+  EXPECT_EQ(building.materials[1].roughness, 0.2);
+  EXPECT_EQ(building.materials[1].transmission, 0.9);
+  EXPECT_EQ(building.materials[0].texture, "brick.png");
+  EXPECT_THAT(NotShown(building),
+              ElementsAre(HasSubstr("texture"), HasSubstr("rough"), HasSubstr("transmission")));
 }
 
 }  // namespace

@@ -129,7 +129,8 @@ TEST(DxfBadInput, NeverCrashesOnDamagedDrawings) {
 }
 
 TEST(DxfBadInput, OtherFormats) {
-  EXPECT_THAT(Complaint(std::string("AutoCAD Binary DXF\r\n\x1a\0", 22)), HasSubstr("binary DXF"));
+  EXPECT_THAT(Complaint(std::string("AutoCAD Binary DXF\r\n\x1a\0", 22)),
+              HasSubstr("byte 22: the drawing ends here"));
   EXPECT_THAT(Complaint("AC1032 ..."), HasSubstr("DWG"));
   EXPECT_THAT(Complaint("ISO-10303-21;\nHEADER;\n"), HasSubstr("drawing.dxf:1: \"ISO-10303-21;\""));
   EXPECT_THAT(Complaint("10\n1\n0\nEOF\n"), HasSubstr("drawing.dxf:1: a drawing begins"));
@@ -213,6 +214,11 @@ TEST(DxfBadInput, TooManyOrTooDeepBlocks) {
   ExpectFault(DrawingText("0 INSERT\n2 B\n70 1000000\n71 1000000",
                           "0 BLOCK\n2 B\n" + UnitSquare("W") + "0 ENDBLK"),
               "INSERT", "over 20 million pieces");
+}
+
+TEST(DxfBadInput, TenThousandNestedBlocks) {
+  EXPECT_THAT(Complaint(DrawingText("0 INSERT\n2 B0", NestedBlocks(10000, 1))),
+              HasSubstr("more than 64 deep"));
 }
 
 TEST(DxfBadInput, InsertsThatGrowWithoutBound) {

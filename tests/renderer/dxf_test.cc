@@ -17,16 +17,16 @@ namespace {
 
 using Eigen::Vector3d;
 
-DxfModel ReadText(const std::string& text) {
+Model ReadText(const std::string& text) {
   const ScratchFolder folder;
   return ReadDxf(folder.Write("drawing.dxf", text));
 }
 
-DxfModel ReadEntities(const std::string& entities, const std::string& blocks = "") {
+Model ReadEntities(const std::string& entities, const std::string& blocks = "") {
   return ReadText(DrawingText(entities, blocks));
 }
 
-double Area(const LayeredMesh& mesh) {
+double Area(const ModelMesh& mesh) {
   double area = 0;
   for (const auto& t : mesh.triangles) {
     const Vector3d &a = mesh.vertices[t[0]], &b = mesh.vertices[t[1]], &c = mesh.vertices[t[2]];
@@ -36,7 +36,7 @@ double Area(const LayeredMesh& mesh) {
 }
 
 // By Gauss's theorem; positive if the faces of a closed body are wound counter-clockwise outside.
-double Volume(const LayeredMesh& mesh) {
+double Volume(const ModelMesh& mesh) {
   double volume = 0;
   for (const auto& t : mesh.triangles) {
     volume += mesh.vertices[t[0]].dot(mesh.vertices[t[1]].cross(mesh.vertices[t[2]])) / 6;
@@ -44,7 +44,13 @@ double Volume(const LayeredMesh& mesh) {
   return volume;
 }
 
-bool Has(const LayeredMesh& mesh, const Vector3d& point) {
+std::vector<std::string> LayersOf(const ModelMesh& mesh) {
+  std::vector<std::string> layers;
+  for (const SurfaceNames& names : mesh.surfaces) layers.push_back(names.layer);
+  return layers;
+}
+
+bool Has(const ModelMesh& mesh, const Vector3d& point) {
   return std::ranges::any_of(mesh.vertices,
                              [&](const Vector3d& v) { return (v - point).norm() < 1e-12; });
 }
@@ -148,16 +154,16 @@ std::string BoxAsSolid() {
 class DxfBox : public testing::TestWithParam<std::string> {};
 
 TEST_P(DxfBox, HasItsAreaAndVolume) {
-  const DxfModel model = ReadEntities(GetParam());
+  const Model model = ReadEntities(GetParam());
   EXPECT_EQ(model.mesh.triangles.size(), 12u);
-  EXPECT_EQ(model.mesh.layers, std::vector<std::string>{"BOX"});
+  EXPECT_EQ(LayersOf(model.mesh), std::vector<std::string>{"BOX"});
   EXPECT_NEAR(Area(model.mesh), 52, 1e-12);
   EXPECT_NEAR(Volume(model.mesh), 24, 1e-12);
 }
 
 // A mirrored, rotated, scaled copy stays a body whose faces look outwards.
 TEST_P(DxfBox, KeepsItsOutsideWhenMirrored) {
-  const DxfModel model = ReadEntities("0 INSERT\n2 B\n10 5\n20 6\n30 7\n41 -2\n50 30\n",
+  const Model model = ReadEntities("0 INSERT\n2 B\n10 5\n20 6\n30 7\n41 -2\n50 30\n",
                                       "0 BLOCK\n2 B\n" + GetParam() + "0 ENDBLK\n");
   EXPECT_NEAR(Volume(model.mesh), 48, 1e-11);
 }
@@ -174,7 +180,7 @@ TEST(Dxf, PolygonMeshClosedBothWaysHasNoBorder) {
       torus += "0 VERTEX\n70 64\n" + Point(10, {r * std::cos(u), r * std::sin(u), std::sin(v)});
     }
   }
-  const LayeredMesh mesh = ReadEntities(torus + "0 SEQEND\n").mesh;
+  const ModelMesh mesh = ReadEntities(torus + "0 SEQEND\n").mesh;
   EXPECT_EQ(mesh.triangles.size(), 2u * 5 * 4);
   std::set<std::pair<int, int>> edges;
   for (const auto& t : mesh.triangles) {
@@ -188,7 +194,7 @@ TEST(Dxf, OpenPolygonMeshHasOneFaceLessThanVerticesEachWay) {
   for (int m = 0; m < 3; ++m) {
     for (int n = 0; n < 2; ++n) sheet += "0 VERTEX\n70 64\n" + Point(10, Vector3d(m, n, 0));
   }
-  const DxfModel model = ReadEntities(sheet + "0 SEQEND\n");
+  const Model model = ReadEntities(sheet + "0 SEQEND\n");
   EXPECT_EQ(model.mesh.triangles.size(), 4u);
   EXPECT_NEAR(Area(model.mesh), 2, 1e-15);
 }
@@ -198,13 +204,13 @@ TEST(Dxf, ConcaveMeshFaceCoversItsOutlineOnly) {
   const double outline[6][2] = {{0, 0}, {4, 0}, {4, 1}, {1, 1}, {1, 3}, {0, 3}};
   for (const auto& p : outline) text += Point(10, Vector3d(p[0], p[1], 2 * p[0]));
   text += "93 7\n90 6\n90 0\n90 1\n90 2\n90 3\n90 4\n90 5\n";
-  const DxfModel model = ReadEntities(text);
+  const Model model = ReadEntities(text);
   EXPECT_EQ(model.mesh.triangles.size(), 4u);
   EXPECT_NEAR(Area(model.mesh), 6 * std::sqrt(5.0), 1e-12);  // slope 2
 }
 
 TEST(Dxf, InsertScalesThenTurnsThenMoves) {
-  const DxfModel model =
+  const Model model =
       ReadEntities("0 INSERT\n2 b\n10 10\n20 20\n30 30\n41 2\n42 3\n43 4\n50 90\n",
                    "0 BLOCK\n2 B\n10 1\n20 0\n30 0\n0 3DFACE\n" + Point(10, {1, 2, 3}) +
                        Point(11, {2, 0, 0}) + Point(12, {1, 0, 0}) + "0 ENDBLK\n");
@@ -217,13 +223,13 @@ TEST(Dxf, InsertScalesThenTurnsThenMoves) {
 }
 
 TEST(Dxf, InsertInRowsAndColumns) {
-  const DxfModel model =
+  const Model model =
       ReadEntities("0 INSERT\n2 B\n10 0\n20 0\n70 3\n71 2\n44 10\n45 20\n50 90\n",
                    "0 BLOCK\n2 B\n" + UnitSquare("W") + "0 ENDBLK\n");
   EXPECT_NEAR(Area(model.mesh), 6, 1e-12);
   EXPECT_TRUE(Has(model.mesh, {0, 0, 0}));
   EXPECT_TRUE(Has(model.mesh, {-20, 20, 0}));  // last row and column, turned by 90 degrees
-  EXPECT_EQ(model.entities.at("3DFACE"), 6);
+  EXPECT_EQ(model.entities.at("3DFACE"), 1);  // as often as the file holds it
 }
 
 // AutoCAD's arbitrary axis algorithm, by hand: z' = -z has x' = -x; z' = x has x' = y.
@@ -231,18 +237,18 @@ TEST(Dxf, ExtrusionTurnsTheInsert) {
   const std::string block = "0 BLOCK\n2 B\n0 3DFACE\n" + Point(10, {1, 2, 3}) +
                             Point(11, {2, 0, 0}) + Point(12, {0, 1, 0}) + "0 ENDBLK\n";
   const std::string insert = "0 INSERT\n2 B\n10 10\n20 0\n30 0\n";
-  const DxfModel down = ReadEntities(insert + Point(210, {0, 0, -1}), block);
+  const Model down = ReadEntities(insert + Point(210, {0, 0, -1}), block);
   EXPECT_TRUE(Has(down.mesh, {-11, 2, -3}));
-  const DxfModel aside = ReadEntities(insert + Point(210, {2, 0, 0}), block);
+  const Model aside = ReadEntities(insert + Point(210, {2, 0, 0}), block);
   EXPECT_TRUE(Has(aside.mesh, {3, 11, 2}));
 }
 
 TEST(Dxf, LayerZeroTakesTheLayerOfItsInsertThroughAllLevels) {
   const std::string blocks = "0 BLOCK\n2 INNER\n" + UnitSquare("0") + UnitSquare("GLASS") +
                              "0 ENDBLK\n0 BLOCK\n2 OUTER\n0 INSERT\n8 0\n2 INNER\n0 ENDBLK\n";
-  const DxfModel model = ReadEntities("0 INSERT\n8 WALL\n2 OUTER\n", blocks);
-  EXPECT_EQ(model.mesh.layers, (std::vector<std::string>{"WALL", "GLASS"}));
-  EXPECT_EQ(model.mesh.layer_of_triangle, (std::vector<int>{0, 0, 1, 1}));
+  const Model model = ReadEntities("0 INSERT\n8 WALL\n2 OUTER\n", blocks);
+  EXPECT_EQ(LayersOf(model.mesh), (std::vector<std::string>{"WALL", "GLASS"}));
+  EXPECT_EQ(model.mesh.surface_of_triangle, (std::vector<int>{0, 0, 1, 1}));
 }
 
 TEST(Dxf, UnitsBecomeMetres) {
@@ -263,7 +269,7 @@ TEST(Dxf, WhatCadDoesNotShowIsLeftOut) {
       "0 LAYER\n2 OFF\n70 0\n62 -7\n0 LAYER\n2 SHOWN\n70 0\n62 7\n0 ENDTAB\n0 ENDSEC\n";
   const std::string block =
       "0 SECTION\n2 BLOCKS\n0 BLOCK\n2 B\n" + UnitSquare("SHOWN") + "0 ENDBLK\n0 ENDSEC\n";
-  const DxfModel model = ReadText(
+  const Model model = ReadText(
       DxfText(layers + block +
               EntitiesSection(
                   UnitSquare("SHOWN") + UnitSquare("frozen") + UnitSquare("OFF") +
@@ -272,16 +278,19 @@ TEST(Dxf, WhatCadDoesNotShowIsLeftOut) {
                   "0 VERTEX\n10 1\n20 1\n0 SEQEND\n") +
               "0 EOF"));
   EXPECT_NEAR(Area(model.mesh), 2, 1e-15);  // one square, and one in the block on OFF
-  EXPECT_EQ(model.mesh.layers, std::vector<std::string>{"SHOWN"});
-  EXPECT_EQ(model.hidden, (std::map<std::string, int>{{"frozen", 2}, {"OFF", 2}, {"FROZEN", 1}}));
-  EXPECT_EQ(
-      model.skipped,
-      (std::map<std::string, int>{
-          {"3DFACE (invisible)", 1}, {"3DFACE (paper space)", 1}, {"LINE", 1}, {"POLYLINE", 1}}));
+  EXPECT_EQ(LayersOf(model.mesh), std::vector<std::string>{"SHOWN"});
+  EXPECT_EQ(model.skipped,
+            (SkippedEntities{{{"3DFACE", "invisible"}, 1},
+                             {{"3DFACE", "layer \"OFF\" is switched off"}, 1},
+                             {{"3DFACE", "layer \"frozen\" is frozen"}, 1},
+                             {{"3DFACE", "paper space"}, 1},
+                             {{"INSERT", "layer \"FROZEN\" is frozen"}, 1},
+                             {{"LINE", "without thickness or width, no surface"}, 1},
+                             {{"POLYLINE", "without thickness or width, no surface"}, 1}}));
 }
 
 TEST(Dxf, FacesWithoutAreaAreCounted) {
-  const DxfModel model =
+  const Model model =
       ReadEntities("0 3DFACE\n" + Point(10, {0, 0, 0}) + Point(11, {1, 1, 1}) +
                    Point(12, {2, 2, 2}) + "0 3DFACE\n" + Point(10, {0, 0, 0}) +
                    Point(11, {1, 1, 1}) + Point(12, {1, 1, 1}) + UnitSquare("W"));
@@ -296,11 +305,46 @@ TEST(Dxf, LinesMayEndInCarriageReturnsAndCarryComments) {
   EXPECT_NEAR(Area(ReadText("\xEF\xBB\xBF" + text).mesh), 1, 1e-15);
 }
 
+TEST(Dxf, LayersNotToBePlottedAreLeftOut) {
+  const Model model = ReadText(
+      DxfText("0 SECTION\n2 TABLES\n0 LAYER\n2 HELP\n70 0\n62 7\n290 0\n0 ENDSEC\n" +
+              EntitiesSection(UnitSquare("HELP") + UnitSquare("W")) + "0 EOF"));
+  EXPECT_EQ(LayersOf(model.mesh), std::vector<std::string>{"W"});
+  EXPECT_EQ(model.skipped,
+            (SkippedEntities{{{"3DFACE", "layer \"HELP\" is not to be plotted"}, 1}}));
+}
+
+TEST(Dxf, ColorsComeFromEntityLayerOrInsert) {
+  const std::string tables =
+      "0 SECTION\n2 TABLES\n0 LAYER\n2 RED\n70 0\n62 1\n0 ENDSEC\n"
+      "0 SECTION\n2 BLOCKS\n0 BLOCK\n2 B\n" + UnitSquare("RED") + "62 0\n0 ENDBLK\n0 ENDSEC\n";
+  const Model model = ReadText(
+      DxfText(tables +
+              EntitiesSection(UnitSquare("RED") + UnitSquare("RED") + "62 3\n" +
+                              UnitSquare("RED") + "420 16711935\n0 INSERT\n2 B\n62 5\n") +
+              "0 EOF"));
+  ASSERT_EQ(model.mesh.surfaces.size(), 4u);
+  EXPECT_EQ(model.mesh.surfaces[0].rgb, Vector3d(1, 0, 0));  // BYLAYER
+  EXPECT_EQ(model.mesh.surfaces[1].rgb, Vector3d(0, 1, 0));  // its own
+  EXPECT_EQ(model.mesh.surfaces[2].rgb, Vector3d(1, 0, 1));  // true colour
+  EXPECT_EQ(model.mesh.surfaces[3].rgb, Vector3d(0, 0, 1));  // BYBLOCK
+  EXPECT_EQ(model.mesh.surfaces[3].block, "B");
+}
+
+TEST(Dxf, CodePageOfTheDrawing) {
+  const Model model = ReadText(
+      DxfText("0 SECTION\n2 HEADER\n9 $DWGCODEPAGE\n3 ANSI_1251\n0 ENDSEC\n" +
+              EntitiesSection(UnitSquare("\xD1\xF2\xE5\xED\xE0")) + "0 EOF"));
+  EXPECT_EQ(LayersOf(model.mesh), std::vector<std::string>{"Стена"});
+}
+
 TEST(Dxf, NamesBecomeUtf8) {
   EXPECT_EQ(Utf8FromDxf("T\xC3\xBCr"), "T\xC3\xBCr");            // UTF-8 already
   EXPECT_EQ(Utf8FromDxf("T\xFCr"), "T\xC3\xBCr");                // Windows-1252
   EXPECT_EQ(Utf8FromDxf("\x80"), "\xE2\x82\xAC");                // the euro sign, not Latin-1
   EXPECT_EQ(Utf8FromDxf("T\\U+00FCr"), "T\xC3\xBCr");            // AutoCAD's own way
+  EXPECT_EQ(Utf8FromDxf("\x8A\xBF", "ANSI_932"), "漢");
+  EXPECT_EQ(Utf8FromDxf("\\M+18ABF"), "漢");
   EXPECT_EQ(Utf8FromDxf("A\\U+D800\\U+12"), "A\\U+D800\\U+12");  // no characters: left alone
 }
 
@@ -315,7 +359,7 @@ TEST(FaceTriangles, QuadrangleSplitsAlongTheShorterDiagonal) {
 // The shorter diagonal of this dart lies outside it.
 TEST(FaceTriangles, DartStaysInsideItsOutline) {
   const std::vector<Vector3d> dart = {{-1, 0, 0}, {0, 1, 0}, {1, 0, 0}, {0, 10, 0}};
-  LayeredMesh mesh;
+  ModelMesh mesh;
   mesh.vertices = dart;
   mesh.triangles = FaceTriangles(dart, {0, 1, 2, 3});
   EXPECT_NEAR(Area(mesh), 9, 1e-14);

@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "renderer/overlaid_faces.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <optional>
+
+namespace insitu {
+namespace {
+
+using Eigen::Vector3d;
+using Eigen::Vector3i;
+
+constexpr double kSameNormal = 1e-4, kSamePlane = 1e-3;  // [1], [m]
+constexpr size_t kMostInAPlane = 20000;                  // pairs are compared
+
+class Overlays {
+ public:
+  explicit Overlays(ModelMesh* mesh) : mesh_(*mesh), origin_(mesh->vertices[0]) {
+    for (const Vector3i& t : mesh_.triangles) {
+      area_vectors_.push_back((mesh_.vertices[t[1]] - mesh_.vertices[t[0]])
+                                  .cross(mesh_.vertices[t[2]] - mesh_.vertices[t[0]]));
+    }
+    FindShared();
+  }
+
+  int Raise(double distance) {
+    raised_.assign(mesh_.triangles.size(), false);
+    for (const double offset : {0.0, 0.5}) ComparePlanes(offset);  // cells have borders
+    std::vector<bool> moved(mesh_.vertices.size(), false);
+    int count = 0;
+    for (size_t t = 0; t < raised_.size(); ++t) {
+      if (!raised_[t]) continue;
+      ++count;
+      for (const int v : mesh_.triangles[t]) {
+        if (!moved[v]) mesh_.vertices[v] += distance * area_vectors_[t].normalized();
+        moved[v] = true;
+      }
+    }
+    return count;
+  }
+
+ private:
+  // Vertices that faces of several names or directions use.
+  void FindShared() {
+    std::vector<std::optional<int>> first(mesh_.vertices.size());
+    shared_.assign(mesh_.vertices.size(), false);
+    for (size_t t = 0; t < mesh_.triangles.size(); ++t) {
+      for (const int v : mesh_.triangles[t]) {
+        if (!first[v]) first[v] = static_cast<int>(t);
+        const int other = *first[v];
+        const double cosine = area_vectors_[t].normalized().dot(area_vectors_[other].normalized());
+        if (mesh_.surface_of_triangle[t] != mesh_.surface_of_triangle[other] || cosine < 0.9999) {
+          shared_[v] = true;
+        }
+      }
+    }
+  }
+
+  bool IsOwn(int t) const {
+    return std::ranges::none_of(mesh_.triangles[t], [this](int v) { return shared_[v]; });
+  }
+
+  struct Keyed {
+    Eigen::Array<int64_t, 4, 1> plane;
+    int triangle;
+    bool operator<(const Keyed& other) const {
+      return std::lexicographical_compare(plane.begin(), plane.end(), other.plane.begin(),
+                                          other.plane.end());
+    }
+  };
+
+  // The same for both sides of a face.
+  Keyed KeyOf(int t, double offset) const {
+    Vector3d normal = area_vectors_[t].normalized();
+    int axis = 0;
+    normal.cwiseAbs().maxCoeff(&axis);
+    if (normal[axis] < 0) normal = -normal;
+    const double height = normal.dot(mesh_.vertices[mesh_.triangles[t][0]] - origin_);
+    Keyed keyed{{}, t};
+    for (int i = 0; i < 3; ++i) {
+      keyed.plane[i] = static_cast<int64_t>(std::floor(normal[i] / kSameNormal + offset + 0.25));
+    }
+    keyed.plane[3] = static_cast<int64_t>(std::floor(height / kSamePlane + offset + 0.25));
+    return keyed;
+  }
+
+  void ComparePlanes(double offset) {
+    std::vector<Keyed> keys;
+    keys.reserve(mesh_.triangles.size());
+    for (size_t t = 0; t < mesh_.triangles.size(); ++t) {
+      keys.push_back(KeyOf(static_cast<int>(t), offset));
+    }
+    std::ranges::stable_sort(keys, [](const Keyed& a, const Keyed& b) { return a < b; });
+    for (size_t begin = 0, end = 0; begin < keys.size(); begin = end) {
+      while (end < keys.size() && !(keys[begin] < keys[end])) ++end;
+      if (end - begin <= kMostInAPlane) CompareAll(&keys[begin], &keys[0] + end);
+    }
+  }
+
+  void CompareAll(const Keyed* begin, const Keyed* end) {
+    for (const Keyed* a = begin; a != end; ++a) {
+      if (!IsOwn(a->triangle)) continue;
+      for (const Keyed* b = begin; b != end && !raised_[a->triangle]; ++b) {
+        raised_[a->triangle] = LiesOn(a->triangle, b->triangle);
+      }
+    }
+  }
+
+  bool LiesOn(int small, int large) const {
+    if (mesh_.surface_of_triangle[small] == mesh_.surface_of_triangle[large]) return false;
+    const Vector3d& twice_area = area_vectors_[large];
+    if (!(area_vectors_[small].norm() < twice_area.norm())) return false;
+    const Vector3i &s = mesh_.triangles[small], &l = mesh_.triangles[large];
+    const Vector3d middle =
+        (mesh_.vertices[s[0]] + mesh_.vertices[s[1]] + mesh_.vertices[s[2]]) / 3;
+    for (int i = 0; i < 3; ++i) {
+      const Vector3d &a = mesh_.vertices[l[i]], &b = mesh_.vertices[l[(i + 1) % 3]];
+      if ((b - a).cross(middle - a).dot(twice_area) < 0) return false;
+    }
+    return true;
+  }
+
+  ModelMesh& mesh_;
+  Vector3d origin_;
+  std::vector<Vector3d> area_vectors_;
+  std::vector<bool> shared_, raised_;
+};
+
+}  // namespace
+
+int RaiseOverlaidFaces(ModelMesh* mesh, double distance) {
+  if (mesh->triangles.empty() || mesh->surfaces.size() < 2) return 0;
+  return Overlays(mesh).Raise(distance);
+}
+
+}  // namespace insitu

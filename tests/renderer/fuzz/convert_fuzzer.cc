@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// libFuzzer's way in: any bytes as a model file (scripts/fuzz convert). Bad input must end in an
+// InputError, everything else in a mesh whose indices are sound.
+#include <unistd.h>
+
+#include <cstdint>
+#include <cstdlib>
+#include <fstream>
+
+#include "calibration/error.h"
+#include "renderer/model_file.h"
+#include "renderer/solids.h"
+
+namespace insitu {
+namespace {
+
+const std::filesystem::path& FuzzedFile() {
+  static const std::filesystem::path path =
+      std::filesystem::temp_directory_path() / ("convert_fuzzer_" + std::to_string(getpid()));
+  return path;
+}
+
+void Check(const ModelMesh& mesh) {
+  const int vertices = static_cast<int>(mesh.vertices.size());
+  if (mesh.surface_of_triangle.size() != mesh.triangles.size()) std::abort();
+  for (const Eigen::Vector3i& triangle : mesh.triangles) {
+    if (triangle.minCoeff() < 0 || triangle.maxCoeff() >= vertices) std::abort();
+  }
+  for (const Eigen::Vector3d& vertex : mesh.vertices) {
+    if (!vertex.allFinite()) std::abort();
+  }
+}
+
+}  // namespace
+}  // namespace insitu
+
+extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
+  std::ofstream(insitu::FuzzedFile(), std::ios::binary)
+      .write(reinterpret_cast<const char*>(data), static_cast<std::streamsize>(size));
+  insitu::ImportOptions options;
+  options.dxf.most_pieces = 500000;  // sanitized code takes ten times as long
+  options.seconds = 5;
+  try {
+    insitu::Model model = insitu::ReadModel(insitu::FuzzedFile(), options);
+    insitu::Check(model.mesh);
+    insitu::MendSolids(&model.mesh);
+    insitu::Check(model.mesh);
+  } catch (const insitu::InputError&) {
+  }
+  return 0;
+}
