@@ -21,8 +21,7 @@ insitu::SurveyExport Export(const Request& request) {
   const std::vector<std::filesystem::path> photographs = insitu::ListPhotographs(request.site);
   std::vector<std::string> names;
   for (const auto& photograph : photographs) names.push_back(photograph.stem().string());
-  const insitu::Survey survey =
-      insitu::ReadSurvey(request.site, names, insitu::SurveyFiles::kOptional);
+  const insitu::Survey survey = insitu::ReadSurvey(request.site, names);
   if (request.format == "odm") {
     if (request.crs.empty()) {
       throw InputError("--crs",
