@@ -53,36 +53,78 @@ std::string MarksTable(const Survey& survey, const Numbers& images, Numbers* poi
   return table;
 }
 
-std::string ImagesTable(const std::vector<std::filesystem::path>& photographs, Numbers* images) {
-  std::string table = "# id, path\n";
-  for (const std::filesystem::path& photograph : photographs) {
-    const int number = NumberOf(images, photograph.stem().string());
-    table += std::to_string(number) + "," + photograph.filename().string() + "\n";
+bool AreSame(const Camera& a, const Camera& b) {
+  return a.lens_model() == b.lens_model() && a.intrinsics() == b.intrinsics() &&
+         a.width() == b.width() && a.height() == b.height();
+}
+
+// The distinct cameras, and of each photograph its number from 1.
+struct NumberedCameras {
+  std::vector<Camera> cameras;
+  std::vector<size_t> of_photo;
+};
+
+NumberedCameras Numbered(const std::vector<Camera>& of_photo) {
+  NumberedCameras numbered;
+  for (const Camera& camera : of_photo) {
+    size_t i = 0;
+    while (i < numbered.cameras.size() && !AreSame(numbered.cameras[i], camera)) ++i;
+    if (i == numbered.cameras.size()) numbered.cameras.push_back(camera);
+    numbered.of_photo.push_back(i + 1);
+  }
+  return numbered;
+}
+
+std::string ImagesTable(const std::vector<std::filesystem::path>& photographs,
+                        const NumberedCameras& cameras, Numbers* images) {
+  const bool has_cameras = cameras.cameras.size() > 1;
+  std::string table = has_cameras ? "# id, path, camera\n" : "# id, path\n";
+  for (size_t i = 0; i < photographs.size(); ++i) {
+    const int number = NumberOf(images, photographs[i].stem().string());
+    table += std::to_string(number) + "," + photographs[i].filename().string() +
+             (has_cameras ? "," + std::to_string(cameras.of_photo[i]) : "") + "\n";
   }
   return table;
 }
 
-std::string CameraXml(const DbatCamera& camera) {
+std::string CameraXml(const DbatCamera& camera, size_t number) {
   const auto pair = [](double a, double b) { return Digits(a) + "," + Digits(b); };
-  return "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<document dbat_camera_version=\"1.0\">\n"
-         "<cameras><camera>\n<id>1</id>\n<name>insitu</name>\n<unit>mm</unit>\n<sensor>auto," +
+  return "<camera>\n<id>" + std::to_string(number) +
+         "</id>\n<name>insitu</name>\n<unit>mm</unit>\n<sensor>auto," +
          Digits(camera.sensor_height_mm) + "</sensor>\n<image>" + std::to_string(camera.width) +
          "," + std::to_string(camera.height) + "</image>\n<aspect>" + Digits(camera.aspect) +
          "</aspect>\n<focal>" + Digits(camera.focal_mm) +
          "</focal>\n<model>3</model>\n<nK>3</nK>\n<nP>2</nP>\n<cc>" + Digits(camera.cc_mm) +
          "</cc>\n<pp>" + pair(camera.pp_mm.x(), camera.pp_mm.y()) + "</pp>\n<skew>0</skew>\n<K>" +
          Digits(camera.K[0]) + "," + Digits(camera.K[1]) + "," + Digits(camera.K[2]) + "</K>\n<P>" +
-         pair(camera.P[0], camera.P[1]) + "</P>\n</camera></cameras>\n</document>\n";
+         pair(camera.P[0], camera.P[1]) + "</P>\n</camera>\n";
 }
 
-std::string ScriptXml(bool has_check_points) {
+std::string CamerasXml(const std::vector<Camera>& cameras, const std::filesystem::path& folder,
+                       std::vector<std::string>* report) {
+  std::string xml =
+      "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<document "
+      "dbat_camera_version=\"1.0\">\n<cameras>\n";
+  for (size_t i = 0; i < cameras.size(); ++i) {
+    const auto fit = FitBrown(cameras[i]);
+    if (!fit) throw InputError(folder, "no lens model of DBAT's comes near the camera's");
+    xml += CameraXml(DbatFromMetric(fit->lens), i + 1);
+    report->push_back("camera " + std::to_string(i + 1) +
+                      " is approximated by DBAT's model 3: RMS " + Fixed(fit->rms_px) +
+                      " px, at most " + Fixed(fit->largest_px) + " px over the frame");
+  }
+  return xml + "</cameras>\n</document>\n";
+}
+
+std::string ScriptXml(bool has_check_points, bool has_cameras) {
   const std::string format = "<file format=\"id,label,x,y,z,sx,sy,sz\">";
   return "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<document dbat_script_version=\"1.0\">\n"
          "<meta><name>insitu</name><project_unit>m</project_unit></meta>\n"
          "<input base_dir=\"$HERE\">\n<ctrl_pts>" +
          format + "control.txt</file></ctrl_pts>\n" +
          (has_check_points ? "<check_pts>" + format + "check.txt</file></check_pts>\n" : "") +
-         "<images image_base_dir=\"$HERE\"><file format=\"id,path\">images.txt</file></images>\n"
+         "<images image_base_dir=\"$HERE\"><file format=\"id,path" + (has_cameras ? ",cam" : "") +
+         "\">images.txt</file></images>\n"
          "<image_pts><file format=\"im,id,x,y,sxy\">marks.txt</file></image_pts>\n"
          "<cameras><file>cameras.xml</file></cameras>\n</input>\n"
          "<operations>\n<operation min_rays=\"2\">check_ray_count</operation>\n"
@@ -110,28 +152,27 @@ void Write(const std::filesystem::path& path, const std::string& content, Survey
 
 }  // namespace
 
-SurveyExport ExportDbat(const Survey& survey, const Camera& camera,
+SurveyExport ExportDbat(const Survey& survey, const std::vector<Camera>& cameras,
                         const std::vector<std::filesystem::path>& photographs,
                         const std::filesystem::path& folder) {
+  INSITU_CHECK(cameras.size() == photographs.size());
   if (survey.observations.empty()) throw InputError(folder, "there are no marks to export");
-  const auto fit = FitBrown(camera);
-  if (!fit) throw InputError(folder, "no lens model of DBAT's comes near the camera's");
   SurveyExport done;
+  const NumberedCameras numbered = Numbered(cameras);
+  const std::string cameras_xml = CamerasXml(numbered.cameras, folder, &done.report);
   Numbers points, images;
   const bool has_check_points = HasCheckPoints(survey);
   const std::string control = ControlTable(survey, ControlRole::kControl, &points);
   const std::string check = ControlTable(survey, ControlRole::kCheck, &points);
   Write(folder / "control.txt", control, &done);
   if (has_check_points) Write(folder / "check.txt", check, &done);
-  Write(folder / "images.txt", ImagesTable(photographs, &images), &done);
+  Write(folder / "images.txt", ImagesTable(photographs, numbered, &images), &done);
   Write(folder / "marks.txt", MarksTable(survey, images, &points), &done);
-  Write(folder / "cameras.xml", CameraXml(DbatFromMetric(fit->lens)), &done);
-  Write(folder / "script.xml", ScriptXml(has_check_points), &done);
-  done.report.push_back("the lens is approximated by DBAT's model 3: RMS " + Fixed(fit->rms_px) +
-                        " px, at most " + Fixed(fit->largest_px) + " px over the frame");
+  Write(folder / "cameras.xml", cameras_xml, &done);
+  Write(folder / "script.xml", ScriptXml(has_check_points, numbered.cameras.size() > 1), &done);
   done.report.push_back(
-      "its millimetres are those of a frame 24 mm high; only the scale of the "
-      "camera's own values depends on that");
+      "its millimetres are those of a frame 24 mm high; only the scale of the camera's own values "
+      "depends on that");
   return done;
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A site's control points and marks as other programs read them, so that anyone can check us.
+// Results for COLMAP: colmap_export.h.
 #pragma once
 
 #include <filesystem>
@@ -30,12 +31,5 @@ SurveyExport ExportDbat(const Survey& survey, const Camera& camera,
 // system, no marks of control points.
 SurveyExport ExportOdm(const Survey& survey, const std::vector<std::filesystem::path>& photographs,
                        const std::string& crs, const std::filesystem::path& folder);
-
-// For COLMAP: cameras.txt, images.txt and points3D.txt of the posed photos, with the surveyed points
-// as points3D and their marks as keypoints. Check points are points as well: COLMAP adjusts without
-// control. Throws InputError: a lens that COLMAP does not have, a photo that is not posed.
-SurveyExport ExportColmap(const Survey& survey, const std::vector<PosedCamera>& cameras,
-                          const std::vector<std::filesystem::path>& photographs,
-                          const std::filesystem::path& folder);
 
 }  // namespace insitu

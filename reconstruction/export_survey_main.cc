@@ -5,6 +5,7 @@
 #include "calibration/program.h"
 #include "calibration/site.h"
 #include "reconstruction/export_survey.h"
+#include "reconstruction/site_photos.h"
 
 namespace {
 
@@ -28,17 +29,8 @@ insitu::SurveyExport Export(const Request& request) {
     }
     return insitu::ExportOdm(survey, photographs, request.crs, request.out);
   }
-  if (request.format == "colmap") {
-    std::vector<insitu::PosedCamera> cameras;
-    for (const std::string& name : names) {
-      insitu::RequireResult(request.site.posed_camera(name), "insitu-reconstruct");
-      cameras.push_back(insitu::ReadPosedCamera(request.site.posed_camera(name)));
-    }
-    return insitu::ExportColmap(survey, cameras, photographs, request.out);
-  }
-  insitu::RequireResult(request.site.camera(), "insitu-calibrate");
-  return insitu::ExportDbat(survey, insitu::ReadCamera(request.site.camera()), photographs,
-                            request.out);
+  const insitu::SitePhotos photos = insitu::ReadSitePhotos(request.site);
+  return insitu::ExportDbat(survey, photos.cameras, photos.paths, request.out);
 }
 
 }  // namespace
@@ -47,15 +39,15 @@ int main(int argc, char** argv) {
   Request request;
   CLI::App app(
       "Writes a site's control points and marks for another program, so that anyone can check the "
-      "adjustment: tables and script of DBAT, gcp_list.txt of OpenDroneMap, or the posed photos as a "
-      "text model of COLMAP.",
+      "adjustment: tables and script of DBAT, or gcp_list.txt of OpenDroneMap. Results for COLMAP: "
+      "insitu-reconstruct --colmap-model.",
       "insitu-export-survey");
   app.add_option("SITE", request.site.root, "site folder")
       ->required()
       ->check(CLI::ExistingDirectory);
-  app.add_option("--format", request.format, "dbat, odm or colmap")
+  app.add_option("--format", request.format, "dbat or odm")
       ->required()
-      ->check(CLI::IsMember({"dbat", "odm", "colmap"}));
+      ->check(CLI::IsMember({"dbat", "odm"}));
   app.add_option("--out", request.out, "folder to write to")->required();
   app.add_option("--crs", request.crs, "coordinate system of the survey, for odm: EPSG:2056");
   app.footer("Example:\n  insitu-export-survey sites/mill --format dbat --out /tmp/mill_dbat");

@@ -23,7 +23,7 @@ struct SurveyImportOptions {
   std::map<std::string, std::string> photo_names;  // the files' name -> the site's
   std::set<std::string> check_points;              // kept out of the adjustment
   bool keeps_unsurveyed = false;  // marks of points without coordinates: polygons' vertices
-  bool may_replace = false;                        // survey files that are there already
+  bool may_replace = false;       // survey files that are there already
 };
 
 struct SurveyImport {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "reconstruction/export_survey.h"
 
-#include "reconstruction/colmap_model.h"
 #include "reconstruction/fit_brown.h"
 #include "reconstruction/import_project.h"
 #include "reconstruction/lens_residual.h"
@@ -25,7 +24,7 @@ class SurveyExported : public TextFiles {
 // Whoever reads our files with another program finds the same orientations: here with our own
 // reader of DBAT's scripts and its lens model.
 TEST_F(SurveyExported, DbatFindsTheSameOrientations) {
-  const SurveyExport done = ExportDbat(town_.survey, town_.cameras[0], photographs_, folder_);
+  const SurveyExport done = ExportDbat(town_.survey, town_.cameras, photographs_, folder_);
   EXPECT_EQ(done.written.size(), 6u);
   ImportedProject project = ReadDbatProject(folder_ / "script.xml");
   ASSERT_EQ(project.network.photos.size(), town_.photos.size());
@@ -53,24 +52,6 @@ TEST_F(SurveyExported, OdmListIsReadBack) {
     EXPECT_EQ(town_.points.at(point.name), point.position);
   }
   EXPECT_THROW(ExportOdm(town_.survey, photographs_, "nowhere", folder_), InputError);
-}
-
-TEST_F(SurveyExported, ColmapModelHasMarksAndPosesThatFit) {
-  std::vector<PosedCamera> cameras;
-  for (size_t i = 0; i < town_.photos.size(); ++i) {
-    cameras.push_back({town_.photos[i], town_.cameras[i], town_.cam_from_world[i]});
-  }
-  ExportColmap(town_.survey, cameras, photographs_, folder_);
-  const ColmapModel model = ReadColmapModel(folder_);
-  EXPECT_EQ(model.images.size(), town_.photos.size());
-  EXPECT_EQ(model.cameras.size(), 1u);
-  EXPECT_GT(model.points.size(), 10u);
-  for (const auto& [id, point] : model.points) {
-    EXPECT_GE(point.track.size(), 1u);
-    EXPECT_LT(point.error_px, 1e-6);
-  }
-  cameras.pop_back();
-  EXPECT_THROW(ExportColmap(town_.survey, cameras, photographs_, folder_), InputError);
 }
 
 // A Brown camera is found again from the sights that its corrections make.
