@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <optional>
 
 namespace insitu {
 namespace {
@@ -14,7 +13,7 @@ using Eigen::Vector3d;
 using Eigen::Vector3i;
 
 constexpr double kSameNormal = 1e-4, kSamePlane = 1e-3;  // [1], [m]
-constexpr size_t kMostInAPlane = 20000;                  // pairs are compared
+constexpr size_t kMostInAPlane = 4000;                   // pairs are compared
 
 class Overlays {
  public:
@@ -23,46 +22,31 @@ class Overlays {
       area_vectors_.push_back((mesh_.vertices[t[1]] - mesh_.vertices[t[0]])
                                   .cross(mesh_.vertices[t[2]] - mesh_.vertices[t[0]]));
     }
-    FindShared();
   }
 
   int Raise(double distance) {
-    raised_.assign(mesh_.triangles.size(), false);
+    overlaid_.assign(mesh_.triangles.size(), false);
     for (const double offset : {0.0, 0.5}) ComparePlanes(offset);  // cells have borders
-    std::vector<bool> moved(mesh_.vertices.size(), false);
+    std::vector<bool> held(mesh_.vertices.size(), false);
+    for (size_t t = 0; t < overlaid_.size(); ++t) {
+      for (const int v : mesh_.triangles[t]) held[v] = held[v] || !overlaid_[t];
+    }
+    std::vector<Vector3d> moves(mesh_.vertices.size(), Vector3d::Zero());
     int count = 0;
-    for (size_t t = 0; t < raised_.size(); ++t) {
-      if (!raised_[t]) continue;
+    for (size_t t = 0; t < overlaid_.size(); ++t) {
+      const auto is_held = [&](int v) { return held[v]; };
+      if (!overlaid_[t] || std::ranges::any_of(mesh_.triangles[t], is_held)) continue;
       ++count;
-      for (const int v : mesh_.triangles[t]) {
-        if (!moved[v]) mesh_.vertices[v] += distance * area_vectors_[t].normalized();
-        moved[v] = true;
+      const Vector3d normal = area_vectors_[t].normalized();
+      for (const int v : mesh_.triangles[t]) {  // windows that meet at a corner move both ways
+        moves[v] += std::max(0.0, distance - moves[v].dot(normal)) * normal;
       }
     }
+    for (size_t v = 0; v < moves.size(); ++v) mesh_.vertices[v] += moves[v];
     return count;
   }
 
  private:
-  // Vertices that faces of several names or directions use.
-  void FindShared() {
-    std::vector<std::optional<int>> first(mesh_.vertices.size());
-    shared_.assign(mesh_.vertices.size(), false);
-    for (size_t t = 0; t < mesh_.triangles.size(); ++t) {
-      for (const int v : mesh_.triangles[t]) {
-        if (!first[v]) first[v] = static_cast<int>(t);
-        const int other = *first[v];
-        const double cosine = area_vectors_[t].normalized().dot(area_vectors_[other].normalized());
-        if (mesh_.surface_of_triangle[t] != mesh_.surface_of_triangle[other] || cosine < 0.9999) {
-          shared_[v] = true;
-        }
-      }
-    }
-  }
-
-  bool IsOwn(int t) const {
-    return std::ranges::none_of(mesh_.triangles[t], [this](int v) { return shared_[v]; });
-  }
-
   struct Keyed {
     Eigen::Array<int64_t, 4, 1> plane;
     int triangle;
@@ -96,15 +80,23 @@ class Overlays {
     std::ranges::stable_sort(keys, [](const Keyed& a, const Keyed& b) { return a < b; });
     for (size_t begin = 0, end = 0; begin < keys.size(); begin = end) {
       while (end < keys.size() && !(keys[begin] < keys[end])) ++end;
-      if (end - begin <= kMostInAPlane) CompareAll(&keys[begin], &keys[0] + end);
+      if (end - begin > kMostInAPlane) continue;
+      const auto pairs = static_cast<int64_t>(end - begin) * static_cast<int64_t>(end - begin);
+      if (pairs <= pairs_left_) CompareAll(&keys[begin], &keys[0] + end);
     }
   }
 
   void CompareAll(const Keyed* begin, const Keyed* end) {
+    const int first = mesh_.surface_of_triangle[begin->triangle];
+    if (std::all_of(begin, end, [&](const Keyed& k) {
+          return mesh_.surface_of_triangle[k.triangle] == first;
+        })) {
+      return;
+    }
+    pairs_left_ -= (end - begin) * (end - begin);
     for (const Keyed* a = begin; a != end; ++a) {
-      if (!IsOwn(a->triangle)) continue;
-      for (const Keyed* b = begin; b != end && !raised_[a->triangle]; ++b) {
-        raised_[a->triangle] = LiesOn(a->triangle, b->triangle);
+      for (const Keyed* b = begin; b != end && !overlaid_[a->triangle]; ++b) {
+        overlaid_[a->triangle] = LiesOn(a->triangle, b->triangle);
       }
     }
   }
@@ -126,7 +118,8 @@ class Overlays {
   ModelMesh& mesh_;
   Vector3d origin_;
   std::vector<Vector3d> area_vectors_;
-  std::vector<bool> shared_, raised_;
+  std::vector<bool> overlaid_;
+  int64_t pairs_left_ = 300000000;  // a second or two
 };
 
 }  // namespace

@@ -81,7 +81,7 @@ TEST_F(Convert, LayersGetTheirMaterials) {
 TEST_F(Convert, DrawingsJoinInOrderOfTheirNames) {
   Write("b.DXF", DrawingText(UnitSquare("WALL")));
   Write("a.dxf", DrawingText(UnitSquare("GLASS") + UnitSquare("WALL")));
-  Write("a.obj", "not a drawing");
+  Write("a.txt", "not a drawing");
   Write("materials.json", kMaterials);
   const ArtificialEnvironment building = Converted().environment;
   EXPECT_THAT(building.material_of_triangle, ElementsAre(0, 0, 1, 1, 1, 1));

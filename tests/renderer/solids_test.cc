@@ -3,8 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 
+#include "renderer/overlaid_faces.h"
 #include "tests/renderer/mesh_measures.h"
 
 namespace insitu {
@@ -102,6 +105,41 @@ TEST(Solids, TwoCubesThatShareAnEdgeAreTwoBodies) {
   EXPECT_EQ(report.bodies, 2);
   EXPECT_EQ(report.closed_bodies, 2);
   EXPECT_EQ(report.crowded_edges, 1);
+}
+
+// Two windows that meet at the corner of a building, each drawn onto its wall.
+TEST(OverlaidFaces, WindowsStandBeforeTheirWalls) {
+  ModelMesh mesh;
+  mesh.surfaces.resize(2);
+  mesh.surfaces[1].layer = "WINDOW";
+  const auto add = [&](const Vector3d& along, double low, double high, int surface) {
+    const Vector3d a(0, 0, low), b(0, 0, high);
+    AddTriangle(a, along + a, along + b, &mesh);
+    AddTriangle(a, along + b, b, &mesh);
+    mesh.surface_of_triangle.end()[-1] = mesh.surface_of_triangle.end()[-2] = surface;
+  };
+  for (const Vector3d& along : {Vector3d(8, 0, 0), Vector3d(0, -6, 0)}) {
+    add(along, 0, 3, 0);
+    add(0.9 * along, 1, 2, 1);
+  }
+  MendSolids(&mesh);
+  const ModelMesh before = mesh;
+  EXPECT_EQ(RaiseOverlaidFaces(&mesh, 0.002), 4);
+  double moved = 0;
+  for (size_t v = 0; v < mesh.vertices.size(); ++v) {
+    moved = std::max(moved, (mesh.vertices[v] - before.vertices[v]).norm());
+  }
+  EXPECT_NEAR(moved, 0.002 * std::sqrt(2), 1e-12);  // the corner goes both ways
+}
+
+TEST(OverlaidFaces, BoxesThatStandFlushAreLeftAlone) {
+  ModelMesh boxes = Cube(Vector3d::Zero());
+  for (Vector3d& v : boxes.vertices) v *= 3;
+  ModelMesh small = Cube({1, 1, 2});
+  small.surfaces[0].layer = "SKYLIGHT";
+  Append(small, &boxes);
+  MendSolids(&boxes);
+  EXPECT_EQ(RaiseOverlaidFaces(&boxes), 0);
 }
 
 }  // namespace
