@@ -19,10 +19,11 @@ struct SurveyExport {
 
 // For DBAT: script.xml and the tables control.txt, check.txt, marks.txt, images.txt, cameras.xml,
 // in DBAT's pixels; points have running numbers, their names are labels. The script resects,
-// intersects and adjusts with the camera fixed, as we do. The lens is the backward Brown one
-// nearest to `camera`; the report says how near. `photographs` are the files, by their name in the
-// survey. Throws InputError: a lens that no Brown camera fits, no marks.
-SurveyExport ExportDbat(const Survey& survey, const Camera& camera,
+// intersects and adjusts with the cameras fixed, as we do. Each lens is the backward Brown one
+// nearest to that of `cameras`, which go with `photographs`; the report says how near.
+// `photographs` are the files, by their name in the survey. Throws InputError: a lens that no Brown
+// camera fits, no marks.
+SurveyExport ExportDbat(const Survey& survey, const std::vector<Camera>& cameras,
                         const std::vector<std::filesystem::path>& photographs,
                         const std::filesystem::path& folder);
 
