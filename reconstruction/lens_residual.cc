@@ -55,7 +55,7 @@ Vector2<T> MetricResidual(const MetricCamera& camera, const T* parameters,
 bool Residual(const MetricCamera& camera, const double* parameters, const Eigen::Vector3d& point,
               const Eigen::Vector2d& observed_px, Eigen::Vector2d* residual_px,
               const LensDerivatives& derivatives) {
-  if (point.z() == 0) return false;
+  if (!(point.z() > 0)) return false;
   if (!derivatives.by_point && !derivatives.by_parameters) {
     *residual_px = MetricResidual<double>(camera, parameters, point, observed_px);
     return true;

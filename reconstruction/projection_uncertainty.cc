@@ -11,8 +11,8 @@
 namespace insitu {
 
 std::optional<ImageUncertainty> ProjectWithUncertainty(const PosedCamera& posed,
-                                                            const Eigen::MatrixXd& covariance,
-                                                            const Eigen::Vector3d& world) {
+                                                       const Eigen::MatrixXd& covariance,
+                                                       const Eigen::Vector3d& world) {
   const Camera& camera = posed.camera;
   const auto intrinsics = static_cast<Eigen::Index>(camera.intrinsics().size());
   INSITU_CHECK(covariance.rows() == covariance.cols());

@@ -21,7 +21,7 @@ struct ImageUncertainty {
 // uncertain, all intrinsics in their order: 6 x 6 or (6 + n) x (6 + n).
 // nullopt: the point is not before the camera, or outside its photograph.
 std::optional<ImageUncertainty> ProjectWithUncertainty(const PosedCamera& camera,
-                                                            const Eigen::MatrixXd& covariance,
-                                                            const Eigen::Vector3d& world);
+                                                       const Eigen::MatrixXd& covariance,
+                                                       const Eigen::Vector3d& world);
 
 }  // namespace insitu

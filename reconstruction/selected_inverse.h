@@ -42,8 +42,8 @@ class SelectedInverse {
   using Factor = Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>>;
   std::shared_ptr<const Factor> factor_;  // of the matrix scaled to a unit diagonal
   Eigen::VectorXd scales_;
-  std::vector<int> start_, row_, permuted_;   // the factor's strictly lower columns; new from old
-  std::vector<double> lower_, diagonal_;      // Q at that pattern, scaled
+  std::vector<int> start_, row_, permuted_;  // the factor's strictly lower columns; new from old
+  std::vector<double> lower_, diagonal_;     // Q at that pattern, scaled
   using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
   Rows motion_, shift_;  // S Q S^T = Q - M T^T - T M^T; or empty
 };

@@ -105,7 +105,8 @@ struct Survey {
   std::vector<CameraPosition> camera_positions;
   std::vector<EdgeMark> edges;
   std::vector<GeometricConstraint> constraints;
-  std::optional<TiePoints> tie_points = {};  // in their own frame; of insitu-tie-points, if it was run
+  std::optional<TiePoints> tie_points =
+      {};  // in their own frame; of insitu-tie-points, if it was run
 };
 
 // Photographs with tie points need no survey at all.

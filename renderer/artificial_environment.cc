@@ -143,8 +143,12 @@ Json::Value LightJson(const PointLight& light) {
 }
 
 PointLight LightOf(const JsonNode& node) {
-  PointLight light{node.At("name").Text(), node.At("position").Vector3(),
-                   node.At("intensity_rgb").Vector3(), std::nullopt, {}, 0};
+  PointLight light{node.At("name").Text(),
+                   node.At("position").Vector3(),
+                   node.At("intensity_rgb").Vector3(),
+                   std::nullopt,
+                   {},
+                   0};
   if (const auto value = node.Find("distribution")) light.distribution = DistributionOf(*value);
   if (const auto value = node.Find("spectrum")) light.spectrum = TableOf(*value);
   if (const auto value = node.Find("candela")) light.candela = value->Number();

@@ -20,11 +20,12 @@ struct SurfaceMaterial {
   std::string name;                                              // the model's layer
   Eigen::Vector3d diffuse_rgb = Eigen::Vector3d::Constant(0.5);  // albedo, linear Rec. 709, 0..1
   double diffuse_weight = 1;                                     // k_d, 0..1
-  std::optional<Specular> specular = {};                          // nullopt: purely diffuse
-  SpectralTable reflectance = {};  // albedo by wavelength, 0..1; goes before diffuse_rgb unless empty
+  std::optional<Specular> specular = {};                         // nullopt: purely diffuse
+  SpectralTable reflectance =
+      {};  // albedo by wavelength, 0..1; goes before diffuse_rgb unless empty
   // Kept for renderers that show them; ours says so where they are set.
-  double roughness = 0;     // of the mirroring share, 0..1
-  double transmission = 0;  // 0..1
+  double roughness = 0;      // of the mirroring share, 0..1
+  double transmission = 0;   // 0..1
   std::string texture = {};  // image of the albedo, relative to building/; empty: none
 };
 
@@ -46,15 +47,15 @@ struct PointLight {
   Eigen::Vector3d position;       // [m], world
   Eigen::Vector3d intensity_rgb;  // radiant intensity: the site's radiance unit times m^2, >= 0
   std::optional<LightDistribution> distribution = {};  // factor of the intensity
-  SpectralTable spectrum = {};        // its shape; empty: as Appendix A makes it from intensity_rgb
-  double candela = 0;                 // at distribution 1; 0: not known in photometric units
+  SpectralTable spectrum = {};  // its shape; empty: as Appendix A makes it from intensity_rgb
+  double candela = 0;           // at distribution 1; 0: not known in photometric units
 };
 
 struct ArtificialEnvironment {
   std::vector<SurfaceMaterial> materials;
-  std::vector<Eigen::Vector3d> vertices;   // [m], world
-  std::vector<Eigen::Vector3i> triangles;  // indices into vertices
-  std::vector<int> material_of_triangle;   // index into materials
+  std::vector<Eigen::Vector3d> vertices;        // [m], world
+  std::vector<Eigen::Vector3i> triangles;       // indices into vertices
+  std::vector<int> material_of_triangle;        // index into materials
   std::vector<Eigen::Vector3f> corner_normals;  // empty, or three a triangle: unit
   std::vector<Eigen::Vector2f> corner_uvs;      // empty, or three a triangle
   std::vector<PointLight> lights;

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "renderer/assimp_model.h"
 
+#include <assimp/DefaultIOSystem.h>
 #include <assimp/config.h>
 #include <assimp/material.h>
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
 
 #include <Eigen/Geometry>
-#include <assimp/DefaultIOSystem.h>
 #include <assimp/Importer.hpp>
 #include <cmath>
 #include <cstdio>
@@ -92,12 +92,13 @@ class SceneReader {
     if (depth > kDeepest) throw InputError(path_, "nodes within nodes, more than 1000 deep");
     const Affine3d world_from_node = world_from_parent * ToEigen(node.mTransformation);
     const std::string name = node.mName.C_Str();
-    const bool is_element = format_ == ModelFormat::kIfc && name.starts_with("Ifc") &&
-                            name != "IfcMappedItem";
+    const bool is_element =
+        format_ == ModelFormat::kIfc && name.starts_with("Ifc") && name != "IfcMappedItem";
     const bool is_named = !name.empty() && name.front() != '$' && name != "IfcMappedItem" &&
                           name.find('<') == std::string::npos;
-    const std::string own_layer =
-        !is_named ? layer : format_ == ModelFormat::kIfc ? WithoutGlobalId(name) : name;
+    const std::string own_layer = !is_named                      ? layer
+                                  : format_ == ModelFormat::kIfc ? WithoutGlobalId(name)
+                                                                 : name;
     const size_t before = model_.mesh.triangles.size();
     for (unsigned i = 0; i < node.mNumMeshes; ++i) {
       AddMesh(*scene_.mMeshes[node.mMeshes[i]], world_from_node, own_layer);
@@ -113,8 +114,8 @@ class SceneReader {
     ++model_.entities[kind];
     if (has_surface) return;
     const bool is_void = kind == "IfcOpeningElement" || kind == "IfcSpace";
-    ++model_.skipped[{kind, is_void ? "a void by its kind, no surface"
-                                    : "has no shape that Assimp reads"}];
+    ++model_.skipped[{
+        kind, is_void ? "a void by its kind, no surface" : "has no shape that Assimp reads"}];
   }
 
   void AddMesh(const aiMesh& mesh, const Affine3d& world_from_node, const std::string& layer) {

@@ -189,9 +189,11 @@ BuildingMaterials::Entry* BuildingMaterials::FindIn(Section* section, const std:
 
 const BuildingMaterial* BuildingMaterials::Find(const SurfaceNames& names) {
   Entry* entry = nullptr;
-  const std::pair<Section*, const std::string*> places[] = {
-      {&materials_, &names.material}, {&layers_, &names.material}, {&blocks_, &names.block},
-      {&layers_, &names.block},       {&layers_, &names.layer}};
+  const std::pair<Section*, const std::string*> places[] = {{&materials_, &names.material},
+                                                            {&layers_, &names.material},
+                                                            {&blocks_, &names.block},
+                                                            {&layers_, &names.block},
+                                                            {&layers_, &names.layer}};
   for (const auto& [section, name] : places) {
     if (!entry) entry = FindIn(section, *name);
   }

@@ -28,8 +28,8 @@ struct BuildingMaterial {
 class BuildingMaterials {
  public:
   // Throws InputError: unreadable, weights or albedo outside 0..1, an unknown kind of specular,
-  // Fresnel without an index above 1, a texture or table that is not there, an unknown library name.
-  // Without a file there are no materials.
+  // Fresnel without an index above 1, a texture or table that is not there, an unknown library
+  // name. Without a file there are no materials.
   static BuildingMaterials Read(const std::filesystem::path& path);
 
   // The material of a surface: by the first of its material, block and layer names that is listed,

@@ -60,7 +60,9 @@ Vector3d ShownColor(const Vector3d& rgb) {
 class Converter {
  public:
   Converter(const SitePaths& site, const ConvertOptions& options)
-      : site_(site), options_(options), file_(site.building() / "materials.json"),
+      : site_(site),
+        options_(options),
+        file_(site.building() / "materials.json"),
         materials_(BuildingMaterials::Read(file_)) {}
 
   void Add(const fs::path& path);
@@ -92,7 +94,8 @@ class Converter {
 };
 
 void Converter::WarnOf(const ModelReport& report, const Model& model) {
-  if (!model.metres_per_unit && !report.placement.metres_per_unit && !model.mesh.triangles.empty()) {
+  if (!model.metres_per_unit && !report.placement.metres_per_unit &&
+      !model.mesh.triangles.empty()) {
     Warn(report.file, "names no unit: taken as metres");
   }
   std::map<std::string, std::map<std::string, int>> kinds_of_reason;

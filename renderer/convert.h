@@ -29,9 +29,9 @@ struct ModelReport {
   std::string format;
   std::optional<double> metres_per_unit;  // as the file names it; nullopt: taken as metres
   int triangles = 0;
-  Eigen::AlignedBox3d box_in_units;       // of the file's own coordinates, z up; may be empty
+  Eigen::AlignedBox3d box_in_units;  // of the file's own coordinates, z up; may be empty
   Placement placement;
-  std::map<std::string, int> entities;    // kind -> count
+  std::map<std::string, int> entities;  // kind -> count
   SkippedEntities skipped;
   int degenerate_faces = 0;
 };
@@ -46,16 +46,16 @@ struct Conversion {
   std::map<std::string, std::optional<Eigen::Vector3d>> unlisted;
   std::vector<std::string> warnings;  // entities skipped, names without a material, ...
 
-  Eigen::AlignedBox3d Box() const;    // [m], world; empty without a surface
-  std::string BriefReport() const;    // triangles, bounding box, layers, warnings
+  Eigen::AlignedBox3d Box() const;  // [m], world; empty without a surface
+  std::string BriefReport() const;  // triangles, bounding box, layers, warnings
 };
 
 // Reads the models in building/ (of files with one name but several endings, the first of DXF, IFC,
 // glTF, COLLADA, OBJ, PLY, STL), placement.json, materials.json and lights.json there if they are.
 // A name that materials.json does not list keeps the colour of the model's own material or of the
 // drawing, else it becomes a visible mid grey; both with a warning that lists them.
-// Throws InputError: no model, what the readers of the files state, a texture that is named and used
-// but not there. A building without a surface is none: see RequireSurface.
+// Throws InputError: no model, what the readers of the files state, a texture that is named and
+// used but not there. A building without a surface is none: see RequireSurface.
 Conversion ConvertBuilding(const SitePaths& site, const ConvertOptions& options = {});
 
 // Throws InputError, naming what the models hold instead, if there is no surface.

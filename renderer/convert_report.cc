@@ -143,8 +143,8 @@ std::string Row(std::initializer_list<std::string> cells) {
 
 std::string CountsTable(const std::string& title, const std::string& what,
                         const std::map<std::string, int>& counts) {
-  std::string table = "<section><h2>" + title + "</h2><table><tr><th>" + what +
-                      "</th><th>count</th></tr>\n";
+  std::string table =
+      "<section><h2>" + title + "</h2><table><tr><th>" + what + "</th><th>count</th></tr>\n";
   for (const auto& [name, count] : counts) table += Row({name, std::to_string(count)});
   return table + "</table></section>\n";
 }
@@ -169,8 +169,8 @@ std::string FilesTable(const Conversion& conversion) {
       "<section><h2>Files</h2><table><tr><th>file</th><th>format</th><th>metres per unit</th>"
       "<th>triangles</th></tr>\n";
   for (const ModelReport& model : conversion.models) {
-    const auto unit = model.placement.metres_per_unit ? model.placement.metres_per_unit
-                                                      : model.metres_per_unit;
+    const auto unit =
+        model.placement.metres_per_unit ? model.placement.metres_per_unit : model.metres_per_unit;
     char metres[40];
     std::snprintf(metres, sizeof(metres), "%g", unit.value_or(1));
     table += Row({model.file.filename().string(), model.format, unit ? metres : "1 (not named)",
@@ -212,8 +212,8 @@ std::string Page(const std::string& picture, const Conversion& conversion) {
   const Sums sums = SumOver(conversion.models);
   std::string page = kPageHead;
   page += "<p>" + std::to_string(conversion.environment.triangles.size()) + " triangles, " +
-          std::to_string(conversion.environment.lights.size()) + " lights. Seen from the south-west," +
-          " z up; material colours.</p>\n";
+          std::to_string(conversion.environment.lights.size()) +
+          " lights. Seen from the south-west," + " z up; material colours.</p>\n";
   page += "<img src=\"" + Escaped(picture) + "\" alt=\"three-quarter view of the building\">\n";
   if (!conversion.warnings.empty()) {
     page += "<h2>Warnings</h2><ul>\n";

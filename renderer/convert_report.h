@@ -8,9 +8,9 @@
 
 namespace insitu {
 
-// JSON with triangles, bbox_min and bbox_max [m], layers and materials (name -> triangles), entities
-// (kind -> count), skipped (kind, count, reason), files (each with its format, unit, own box and
-// placement), solids, unlisted materials and warnings.
+// JSON with triangles, bbox_min and bbox_max [m], layers and materials (name -> triangles),
+// entities (kind -> count), skipped (kind, count, reason), files (each with its format, unit, own
+// box and placement), solids, unlisted materials and warnings.
 void WriteConvertReport(const std::filesystem::path& path, const Conversion& conversion);
 
 // `stem`.png, the building in a three-quarter view, and `stem`.html, a page with that picture and

@@ -24,8 +24,7 @@ CoordinateTransformation::CoordinateTransformation(const std::filesystem::path& 
   proj_->context = proj_context_create();
   proj_context_set_enable_network(proj_->context, 0);
   proj_log_level(proj_->context, PJ_LOG_NONE);
-  PJ* raw =
-      proj_create_crs_to_crs(proj_->context, from.c_str(), to.c_str(), nullptr);
+  PJ* raw = proj_create_crs_to_crs(proj_->context, from.c_str(), to.c_str(), nullptr);
   if (!raw) {
     throw InputError(file, "PROJ knows no way from \"" + from + "\" to \"" + to +
                                "\", expected names such as EPSG:2056");

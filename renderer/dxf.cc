@@ -22,9 +22,9 @@ constexpr double kFarthest = 1e12;  // [m]
 
 // What a block takes from its INSERT.
 struct Holder {
-  std::string layer = "0";             // what layer 0 stands for
-  std::string block;                   // innermost block that a user named
-  std::optional<Vector3d> rgb;         // what BYBLOCK stands for
+  std::string layer = "0";      // what layer 0 stands for
+  std::string block;            // innermost block that a user named
+  std::optional<Vector3d> rgb;  // what BYBLOCK stands for
 };
 
 class Assembly {
@@ -105,8 +105,8 @@ Assembly::ResolvedLooks Assembly::Resolve(const DxfBlock& block, const Holder& h
       CountHidden(block, static_cast<int>(i), layer, *reason);
       resolved.surfaces.push_back(std::nullopt);
     } else {
-      resolved.surfaces.push_back(
-          surface_index_.IndexOf({layer, holder.block, "", ColorOf(look, layer, holder), 1, "", ""}));
+      resolved.surfaces.push_back(surface_index_.IndexOf(
+          {layer, holder.block, "", ColorOf(look, layer, holder), 1, "", ""}));
     }
   }
   return resolved;

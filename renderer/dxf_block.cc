@@ -12,8 +12,8 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr int kClosed = 1, kSmoothed = 4, kIs3d = 8, kPolygonMesh = 16,
-              kClosedAlongColumns = 32, kPolyface = 64;
+constexpr int kClosed = 1, kSmoothed = 4, kIs3d = 8, kPolygonMesh = 16, kClosedAlongColumns = 32,
+              kPolyface = 64;
 
 // No CAD program scales by zero: such a file means that nothing was set.
 double Scale(const DxfRecord& insert, int code) {
@@ -34,8 +34,7 @@ DxfInsert ReadInsert(const DxfRecord& record, const DxfLook& look) {
   const Eigen::Matrix3d axes = DxfEntityAxes(record);
   const double degrees = record.Number(50, 0);
   const Eigen::AngleAxisd turn(degrees * std::numbers::pi / 180, Vector3d::UnitZ());
-  DxfInsert insert{
-      record.place(), record.Name(2), look, Eigen::Affine3d::Identity(), 1, 1, {}, {}};
+  DxfInsert insert{record.place(), record.Name(2), look, Eigen::Affine3d::Identity(), 1, 1, {}, {}};
   insert.holder_from_block.linear() =
       axes * turn * Eigen::Scaling(Scale(record, 41), Scale(record, 42), Scale(record, 43));
   insert.holder_from_block.translation() =
@@ -61,8 +60,8 @@ DxfLook LookOf(const DxfRecord& record) {
 // Why a kind of entity is not read.
 std::string ReasonFor(std::string_view kind) {
   static const std::set<std::string_view> kAcis = {
-      "3DSOLID",      "BODY",           "REGION",       "SURFACE",     "EXTRUDEDSURFACE",
-      "LOFTEDSURFACE", "PLANESURFACE",  "REVOLVEDSURFACE", "SWEPTSURFACE", "NURBSURFACE"};
+      "3DSOLID",       "BODY",         "REGION",          "SURFACE",      "EXTRUDEDSURFACE",
+      "LOFTEDSURFACE", "PLANESURFACE", "REVOLVEDSURFACE", "SWEPTSURFACE", "NURBSURFACE"};
   static const std::set<std::string_view> kLines = {"ELLIPSE", "SPLINE", "HELIX", "MLINE",
                                                     "XLINE",   "RAY",    "POINT"};
   if (kAcis.contains(kind)) {

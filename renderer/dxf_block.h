@@ -22,8 +22,8 @@ constexpr int kColorByLayer = 256;
 // How an entity is to look, before its layer and its INSERT have their say.
 struct DxfLook {
   std::string layer = "0";
-  int color = kColorByLayer;         // AutoCAD's index, kColorByLayer or kColorByBlock
-  std::optional<int> true_color;     // 0xRRGGBB; goes before the index
+  int color = kColorByLayer;      // AutoCAD's index, kColorByLayer or kColorByBlock
+  std::optional<int> true_color;  // 0xRRGGBB; goes before the index
 
   bool operator==(const DxfLook&) const = default;
 };
@@ -40,8 +40,8 @@ struct DxfInsert {
 
 // Coordinates are the block's own, in drawing units.
 struct DxfBlock {
-  std::string name;                                 // empty: model space
-  Eigen::Vector3d base = Eigen::Vector3d::Zero();   // what comes to the INSERT's point
+  std::string name;                                // empty: model space
+  Eigen::Vector3d base = Eigen::Vector3d::Zero();  // what comes to the INSERT's point
   std::vector<DxfLook> looks;
   std::vector<Eigen::Vector3d> vertices;
   std::vector<Eigen::Vector3i> triangles;
@@ -75,12 +75,12 @@ class DxfEntityReader {
     DxfPlace place;
     int look = 0;
     int flags = 0;
-    int rows = 0, columns = 0;                 // of a polygon mesh
-    DxfPath path;                              // of a flat polyline
-    double start_width = 0, end_width = 0;     // of vertices that name none
-    std::vector<Eigen::Vector3d> locations;    // of a polyface or a polygon mesh
+    int rows = 0, columns = 0;                            // of a polygon mesh
+    DxfPath path;                                         // of a flat polyline
+    double start_width = 0, end_width = 0;                // of vertices that name none
+    std::vector<Eigen::Vector3d> locations;               // of a polyface or a polygon mesh
     std::vector<std::pair<int, std::vector<int>>> faces;  // of a polyface: look, corners from 0
-    bool hidden = false;                       // skipped already
+    bool hidden = false;                                  // skipped already
   };
 
   void Read(const DxfRecord& record);

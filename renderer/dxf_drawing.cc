@@ -68,8 +68,7 @@ class SectionReader {
  private:
   void Finish(DxfEntityReader* entities) {
     if (block_) {
-      throw block_place_.Error("block \"" + block_->name +
-                               "\" is not closed, expected an ENDBLK");
+      throw block_place_.Error("block \"" + block_->name + "\" is not closed, expected an ENDBLK");
     }
     entities->Finish();
   }
@@ -175,7 +174,7 @@ const DxfBlock& InsertedBlock(const DxfDrawing& drawing, const DxfInsert& insert
   const auto found = drawing.blocks.find(DxfKey(insert.block));
   if (found == drawing.blocks.end()) {
     throw insert.place.Error("INSERT of block \"" + insert.block +
-                              "\", which the drawing does not define");
+                             "\", which the drawing does not define");
   }
   return found->second;
 }

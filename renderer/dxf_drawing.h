@@ -12,14 +12,14 @@
 namespace insitu {
 
 struct DxfLayer {
-  bool frozen = false;  // neither its entities nor the blocks inserted on it are shown
-  bool off = false;     // its entities are not shown
+  bool frozen = false;   // neither its entities nor the blocks inserted on it are shown
+  bool off = false;      // its entities are not shown
   bool no_plot = false;  // its entities are not printed
   std::optional<Eigen::Vector3d> rgb;  // linear Rec. 709
 };
 
 struct DxfDrawing {
-  std::string version;                     // $ACADVER, "AC1032"; empty: not named
+  std::string version;  // $ACADVER, "AC1032"; empty: not named
   bool binary = false;
   std::optional<double> metres_per_unit;   // nullopt: the drawing names none
   std::map<std::string, DxfLayer> layers;  // by DxfKey; those of the layer table

@@ -14,11 +14,12 @@ namespace {
 // iconv's names of AutoCAD's code pages ($DWGCODEPAGE, in capitals).
 std::string IconvName(const std::string& code_page) {
   static const std::map<std::string, std::string> kOthers = {
-      {"UTF-8", "UTF-8"}, {"MACINTOSH", "MACINTOSH"}, {"DOS437", "CP437"},  {"DOS850", "CP850"},
-      {"DOS852", "CP852"}, {"DOS855", "CP855"},       {"DOS857", "CP857"},  {"DOS860", "CP860"},
-      {"DOS861", "CP861"}, {"DOS863", "CP863"},       {"DOS865", "CP865"},  {"DOS866", "CP866"},
-      {"ISO8859-1", "ISO-8859-1"}, {"JOHAB", "JOHAB"}, {"KSC5601", "CP949"}, {"GB2312", "CP936"},
-      {"BIG5", "CP950"}};
+      {"UTF-8", "UTF-8"},          {"MACINTOSH", "MACINTOSH"}, {"DOS437", "CP437"},
+      {"DOS850", "CP850"},         {"DOS852", "CP852"},        {"DOS855", "CP855"},
+      {"DOS857", "CP857"},         {"DOS860", "CP860"},        {"DOS861", "CP861"},
+      {"DOS863", "CP863"},         {"DOS865", "CP865"},        {"DOS866", "CP866"},
+      {"ISO8859-1", "ISO-8859-1"}, {"JOHAB", "JOHAB"},         {"KSC5601", "CP949"},
+      {"GB2312", "CP936"},         {"BIG5", "CP950"}};
   std::string name = code_page;
   for (char& c : name) {
     if (c >= 'a' && c <= 'z') c = static_cast<char>(c - 'a' + 'A');
@@ -30,8 +31,7 @@ std::string IconvName(const std::string& code_page) {
 
 class Converter {
  public:
-  explicit Converter(const std::string& encoding)
-      : handle_(iconv_open("UTF-8", encoding.c_str())) {
+  explicit Converter(const std::string& encoding) : handle_(iconv_open("UTF-8", encoding.c_str())) {
     if (!IsOpen()) handle_ = iconv_open("UTF-8", "CP1252");
   }
   ~Converter() {

@@ -41,8 +41,7 @@ Segment SegmentBetween(const DxfPathVertex& a, const DxfPathVertex& b, double to
   const double radius = is_arc ? chord / (2 * std::sin(std::abs(angle) / 2)) : 0;
   const int count = is_arc ? ChordCount(angle, radius, tolerance) : 1;
   const double turn = angle > 0 ? 1 : -1;
-  const Vector2d center =
-      (from + to) / 2 + LeftOf(along) * (turn * radius * std::cos(angle / 2));
+  const Vector2d center = (from + to) / 2 + LeftOf(along) * (turn * radius * std::cos(angle / 2));
   Segment segment;
   for (int i = 0; i <= count; ++i) {
     const double share = static_cast<double>(i) / count;

@@ -217,8 +217,8 @@ void AddDxfGrid(const DxfGrid& grid, const std::vector<Vector3d>& vertices, int 
   const int column_count = grid.closed_along_columns ? grid.columns : grid.columns - 1;
   for (int m = 0; m < row_count; ++m) {
     for (int n = 0; n < column_count; ++n) {
-      AddDxfFace(look, first,
-                 {index(m, n), index(m + 1, n), index(m + 1, n + 1), index(m, n + 1)}, block);
+      AddDxfFace(look, first, {index(m, n), index(m + 1, n), index(m + 1, n + 1), index(m, n + 1)},
+                 block);
     }
   }
 }

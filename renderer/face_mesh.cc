@@ -70,8 +70,7 @@ class Subdivision {
     const Vector3d middle = (a + b) / 2;
     state->sharp = state->faces != 2 || crease != mesh_.creases.end();
     state->point = static_cast<int>(finer_.vertices.size());
-    finer_.vertices.push_back(state->sharp ? middle
-                                           : (a + b + state->sum_of_face_points) / 4);
+    finer_.vertices.push_back(state->sharp ? middle : (a + b + state->sum_of_face_points) / 4);
     for (const auto& [own, other] : {edge, Edge(edge.second, edge.first)}) {
       VertexState& vertex = vertices_[own];
       ++vertex.edges;

@@ -11,8 +11,8 @@ namespace insitu {
 
 struct FaceMesh {
   std::vector<Eigen::Vector3d> vertices;
-  std::vector<std::vector<int>> faces;                // corners, at least three
-  std::map<std::pair<int, int>, double> creases;      // edge (smaller vertex first) -> levels kept
+  std::vector<std::vector<int>> faces;            // corners, at least three
+  std::map<std::pair<int, int>, double> creases;  // edge (smaller vertex first) -> levels kept
 };
 
 constexpr int kFinestSmoothing = 4;

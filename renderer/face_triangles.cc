@@ -35,10 +35,10 @@ std::vector<Vector3d> WithoutRepeats(const std::vector<Vector3d>& vertices,
 std::vector<Vector3i> QuadrangleTriangles(const std::vector<Vector3d>& p) {
   const bool first_agrees = Cross(p[0], p[1], p[2]).dot(Cross(p[0], p[2], p[3])) > 0;
   const bool second_agrees = Cross(p[1], p[2], p[3]).dot(Cross(p[1], p[3], p[0])) > 0;
-  // Rounding does not decide between equal diagonals: the same drawing saved in binary is split alike.
+  // Rounding does not decide between equal diagonals: the same drawing saved in binary is split
+  // alike.
   constexpr double kTie = 1 + 1e-9;
-  const bool first_shorter =
-      (p[2] - p[0]).squaredNorm() <= kTie * (p[3] - p[1]).squaredNorm();
+  const bool first_shorter = (p[2] - p[0]).squaredNorm() <= kTie * (p[3] - p[1]).squaredNorm();
   if (first_agrees == second_agrees ? first_shorter : first_agrees) return {{0, 1, 2}, {0, 2, 3}};
   return {{1, 2, 3}, {1, 3, 0}};
 }

@@ -42,9 +42,10 @@ void CheckSchema(const std::filesystem::path& path, std::ifstream* file) {
   }
   const std::string schema = SchemaIn(path, head, at);
   if (!schema.starts_with("IFC2X3")) {
-    throw InputError(path, LineAt(head, at),
-                     "is of schema " + schema +
-                         ", expected IFC2X3: export it as IFC 2x3 (coordination view), glTF or DXF");
+    throw InputError(
+        path, LineAt(head, at),
+        "is of schema " + schema +
+            ", expected IFC2X3: export it as IFC 2x3 (coordination view), glTF or DXF");
   }
 }
 

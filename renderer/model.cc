@@ -9,8 +9,8 @@ namespace {
 using Eigen::Vector3i;
 
 std::string KeyOf(const SurfaceNames& names) {
-  std::string key = names.layer + '\0' + names.block + '\0' + names.material + '\0' + names.texture +
-                    '\0' + std::to_string(names.opacity);
+  std::string key = names.layer + '\0' + names.block + '\0' + names.material + '\0' +
+                    names.texture + '\0' + std::to_string(names.opacity);
   if (names.rgb) key.append(reinterpret_cast<const char*>(names.rgb->data()), sizeof(double) * 3);
   return key;
 }
@@ -23,7 +23,8 @@ Eigen::Vector3f FacetNormal(const ModelMesh& mesh, const Vector3i& t) {
 void AppendCornerNormals(const ModelMesh& other, size_t triangles_before, ModelMesh* mesh) {
   if (other.corner_normals.empty() && mesh->corner_normals.empty()) return;
   const auto fill = [](const ModelMesh& from, size_t count, std::vector<Eigen::Vector3f>* to) {
-    for (size_t t = 0; t < count; ++t) to->insert(to->end(), 3, FacetNormal(from, from.triangles[t]));
+    for (size_t t = 0; t < count; ++t)
+      to->insert(to->end(), 3, FacetNormal(from, from.triangles[t]));
   };
   if (mesh->corner_normals.empty()) fill(*mesh, triangles_before, &mesh->corner_normals);
   if (other.corner_normals.empty()) {

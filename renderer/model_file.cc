@@ -62,8 +62,8 @@ bool IsBinaryStl(std::string_view head, uint64_t size) {
 }
 
 bool IsObj(std::string_view head) {
-  static const std::set<std::string_view> kWords = {"v", "vt", "vn", "f", "o", "g", "s", "l",
-                                                    "p", "mtllib", "usemtl"};
+  static const std::set<std::string_view> kWords = {"v", "vt", "vn", "f",      "o",     "g",
+                                                    "s", "l",  "p",  "mtllib", "usemtl"};
   while (!head.empty()) {
     const std::string_view line = TakeLine(&head);
     if (line.empty() || line.front() == '#') continue;
@@ -80,8 +80,10 @@ std::string LowerEnding(const fs::path& path) {
 
 std::string NameOfUnread(std::string_view head) {
   if (head.starts_with("AC10")) return "a DWG drawing";
-  if (head.starts_with("\xFF\xFE\xFF\x0ESketchUp") || head.starts_with(std::string_view("\xFF\xFE\xFF\x0E"
-      "S\0k\0", 8))) {
+  if (head.starts_with("\xFF\xFE\xFF\x0ESketchUp") ||
+      head.starts_with(std::string_view("\xFF\xFE\xFF\x0E"
+                                        "S\0k\0",
+                                        8))) {
     return "a SketchUp model";
   }
   if (head.starts_with("3D Geometry File Format")) return "a Rhino model";
@@ -97,8 +99,8 @@ std::string NameOfUnread(std::string_view head) {
 std::optional<ModelFormat> DetectModelFormat(const fs::path& path) {
   const std::string content = HeadOf(path);
   const std::string_view head = content;
-  const std::string_view text = Trimmed(head.substr(std::min(
-      head.find_first_not_of(" \t\r\n"), head.size())));
+  const std::string_view text =
+      Trimmed(head.substr(std::min(head.find_first_not_of(" \t\r\n"), head.size())));
   if (head.starts_with("glTF")) return ModelFormat::kGltf;
   if (text.starts_with("ISO-10303-21")) return ModelFormat::kIfc;
   if (text.starts_with("{") && head.find("\"asset\"") != head.npos) return ModelFormat::kGltf;
@@ -112,10 +114,9 @@ std::optional<ModelFormat> DetectModelFormat(const fs::path& path) {
 }
 
 bool IsNamedLikeAModel(const fs::path& path) {
-  static const std::set<std::string> kEndings = {".dxf", ".ifc",  ".obj", ".gltf", ".glb", ".dae",
-                                                 ".ply", ".stl",  ".dwg", ".skp",  ".3dm", ".3ds",
-                                                 ".rvt", ".rfa",  ".fbx", ".ifczip", ".ifcxml",
-                                                 ".dxb", ".blend"};
+  static const std::set<std::string> kEndings = {
+      ".dxf", ".ifc", ".obj", ".gltf", ".glb", ".dae",    ".ply",    ".stl", ".dwg",  ".skp",
+      ".3dm", ".3ds", ".rvt", ".rfa",  ".fbx", ".ifczip", ".ifcxml", ".dxb", ".blend"};
   return kEndings.contains(LowerEnding(path));
 }
 

@@ -52,9 +52,9 @@ ModelList ListModels(const SitePaths& site) {
     std::ranges::sort(files, {}, [](const fs::path& path) { return std::pair(Rank(path), path); });
     list.files.push_back(files.front());
     for (size_t i = 1; i < files.size(); ++i) {
-      list.warnings.push_back(
-          InputError(files[i], "not read: taken as the same model as " +
-                                   files.front().filename().string()).what());
+      list.warnings.push_back(InputError(files[i], "not read: taken as the same model as " +
+                                                       files.front().filename().string())
+                                  .what());
     }
   }
   if (list.files.empty()) {

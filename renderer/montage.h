@@ -27,8 +27,8 @@ struct MontageOptions {
 
 struct MontageReport {
   std::string photo;
-  RenderResult result;  // its picture is written already
-  double seconds = 0;   // rendering, files apart
+  RenderResult result;                            // its picture is written already
+  double seconds = 0;                             // rendering, files apart
   std::optional<UncertaintySummary> uncertainty;  // of the building's image; nullopt: no building
                                                   // in the frame, or no covariances
 };

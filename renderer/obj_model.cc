@@ -136,9 +136,8 @@ class ObjReader {
   }
 
   Model Read() {
-    ForEachLine(path_, [this](std::string_view keyword, Words& words, int) {
-      ReadLine(keyword, words);
-    });
+    ForEachLine(path_,
+                [this](std::string_view keyword, Words& words, int) { ReadLine(keyword, words); });
     if (uvs_.empty()) model_.mesh.corner_uvs.clear();
     if (normals_.empty()) model_.mesh.corner_normals.clear();
     DropUnused(&model_.mesh);
@@ -223,7 +222,8 @@ class ObjReader {
     const size_t second = std::min(rest.find('/'), rest.size());
     const std::string_view uv = rest.substr(0, second);
     const std::string_view normal = rest.substr(std::min(second + 1, rest.size()));
-    Corner corner{Index(words, word.substr(0, first), model_.mesh.vertices.size(), "vertex"), {}, {}};
+    Corner corner{
+        Index(words, word.substr(0, first), model_.mesh.vertices.size(), "vertex"), {}, {}};
     if (!uv.empty()) corner.uv = Index(words, uv, uvs_.size(), "texture coordinate");
     if (!normal.empty()) corner.normal = Index(words, normal, normals_.size(), "normal");
     return corner;

@@ -23,8 +23,9 @@ std::filesystem::path PlacementPath(const SitePaths& site) {
 
 double MetresOf(const JsonNode& unit) {
   static const std::map<std::string, double> kMetres = {
-      {"mm", 1e-3}, {"cm", 1e-2}, {"dm", 1e-1},     {"m", 1},       {"km", 1e3},
-      {"in", 0.0254}, {"ft", 0.3048}, {"yd", 0.9144}, {"us-ft", 1200.0 / 3937}};
+      {"mm", 1e-3},   {"cm", 1e-2},   {"dm", 1e-1},
+      {"m", 1},       {"km", 1e3},    {"in", 0.0254},
+      {"ft", 0.3048}, {"yd", 0.9144}, {"us-ft", 1200.0 / 3937}};
   const auto found = kMetres.find(unit.Text());
   if (found == kMetres.end()) {
     throw unit.Error("is \"" + unit.Text() + "\", expected mm, cm, dm, m, km, in, ft, us-ft or yd");

@@ -36,10 +36,10 @@ struct AdjustedSimilarity {
   std::vector<Eigen::Vector3d> residuals;  // [m], survey minus transformed model point
   double sigma0 = 0;                       // a posteriori; 1 if the sigmas tell the truth
   int redundancy = 0;
-  Eigen::Vector3d sigma_shift;             // [m], of the pairs' centre
-  Eigen::Vector3d sigma_rotation;          // [rad], about the world's axes
-  double sigma_scale = 0;                  // 0 if the scale was not adjusted
-  double free_scale = 1;                   // what the scale would be if it were adjusted
+  Eigen::Vector3d sigma_shift;     // [m], of the pairs' centre
+  Eigen::Vector3d sigma_rotation;  // [rad], about the world's axes
+  double sigma_scale = 0;          // 0 if the scale was not adjusted
+  double free_scale = 1;           // what the scale would be if it were adjusted
 };
 
 // Least squares over all pairs, in closed form: the sigmas are alike in all directions
@@ -53,8 +53,8 @@ struct Placement {
   bool y_up = false;                      // of the model's file
   Similarity world_from_model;
   std::vector<PointPair> pairs;
-  std::optional<AdjustedSimilarity> adjusted;     // of pairs
-  std::string model_crs, survey_crs;              // empty, or as PROJ knows them
+  std::optional<AdjustedSimilarity> adjusted;  // of pairs
+  std::string model_crs, survey_crs;           // empty, or as PROJ knows them
 };
 
 // What building/placement.json says of the model file `name`: its entry under "models", else the

@@ -37,8 +37,11 @@ struct Fragment {
 class Canvas {
  public:
   Canvas(const ArtificialEnvironment& building, int width, int height)
-      : building_(building), width_(width), height_(height),
-        fragments_(static_cast<size_t>(width) * height), view_(ViewFromWorld()) {
+      : building_(building),
+        width_(width),
+        height_(height),
+        fragments_(static_cast<size_t>(width) * height),
+        view_(ViewFromWorld()) {
     Eigen::AlignedBox3d box;
     for (const Vector3d& vertex : building.vertices) box.extend(view_ * vertex);
     center_ = box.center();
@@ -60,9 +63,7 @@ class Canvas {
   }
 
  private:
-  const Fragment& At(int x, int y) const {
-    return fragments_[static_cast<size_t>(y) * width_ + x];
-  }
+  const Fragment& At(int x, int y) const { return fragments_[static_cast<size_t>(y) * width_ + x]; }
 
   Vector3f Projected(int vertex) const {
     const Vector3d v = (view_ * building_.vertices[vertex] - center_) * scale_;
@@ -104,8 +105,7 @@ class Canvas {
   Vector3f Shade(int t) const {
     const Vector3d to_sun = Vector3d(-0.1, -0.75, 0.65).normalized();
     const Vector3d normal = Normal(t);
-    const double light =
-        0.28 + 0.12 * normal.z() + 0.75 * std::max(0.0, normal.dot(to_sun));
+    const double light = 0.28 + 0.12 * normal.z() + 0.75 * std::max(0.0, normal.dot(to_sun));
     const SurfaceMaterial& material = building_.materials[building_.material_of_triangle[t]];
     Vector3d albedo = material.diffuse_rgb;
     if (material.specular && material.specular->weight > 0.3) {  // what it would mirror: sky

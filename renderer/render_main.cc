@@ -17,10 +17,11 @@ void PrintReport(const MontageReport& report) {
               report.photo.c_str(), 100 * report.result.building_pixels / pixels,
               100 * report.result.changed_pixels / pixels, report.result.mean_rays, report.seconds);
   if (!report.uncertainty) return;
-  std::printf("  its %d corners stand to %.2f px (%.1f mm), %.2f px (%.1f mm) at worst, one sigma\n",
-              report.uncertainty->corners, report.uncertainty->median_px,
-              1000 * report.uncertainty->median_m, report.uncertainty->worst_px,
-              1000 * report.uncertainty->worst_m);
+  std::printf(
+      "  its %d corners stand to %.2f px (%.1f mm), %.2f px (%.1f mm) at worst, one sigma\n",
+      report.uncertainty->corners, report.uncertainty->median_px,
+      1000 * report.uncertainty->median_m, report.uncertainty->worst_px,
+      1000 * report.uncertainty->worst_m);
 }
 
 int RunRender(int argc, char** argv) {

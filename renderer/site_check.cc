@@ -21,12 +21,12 @@ struct Factor {
 };
 
 constexpr Factor kFactors[] = {
-    {1000, "millimetres taken as metres"},      {1 / 1000.0, "metres taken as millimetres"},
-    {304.8, "millimetres taken as feet"},       {1 / 304.8, "feet taken as millimetres"},
-    {25.4, "millimetres taken as inches"},      {1 / 25.4, "inches taken as millimetres"},
-    {1 / 0.0254, "inches taken as metres"},     {0.0254, "metres taken as inches"},
-    {1 / 0.3048, "feet taken as metres"},       {0.3048, "metres taken as feet"},
-    {100, "centimetres taken as metres"},       {1 / 100.0, "metres taken as centimetres"}};
+    {1000, "millimetres taken as metres"},  {1 / 1000.0, "metres taken as millimetres"},
+    {304.8, "millimetres taken as feet"},   {1 / 304.8, "feet taken as millimetres"},
+    {25.4, "millimetres taken as inches"},  {1 / 25.4, "inches taken as millimetres"},
+    {1 / 0.0254, "inches taken as metres"}, {0.0254, "metres taken as inches"},
+    {1 / 0.3048, "feet taken as metres"},   {0.3048, "metres taken as feet"},
+    {100, "centimetres taken as metres"},   {1 / 100.0, "metres taken as centimetres"}};
 
 std::string Text(const char* format, double a, double b = 0) {
   char text[300];
@@ -49,8 +49,7 @@ double Distance(const AlignedBox3d& building, const AlignedBox3d& site) {
 }
 
 bool IsFar(const AlignedBox3d& building, const AlignedBox3d& site) {
-  return !site.isEmpty() &&
-         Distance(building, site) > std::max(2 * site.diagonal().norm(), 200.0);
+  return !site.isEmpty() && Distance(building, site) > std::max(2 * site.diagonal().norm(), 200.0);
 }
 
 AlignedBox3d Scaled(const AlignedBox3d& box, double factor) {
@@ -103,9 +102,10 @@ std::vector<std::string> SuspicionsOf(const AlignedBox3d& building, const Aligne
                          Text(" (%.0f m across): see placement.json", site.diagonal().norm()));
   }
   if (!IsLikely(size, site)) {
-    suspicions.push_back(
-        Text(site.isEmpty() ? "the building is %.4g m across" : "the building is %.4g m across, the "
-             "site %.4g m", size, site.isEmpty() ? 0 : site.diagonal().norm()));
+    suspicions.push_back(Text(site.isEmpty() ? "the building is %.4g m across"
+                                             : "the building is %.4g m across, the "
+                                               "site %.4g m",
+                              size, site.isEmpty() ? 0 : site.diagonal().norm()));
   }
   if (suspicions.empty()) return suspicions;
   const std::optional<Factor> factor = FactorOff(building, site);

@@ -228,7 +228,9 @@ struct BodyState {
 class BodyCheck {
  public:
   BodyCheck(ModelMesh* mesh, SolidsReport* report)
-      : mesh_(*mesh), report_(*report), bodies_(mesh->triangles.size()),
+      : mesh_(*mesh),
+        report_(*report),
+        bodies_(mesh->triangles.size()),
         state_(mesh->triangles.size()) {}
 
   void Run(double tolerance) {
@@ -266,14 +268,16 @@ class BodyCheck {
       BodyState& state = state_[body];
       const Vector3i& corners = mesh_.triangles[t];
       const Vector3d a = mesh_.vertices[corners[0]] - origin;
-      const double volume = a.dot((mesh_.vertices[corners[1]] - origin)
-                                      .cross(mesh_.vertices[corners[2]] - origin)) / 6;
+      const double volume =
+          a.dot((mesh_.vertices[corners[1]] - origin).cross(mesh_.vertices[corners[2]] - origin)) /
+          6;
       ++state.faces;
       state.turned += turned;
       state.volume += turned ? -volume : volume;
       state.area += (mesh_.vertices[corners[1]] - mesh_.vertices[corners[0]])
                         .cross(mesh_.vertices[corners[2]] - mesh_.vertices[corners[0]])
-                        .norm() / 2;
+                        .norm() /
+                    2;
     }
     for (const int t : open_) state_[bodies_.Find(t).body].open = true;
     for (const int t : one_sided_) state_[bodies_.Find(t).body].one_sided = true;

@@ -12,8 +12,8 @@ namespace insitu {
 namespace {
 
 double ValueAt(const SpectralTable& table, double wavelength) {
-  const auto above = std::ranges::lower_bound(
-      table, wavelength, {}, [](const Eigen::Vector2d& row) { return row.x(); });
+  const auto above = std::ranges::lower_bound(table, wavelength, {},
+                                              [](const Eigen::Vector2d& row) { return row.x(); });
   if (above == table.begin()) return table.front().y();
   if (above == table.end()) return table.back().y();
   const Eigen::Vector2d &a = *(above - 1), &b = *above;

@@ -10,8 +10,8 @@
 
 namespace insitu {
 
-// Rows [wavelength nm, value]. Throws InputError: fewer than two rows, wavelengths that do not rise,
-// a negative value.
+// Rows [wavelength nm, value]. Throws InputError: fewer than two rows, wavelengths that do not
+// rise, a negative value.
 SpectralTable ReadSpectralTable(const JsonNode& rows);
 // The same from a table of columns wavelength,value.
 SpectralTable ReadSpectralTable(const std::filesystem::path& csv);
@@ -20,9 +20,9 @@ SpectralTable ReadSpectralTable(const std::filesystem::path& csv);
 Spectrum Sampled(const SpectralTable& table, const SpectralBins& bins);
 
 // Relative power in steps of 5 nm, 380 to 780 nm, 1 at 560 nm.
-SpectralTable D65Table();                      // CIE standard illuminant D65
-SpectralTable BlackbodyTable(double kelvin);   // Planck's law
-SpectralTable IlluminantATable();              // CIE 15: Planck's law at 2848 K * 1.435 / 1.4388
+SpectralTable D65Table();                     // CIE standard illuminant D65
+SpectralTable BlackbodyTable(double kelvin);  // Planck's law
+SpectralTable IlluminantATable();             // CIE 15: Planck's law at 2848 K * 1.435 / 1.4388
 
 // Linear Rec. 709 of a light of this spectrum, at luminance 1; a channel outside the gamut is 0.
 Eigen::Vector3d ColorOfLight(const SpectralTable& table);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "reconstruction_figures.h"
+#include "tests/benchmarks/reconstruction_figures.h"
 
 #include <chrono>
 #include <cmath>

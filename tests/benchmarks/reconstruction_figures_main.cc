@@ -6,7 +6,7 @@
 #include <iostream>
 #include <set>
 
-#include "reconstruction_figures.h"
+#include "tests/benchmarks/reconstruction_figures.h"
 
 namespace {
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The figures on the shared data, held to what the other programs print. Roma's time is no test.
-#include "reconstruction_figures.h"
+#include "tests/benchmarks/reconstruction_figures.h"
 
 #include <gtest/gtest.h>
 

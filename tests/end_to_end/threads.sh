@@ -16,7 +16,7 @@ render_with_threads() {
 }
 
 single=$(render_with_threads 1)
-check 'three files are rendered' test "$(wc -l <<<"$single")" -eq 3
+check 'montage, its EXR, mask and uncertainty are rendered' test "$(wc -l <<<"$single")" -eq 4
 for threads in 2 3; do
   check "$threads threads: the same bytes" test "$(render_with_threads "$threads")" = "$single"
 done

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "network_statistics.h"
+#include "tests/reconstruction/network_statistics.h"
 
 #include <ceres/sphere_manifold.h>
 
@@ -7,8 +7,8 @@
 #include <cmath>
 #include <random>
 
-#include "random_network.h"
 #include "reconstruction/solve_network.h"
+#include "tests/reconstruction/random_network.h"
 
 namespace insitu {
 namespace {

@@ -5,8 +5,8 @@
 
 #include <random>
 
-#include "random_network.h"
 #include "reconstruction/adjusted_observations.h"
+#include "tests/reconstruction/random_network.h"
 
 namespace insitu {
 namespace {

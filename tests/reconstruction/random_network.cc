@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "random_network.h"
+#include "tests/reconstruction/random_network.h"
 
 #include <Eigen/Geometry>
 #include <array>

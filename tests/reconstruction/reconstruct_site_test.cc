@@ -20,7 +20,7 @@ class Site : public testing::Test {
     WriteSurvey(site_, WithNoise(network_.survey, 1));
     WritePosedCamera(site_.camera(), {"camera", network_.cameras[0], {}}, "lens of the test");
     for (const std::string& photo : network_.photos) {
-      WriteWhole(site_.photos() / (photo + ".jpg"), "only its name counts here");
+      WriteWhole(site_.photos() / (photo + ".jpg"), "only its name counts here: " + photo);
     }
   }
 

@@ -5,8 +5,8 @@
 
 #include <cmath>
 
-#include "network_statistics.h"
-#include "random_network.h"
+#include "tests/reconstruction/network_statistics.h"
+#include "tests/reconstruction/random_network.h"
 
 namespace insitu {
 namespace {

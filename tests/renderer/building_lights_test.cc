@@ -51,7 +51,7 @@ TEST_F(Lights, PhotometricUnitsNeedTheSitesLuminance) {
   EXPECT_EQ(Read(lamp)[0].candela, 500);
   EXPECT_EQ(Read(lamp)[0].intensity_rgb, Vector3d(0, 0, 0));
   const Vector3d rgb = Read(lamp, kSite)[0].intensity_rgb;
-  EXPECT_NEAR(Luminance(rgb), 5, 1e-3);  // 500 cd / 100 cd/m2
+  EXPECT_NEAR(Luminance(rgb), 5, 1e-3);                       // 500 cd / 100 cd/m2
   EXPECT_NEAR((rgb - Vector3d::Constant(5)).norm(), 0, 0.1);  // D65 is white
 }
 
@@ -97,7 +97,7 @@ TEST_F(Lights, IesProfileGoesDownAndTurns) {
   const std::string lamp = R"({"name": "a", "type": "ies", "position": [0, 0, 0], "spectrum": "A",
       "ies": "lamp.ies")";
   const LightDistribution down = *Read(lamp + "}")[0].distribution;
-  EXPECT_NEAR(down.At({0, 0, -1}), 200, 1e-9);  // the multiplier is 2
+  EXPECT_NEAR(down.At({0, 0, -1}), 200, 1e-9);                        // the multiplier is 2
   EXPECT_NEAR(down.At(Vector3d(1, 0, -1).normalized()), 100, 1e-9);   // C = 0
   EXPECT_NEAR(down.At(Vector3d(-1, 0, -1).normalized()), 100, 1e-9);  // mirrored
   EXPECT_NEAR(down.At(Vector3d(0, 1, -1).normalized()), 50, 1e-9);    // C = 90
@@ -203,7 +203,7 @@ TEST_F(Materials, MaterialGoesBeforeBlockBeforeLayer) {
   EXPECT_EQ(materials.Find(Names("WALL", "DOOR"))->surface.diffuse_rgb, Vector3d(0.3, 0.2, 0.1));
   EXPECT_EQ(materials.Find(Names("wall"))->surface.name, "WALL");
   EXPECT_EQ(materials.Find(Names("x", "", "Holz"))->surface.name, "Holz");  // as OBJ materials
-  EXPECT_FALSE(materials.Find(Names("IfcWindow_EG-1"))->hidden);  // the longer pattern
+  EXPECT_FALSE(materials.Find(Names("IfcWindow_EG-1"))->hidden);            // the longer pattern
   EXPECT_TRUE(materials.Find(Names("IfcSite_x"))->hidden);
   EXPECT_EQ(materials.Find(Names("roof")), nullptr);
   EXPECT_TRUE(materials.Unused().empty());

@@ -123,8 +123,9 @@ TEST_F(Convert, WarnsOfWhatItLeavesOutOrGuesses) {
   const Conversion conversion = Converted();
   EXPECT_THAT(
       conversion.warnings,
-      ElementsAre(HasSubstr("a.dxf: names no unit"), HasSubstr("left out: 1 3DSOLID (an ACIS solid"),
-                  HasSubstr("left out: 2 LINE"), HasSubstr("1 faces of no area"),
+      ElementsAre(HasSubstr("a.dxf: names no unit"),
+                  HasSubstr("left out: 1 3DSOLID (an ACIS solid"), HasSubstr("left out: 2 LINE"),
+                  HasSubstr("1 faces of no area"),
                   HasSubstr("materials.json: not listed, shown in mid grey: \"DOOR\""),
                   HasSubstr("\"GLASS\" is listed but"), HasSubstr("\"WALL\" is listed but")));
   EXPECT_EQ(conversion.environment.materials[0].diffuse_rgb, Eigen::Vector3d(0.5, 0.5, 0.5));
@@ -173,9 +174,8 @@ TEST_F(Convert, BadMaterials) {
 TEST_F(Convert, RoughnessTransmissionAndTextureAreKept) {
   Write("a.dxf", DrawingText(UnitSquare("WALL") + UnitSquare("GLASS")));
   Write("brick.png", "not looked at");
-  Write("materials.json",
-        Replaced(Replaced(kMaterials, "0.0}", "0.2, \"transmission\": 0.9}"),
-                 "\"roughness\": null", "\"texture\": \"brick.png\""));
+  Write("materials.json", Replaced(Replaced(kMaterials, "0.0}", "0.2, \"transmission\": 0.9}"),
+                                   "\"roughness\": null", "\"texture\": \"brick.png\""));
   const ArtificialEnvironment building = Converted().environment;
   EXPECT_EQ(building.materials[1].roughness, 0.2);
   EXPECT_EQ(building.materials[1].transmission, 0.9);

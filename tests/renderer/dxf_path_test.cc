@@ -79,7 +79,8 @@ TEST(DxfPath, ArcIsAnOpenWall) {
 }
 
 TEST(DxfPath, PolylineWithWidthIsARibbonAndWithThicknessAPrism) {
-  const std::string corner = "0 LWPOLYLINE\n90 3\n70 0\n43 0.2\n38 5\n10 0\n20 0\n10 4\n20 0\n10 4\n20 3\n";
+  const std::string corner =
+      "0 LWPOLYLINE\n90 3\n70 0\n43 0.2\n38 5\n10 0\n20 0\n10 4\n20 0\n10 4\n20 3\n";
   const Model ribbon = ReadEntities(corner);
   EXPECT_NEAR(AreaOf(ribbon.mesh), 7 * 0.2, 1e-12);  // mitred: the length along the middle
   EXPECT_NEAR(ribbon.mesh.vertices[0].z(), 5, 1e-12);
@@ -92,8 +93,8 @@ TEST(DxfPath, PolylineWithWidthIsARibbonAndWithThicknessAPrism) {
 
 // A donut: two half circles of bulge 1, as wide as its ring.
 TEST(DxfPath, BulgedRingHasItsArea) {
-  const Model ring = ReadEntities(
-      "0 LWPOLYLINE\n90 2\n70 1\n43 0.5\n10 -1\n20 0\n42 1\n10 1\n20 0\n42 1\n");
+  const Model ring =
+      ReadEntities("0 LWPOLYLINE\n90 2\n70 1\n43 0.5\n10 -1\n20 0\n42 1\n10 1\n20 0\n42 1\n");
   EXPECT_NEAR(AreaOf(ring.mesh), kPi * (1.25 * 1.25 - 0.75 * 0.75), 0.02);
 }
 

@@ -164,7 +164,7 @@ TEST_P(DxfBox, HasItsAreaAndVolume) {
 // A mirrored, rotated, scaled copy stays a body whose faces look outwards.
 TEST_P(DxfBox, KeepsItsOutsideWhenMirrored) {
   const Model model = ReadEntities("0 INSERT\n2 B\n10 5\n20 6\n30 7\n41 -2\n50 30\n",
-                                      "0 BLOCK\n2 B\n" + GetParam() + "0 ENDBLK\n");
+                                   "0 BLOCK\n2 B\n" + GetParam() + "0 ENDBLK\n");
   EXPECT_NEAR(Volume(model.mesh), 48, 1e-11);
 }
 
@@ -223,13 +223,12 @@ TEST(Dxf, InsertScalesThenTurnsThenMoves) {
 }
 
 TEST(Dxf, InsertInRowsAndColumns) {
-  const Model model =
-      ReadEntities("0 INSERT\n2 B\n10 0\n20 0\n70 3\n71 2\n44 10\n45 20\n50 90\n",
-                   "0 BLOCK\n2 B\n" + UnitSquare("W") + "0 ENDBLK\n");
+  const Model model = ReadEntities("0 INSERT\n2 B\n10 0\n20 0\n70 3\n71 2\n44 10\n45 20\n50 90\n",
+                                   "0 BLOCK\n2 B\n" + UnitSquare("W") + "0 ENDBLK\n");
   EXPECT_NEAR(Area(model.mesh), 6, 1e-12);
   EXPECT_TRUE(Has(model.mesh, {0, 0, 0}));
   EXPECT_TRUE(Has(model.mesh, {-20, 20, 0}));  // last row and column, turned by 90 degrees
-  EXPECT_EQ(model.entities.at("3DFACE"), 1);  // as often as the file holds it
+  EXPECT_EQ(model.entities.at("3DFACE"), 1);   // as often as the file holds it
 }
 
 // AutoCAD's arbitrary axis algorithm, by hand: z' = -z has x' = -x; z' = x has x' = y.
@@ -290,10 +289,9 @@ TEST(Dxf, WhatCadDoesNotShowIsLeftOut) {
 }
 
 TEST(Dxf, FacesWithoutAreaAreCounted) {
-  const Model model =
-      ReadEntities("0 3DFACE\n" + Point(10, {0, 0, 0}) + Point(11, {1, 1, 1}) +
-                   Point(12, {2, 2, 2}) + "0 3DFACE\n" + Point(10, {0, 0, 0}) +
-                   Point(11, {1, 1, 1}) + Point(12, {1, 1, 1}) + UnitSquare("W"));
+  const Model model = ReadEntities("0 3DFACE\n" + Point(10, {0, 0, 0}) + Point(11, {1, 1, 1}) +
+                                   Point(12, {2, 2, 2}) + "0 3DFACE\n" + Point(10, {0, 0, 0}) +
+                                   Point(11, {1, 1, 1}) + Point(12, {1, 1, 1}) + UnitSquare("W"));
   EXPECT_EQ(model.degenerate_faces, 2);
   EXPECT_EQ(model.mesh.vertices.size(), 4u);  // theirs are gone with them
 }
@@ -306,9 +304,9 @@ TEST(Dxf, LinesMayEndInCarriageReturnsAndCarryComments) {
 }
 
 TEST(Dxf, LayersNotToBePlottedAreLeftOut) {
-  const Model model = ReadText(
-      DxfText("0 SECTION\n2 TABLES\n0 LAYER\n2 HELP\n70 0\n62 7\n290 0\n0 ENDSEC\n" +
-              EntitiesSection(UnitSquare("HELP") + UnitSquare("W")) + "0 EOF"));
+  const Model model =
+      ReadText(DxfText("0 SECTION\n2 TABLES\n0 LAYER\n2 HELP\n70 0\n62 7\n290 0\n0 ENDSEC\n" +
+                       EntitiesSection(UnitSquare("HELP") + UnitSquare("W")) + "0 EOF"));
   EXPECT_EQ(LayersOf(model.mesh), std::vector<std::string>{"W"});
   EXPECT_EQ(model.skipped,
             (SkippedEntities{{{"3DFACE", "layer \"HELP\" is not to be plotted"}, 1}}));
@@ -317,12 +315,13 @@ TEST(Dxf, LayersNotToBePlottedAreLeftOut) {
 TEST(Dxf, ColorsComeFromEntityLayerOrInsert) {
   const std::string tables =
       "0 SECTION\n2 TABLES\n0 LAYER\n2 RED\n70 0\n62 1\n0 ENDSEC\n"
-      "0 SECTION\n2 BLOCKS\n0 BLOCK\n2 B\n" + UnitSquare("RED") + "62 0\n0 ENDBLK\n0 ENDSEC\n";
-  const Model model = ReadText(
-      DxfText(tables +
-              EntitiesSection(UnitSquare("RED") + UnitSquare("RED") + "62 3\n" +
-                              UnitSquare("RED") + "420 16711935\n0 INSERT\n2 B\n62 5\n") +
-              "0 EOF"));
+      "0 SECTION\n2 BLOCKS\n0 BLOCK\n2 B\n" +
+      UnitSquare("RED") + "62 0\n0 ENDBLK\n0 ENDSEC\n";
+  const Model model =
+      ReadText(DxfText(tables +
+                       EntitiesSection(UnitSquare("RED") + UnitSquare("RED") + "62 3\n" +
+                                       UnitSquare("RED") + "420 16711935\n0 INSERT\n2 B\n62 5\n") +
+                       "0 EOF"));
   ASSERT_EQ(model.mesh.surfaces.size(), 4u);
   EXPECT_EQ(model.mesh.surfaces[0].rgb, Vector3d(1, 0, 0));  // BYLAYER
   EXPECT_EQ(model.mesh.surfaces[1].rgb, Vector3d(0, 1, 0));  // its own
@@ -332,17 +331,17 @@ TEST(Dxf, ColorsComeFromEntityLayerOrInsert) {
 }
 
 TEST(Dxf, CodePageOfTheDrawing) {
-  const Model model = ReadText(
-      DxfText("0 SECTION\n2 HEADER\n9 $DWGCODEPAGE\n3 ANSI_1251\n0 ENDSEC\n" +
-              EntitiesSection(UnitSquare("\xD1\xF2\xE5\xED\xE0")) + "0 EOF"));
+  const Model model =
+      ReadText(DxfText("0 SECTION\n2 HEADER\n9 $DWGCODEPAGE\n3 ANSI_1251\n0 ENDSEC\n" +
+                       EntitiesSection(UnitSquare("\xD1\xF2\xE5\xED\xE0")) + "0 EOF"));
   EXPECT_EQ(LayersOf(model.mesh), std::vector<std::string>{"Стена"});
 }
 
 TEST(Dxf, NamesBecomeUtf8) {
-  EXPECT_EQ(Utf8FromDxf("T\xC3\xBCr"), "T\xC3\xBCr");            // UTF-8 already
-  EXPECT_EQ(Utf8FromDxf("T\xFCr"), "T\xC3\xBCr");                // Windows-1252
-  EXPECT_EQ(Utf8FromDxf("\x80"), "\xE2\x82\xAC");                // the euro sign, not Latin-1
-  EXPECT_EQ(Utf8FromDxf("T\\U+00FCr"), "T\xC3\xBCr");            // AutoCAD's own way
+  EXPECT_EQ(Utf8FromDxf("T\xC3\xBCr"), "T\xC3\xBCr");  // UTF-8 already
+  EXPECT_EQ(Utf8FromDxf("T\xFCr"), "T\xC3\xBCr");      // Windows-1252
+  EXPECT_EQ(Utf8FromDxf("\x80"), "\xE2\x82\xAC");      // the euro sign, not Latin-1
+  EXPECT_EQ(Utf8FromDxf("T\\U+00FCr"), "T\xC3\xBCr");  // AutoCAD's own way
   EXPECT_EQ(Utf8FromDxf("\x8A\xBF", "ANSI_932"), "漢");
   EXPECT_EQ(Utf8FromDxf("\\M+18ABF"), "漢");
   EXPECT_EQ(Utf8FromDxf("A\\U+D800\\U+12"), "A\\U+D800\\U+12");  // no characters: left alone

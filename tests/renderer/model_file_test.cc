@@ -103,7 +103,8 @@ TEST_F(ModelFile, MissingTextureIsRefusedUnlessTheMaterialIsListed) {
     EXPECT_THAT(error.what(), HasSubstr("house.mtl:3: names the texture"));
     EXPECT_THAT(error.what(), HasSubstr("brick.png, which is not there"));
   }
-  folder_.Write("building/materials.json", R"({"materials": {"BRICK": {"diffuse_rgb": [1, 0, 0]}}})");
+  folder_.Write("building/materials.json",
+                R"({"materials": {"BRICK": {"diffuse_rgb": [1, 0, 0]}}})");
   EXPECT_EQ(ConvertBuilding(site).environment.triangles.size(), 3u);
 }
 

@@ -139,8 +139,8 @@ TEST_F(PlacementFile, EntriesOfSingleModels) {
 
 // EPSG:2056 to 21781, the two Swiss grids: 2 000 000 and 1 000 000 m apart, within centimetres.
 TEST_F(PlacementFile, CoordinateSystems) {
-  const Vector3d placed = Placed(
-      R"({"model_crs": "EPSG:21781", "survey_crs": "EPSG:2056"})", {600100, 200200, 430});
+  const Vector3d placed =
+      Placed(R"({"model_crs": "EPSG:21781", "survey_crs": "EPSG:2056"})", {600100, 200200, 430});
   EXPECT_NEAR((placed - Vector3d(2600100, 1200200, 430)).head<2>().norm(), 0, 2);
   EXPECT_THAT(placed.z(), testing::DoubleNear(430, 1));
   folder_.Write("building/placement.json", R"({"model_crs": "EPSG:1", "survey_crs": "EPSG:2056"})");
@@ -171,7 +171,8 @@ TEST(SiteCheck, NamesTheFactorThatIsOff) {
               Contains(HasSubstr("of 304.8:")));
   EXPECT_THAT(SuspicionsOf(Box(25.4 * origin, 25.4 * size), site), Contains(HasSubstr("of 25.4:")));
   EXPECT_THAT(SuspicionsOf(Box(origin / 1000, size / 1000), site), Contains(HasSubstr("0.001:")));
-  EXPECT_THAT(SuspicionsOf(Box(Vector3d::Zero(), size), site), Contains(HasSubstr("from the site")));
+  EXPECT_THAT(SuspicionsOf(Box(Vector3d::Zero(), size), site),
+              Contains(HasSubstr("from the site")));
   EXPECT_THAT(SuspicionsOf(Box(Vector3d::Zero(), 1000 * size), {}), Contains(HasSubstr("1000:")));
   EXPECT_THAT(SuspicionsOf(Box(Vector3d::Zero(), size), {}), IsEmpty());
 }

@@ -28,8 +28,12 @@ ModelMesh Cube(const Vector3d& corner) {
   mesh.surfaces.resize(1);
   mesh.surfaces[0].layer = std::string("W");
   const auto v = [&](int i) { return Vector3d(corner + Vector3d(i & 1, (i >> 1) & 1, i >> 2)); };
-  for (const auto& f : {std::array{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 6, 7, 3},
-                        {0, 4, 6, 2}, {1, 3, 7, 5}}) {
+  for (const auto& f : {std::array{0, 2, 3, 1},
+                        {4, 5, 7, 6},
+                        {0, 1, 5, 4},
+                        {2, 6, 7, 3},
+                        {0, 4, 6, 2},
+                        {1, 3, 7, 5}}) {
     AddTriangle(v(f[0]), v(f[1]), v(f[2]), &mesh);
     AddTriangle(v(f[0]), v(f[2]), v(f[3]), &mesh);
   }
@@ -74,9 +78,9 @@ TEST(Solids, AMissingFaceLeavesOpenEdgesAndNothingIsTurned) {
 
 TEST(Solids, DuplicateAndDegenerateFacesGo) {
   ModelMesh mesh = Cube(Vector3d::Zero());
-  AddTriangle({0, 0, 0}, {1, 0, 0}, {0, 0, 1}, &mesh);   // not a face of the cube's diagonal split
-  AddTriangle({0, 0, 1}, {1, 0, 0}, {0, 0, 0}, &mesh);   // the same, turned
-  AddTriangle({0, 0, 0}, {2, 0, 0}, {5, 0, 0}, &mesh);   // no area
+  AddTriangle({0, 0, 0}, {1, 0, 0}, {0, 0, 1}, &mesh);  // not a face of the cube's diagonal split
+  AddTriangle({0, 0, 1}, {1, 0, 0}, {0, 0, 0}, &mesh);  // the same, turned
+  AddTriangle({0, 0, 0}, {2, 0, 0}, {5, 0, 0}, &mesh);  // no area
   mesh.surfaces.resize(2);
   mesh.surfaces[1].layer = "OTHER";
   AddTriangle({1, 0, 0}, {0, 0, 1}, {0, 0, 0}, &mesh);
