@@ -88,6 +88,8 @@ void CountBoards(const std::vector<fs::path>& photos, const Board& board, const 
                    "whole boards found in " + std::to_string(found.size()) + " of " +
                        std::to_string(photos.size()) + " photos, expected at least " +
                        std::to_string(kFewestBoards) +
+                       ", and a lens needs 20 to 40: near, tilted, and into every corner of the "
+                       "frame" +
                        (found.empty() ? AdviceOnCounts(photos, board) : ""));
 }
 

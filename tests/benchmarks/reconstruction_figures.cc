@@ -9,13 +9,13 @@
 #include <regex>
 #include <sstream>
 
-#include "../reconstruction/network_statistics.h"
 #include "calibration/external_program.h"
 #include "reconstruction/colmap_export.h"
 #include "reconstruction/colmap_model.h"
 #include "reconstruction/import_project.h"
 #include "reconstruction/lens_residual.h"
 #include "reconstruction/solve_network.h"
+#include "tests/reconstruction/network_statistics.h"
 
 namespace insitu {
 namespace {
