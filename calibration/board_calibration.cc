@@ -73,6 +73,10 @@ std::string AdviceOnCounts(const std::vector<fs::path>& photos, const Board& boa
          "count its interior corners";
 }
 
+constexpr size_t kFewPhotos = 8;
+constexpr char kHowManyPhotos[] =
+    "; a lens needs 20 to 40 photos of the board: near, tilted, and into every corner of the frame";
+
 void CountBoards(const std::vector<fs::path>& photos, const Board& board, const fs::path& corners,
                  BoardCalibration* result) {
   const std::vector<std::string> names = PhotosWithBoard(corners);
@@ -88,9 +92,8 @@ void CountBoards(const std::vector<fs::path>& photos, const Board& board, const 
                    "whole boards found in " + std::to_string(found.size()) + " of " +
                        std::to_string(photos.size()) + " photos, expected at least " +
                        std::to_string(kFewestBoards) +
-                       ", and a lens needs 20 to 40: near, tilted, and into every corner of the "
-                       "frame" +
-                       (found.empty() ? AdviceOnCounts(photos, board) : ""));
+                       (found.empty() ? AdviceOnCounts(photos, board) : "") +
+                       (photos.size() < kFewPhotos ? kHowManyPhotos : ""));
 }
 
 // ---- mrcal's solutions ---------------------------------------------------------------------

@@ -47,7 +47,8 @@ TEST_F(CalibrationFigures, OpencvsBoardsGiveOpencvsLens) {
 TEST_F(CalibrationFigures, MetricCamerasBecomeMrcals) {
   const Json::Value figures = MetricFigures(*shared_);
   EXPECT_LT(figures["dbat_largest_deviation_px"].asDouble(), 0.05);
-  EXPECT_LT(figures["aicon_largest_deviation_px"].asDouble(), 0.05);
+  // Its shear C2 = -3.1e-5, which OPENCV8 has not, turned half away is 0.08 px in the corners.
+  EXPECT_LT(figures["aicon_largest_deviation_px"].asDouble(), 0.1);
 }
 
 }  // namespace

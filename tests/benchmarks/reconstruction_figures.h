@@ -29,7 +29,9 @@ Json::Value AiconFigures(const std::filesystem::path& data);
 // Against DBAT's reports: self-calibration, control fixed and weighted; an aerial block.
 Json::Value DbatCamcalFigures(const std::filesystem::path& data);
 Json::Value SxbFigures(const std::filesystem::path& data);
-// Against DBAT's results and the time of COLMAP's adjustment.
+// Against DBAT's results; and with the time of COLMAP's adjustment beside ours, covariances and
+// all.
+Json::Value RomaAccuracy(const std::filesystem::path& data);
 Json::Value RomaFigures(const std::filesystem::path& data);
 // Resections from the pairs that MicMac lists of each photo, against MicMac's orientations.
 Json::Value StonewallFigures(const std::filesystem::path& data);

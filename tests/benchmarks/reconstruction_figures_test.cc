@@ -10,13 +10,16 @@
 namespace insitu {
 namespace {
 
-// nullopt: the data is not there, and the test is skipped with a word.
-Json::Value Measure(const std::string& key) {
+std::filesystem::path SharedData() {
   const char* shared = std::getenv("INSITU_SHARED");
-  const std::filesystem::path data =
-      (shared ? std::filesystem::path(shared)
-              : std::filesystem::path(INSITU_SOURCE_FOLDER).parent_path() / "shared") /
-      "data";
+  return (shared ? std::filesystem::path(shared)
+                 : std::filesystem::path(INSITU_SOURCE_FOLDER).parent_path() / "shared") /
+         "data";
+}
+
+// null: the data is not there, and the test is skipped with a word.
+Json::Value Measure(const std::string& key) {
+  const std::filesystem::path data = SharedData();
   for (const ReconstructionFigure& figure : ReconstructionFigures()) {
     if (figure.key != key || !std::filesystem::exists(data / figure.folder)) continue;
     static std::map<std::string, Json::Value> measured;
@@ -69,6 +72,20 @@ TEST(ReconstructionFigures, DbatsAerialBlockIsReproduced) {
   EXPECT_EQ(figures["redundancy"].asInt(), 1261);
   EXPECT_NEAR(figures["control_rms_m"].asDouble(), 0.035, 0.0005);
   EXPECT_NEAR(figures["check_rms_m"].asDouble(), 0.421, 0.0005);
+}
+
+TEST(ReconstructionFigures, DbatsArchIsReproduced) {
+  if (!std::filesystem::exists(SharedData() / "adjustment/roma_arch")) {
+    GTEST_SKIP() << "no shared data";
+  }
+  const Json::Value figures = RomaAccuracy(SharedData());
+  EXPECT_NEAR(figures["sigma0_px_self_calibration"].asDouble(), 0.582769, 0.0000005);
+  EXPECT_EQ(figures["redundancy"].asInt(), 101801);
+  EXPECT_NEAR(figures["parameters"]["c"]["value"].asDouble(), 24.5425003, 0.0000005);
+  EXPECT_NEAR(figures["parameters"]["xp"]["value"].asDouble(), 18.0816295, 0.0000005);
+  EXPECT_NEAR(figures["parameters"]["yp"]["value"].asDouble(), -12.0164476, 0.0000005);
+  EXPECT_NEAR(figures["sigma0_px_fixed"].asDouble(), 0.623075, 0.0000005);
+  EXPECT_EQ(figures["redundancy_fixed"].asInt(), 101806);
 }
 
 TEST(ReconstructionFigures, MicmacsPairsAreReproduced) {

@@ -83,15 +83,14 @@ TEST_F(BoardPhotos, UnequalSizes) {
 TEST_F(BoardPhotos, TooFewBoardsFound) {
   const std::vector<std::filesystem::path> photos = {BlankPhoto("a.png", 64),
                                                      BlankPhoto("b.png", 64)};
-  EXPECT_EQ(
-      InputErrorOf([&] {
-        CalibrateFromBoards(photos, {10, 10, 0.08, ""}, model_);
-      }),
-      folder_.path().string() +
-          ": whole boards found in 0 of 2 photos, expected at least 3, and a lens needs 20 to "
-          "40: near, tilted, and into every corner of the frame; each photo must show the "
-          "whole board with its white border, sharp, and board.txt must count its interior "
-          "corners");
+  EXPECT_EQ(InputErrorOf([&] {
+              CalibrateFromBoards(photos, {10, 10, 0.08, ""}, model_);
+            }),
+            folder_.path().string() +
+                ": whole boards found in 0 of 2 photos, expected at least 3; each photo must show "
+                "the whole board with its white border, sharp, and board.txt must count its "
+                "interior corners; a lens needs 20 to 40 photos of the board: near, tilted, and "
+                "into every corner of the frame");
   EXPECT_FALSE(std::filesystem::exists(model_));
 }
 

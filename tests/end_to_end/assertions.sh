@@ -34,3 +34,12 @@ photo_names() { find "$1/photos" -type f -printf '%f\n' | sed 's/\.[^.]*$//' | s
 
 # The photograph of a site with this name.
 photo_file() { find "$1/photos" -name "$2.*"; }
+
+# check_figures WHAT COMMAND...: one assertion for each line "ok: ..." or "FAIL: ..." it prints.
+check_figures() {
+  local what=$1 line
+  shift
+  while IFS= read -r line; do
+    check "$what, ${line#*: }" test "${line%%: *}" = ok
+  done < <("$@" || printf 'FAIL: %s ends with an error\n' "${2##*/}")
+}

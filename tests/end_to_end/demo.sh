@@ -48,6 +48,7 @@ check 'the demo site is made' "$INSITU_BIN/insitu-demo-site" "$site"
 photos=$(checksums "$site/photos")
 check 'the empty site runs' montage_lines '^\[[1-7]/7\] [a-z]+ +[0-9]+\.[0-9] s$' 5 --no-building
 for_each_photo 'no building: every pixel is the photograph'\''s' is_photo
+check_figures 'reconstruction' /usr/bin/python3 "$tests/demo_figures.py" "$site"
 check 'with the building only convert and render run' montage_lines '[0-9] s$' 2
 for_each_photo 'exr, png and jpg are there' has_montages
 for_each_photo 'untouched pixels are the photograph'\''s' is_photo_where_untouched

@@ -21,13 +21,7 @@ new_site() {
 }
 
 # figures KIND: one assertion a figure, by gallery_figures.py.
-figures() {
-  local line
-  while IFS= read -r line; do
-    check "$1, ${line#*: }" test "${line%%: *}" = ok
-  done < <(/usr/bin/python3 "$tests/gallery_figures.py" "$1" "$site" "$shared" ||
-    printf 'FAIL: gallery_figures.py ends with an error\n')
-}
+figures() { check_figures "$1" /usr/bin/python3 "$tests/gallery_figures.py" "$1" "$site" "$shared"; }
 
 is_photo() { "$COMPARE_IMAGES" identical "$site/photos/$1.jpg" "$site/montages/$1.png"; }
 

@@ -39,7 +39,7 @@ def geometry_and_light(site):
     report = load(site, 'reconstruction/report.json')
     environment = load(site, 'environment.json')
     air, light = environment['air'], environment['light']
-    at_most('check points RMS over sigma', report['check']['rms_over_sigma'], 1.5)
+    at_most('check points RMS over sigma', report['check']['rms_over_sigma'], 1.2)
     at_most('sun direction [deg]', angle_deg(light['sun_direction'], SUN), 0.3)
     at_most('zenith direction [deg]', angle_deg(light['zenith_direction'], ZENITH), 0.1)
     for channel, name in enumerate(('red', 'green', 'blue')):

@@ -68,8 +68,11 @@ check 'berlin: a word on scale and datum' prints 'no control: position, orientat
 check 'berlin: COLMAP adjusts our model to the same' colmap_agrees
 check 'berlin: our COLMAP model comes back' prints '^3 of 3 photos placed' \
   tie_points --model "$site/work/tie_points/model"
+mkdir -- "$temporary/binary"
+check 'berlin: COLMAP reads our model and writes it as binary' colmap model_converter \
+  --input_path "$site/work/tie_points/model" --output_path "$temporary/binary" --output_type BIN
 check 'berlin: COLMAP'\''s binary model comes back' prints '^3 of 3 photos placed' \
-  tie_points --model "$site/work/tie_points/models/0"
+  tie_points --model "$temporary/binary"
 mv -- "$site/photos/03.jpg" "$site/photos/04.jpg"
 check 'berlin: tie points of other photographs' refuses "photo '03' is not in the folder" \
   reconstruct

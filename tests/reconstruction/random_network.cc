@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <random>
+#include <set>
 
 #include "reconstruction/plane.h"
 
@@ -50,6 +51,7 @@ class Town {
     AddControlAndTiePoints();
     AddPhotos();
     AddMarks();
+    SurveyWhatNoPhotoShows();
     AddConstraints();
     return std::move(network_);
   }
@@ -165,6 +167,18 @@ class Town {
         const auto pixel = PixelOf(network_.photos[photo], a + random_.Uniform(0.2, 0.8) * (b - a));
         if (pixel) network_.edges.push_back({photo, tops_[i], neighbours_[i], *pixel, 2 * sigma});
       }
+    }
+  }
+
+  // A plane alone does not determine its vertex.
+  void SurveyWhatNoPhotoShows() {
+    std::set<int> known;
+    for (const MarkObservation& mark : network_.marks) known.insert(mark.point);
+    for (const ControlObservation& control : network_.control) known.insert(control.point);
+    for (int point = 0; point < static_cast<int>(network_.points.size()); ++point) {
+      if (known.contains(point)) continue;
+      network_.control.push_back(
+          {point, network_.points[point].position, Vector3d::Constant(0.005)});
     }
   }
 
