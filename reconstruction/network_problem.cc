@@ -355,7 +355,8 @@ ceres::Solver::Summary NetworkProblem::Solve(const SolveOptions& options) {
   ceres_options.sparse_linear_algebra_library_type = ceres::EIGEN_SPARSE;
   ceres_options.num_threads = 1;
   ceres_options.max_num_iterations = options.max_iterations;
-  ceres_options.function_tolerance = 1e-14;
+  // A step then moves no unknown by 1e-4 of its sigma; below, rounding decides.
+  ceres_options.function_tolerance = 1e-12;
   ceres_options.gradient_tolerance = 1e-16;
   ceres_options.parameter_tolerance = 1e-14;
   ceres::Solver::Summary summary;
