@@ -13,6 +13,7 @@
 #include "reconstruction/adjusted_observations.h"
 #include "reconstruction/planarity.h"
 #include "reconstruction/plane.h"
+#include "reconstruction/plane_effect.h"
 #include "reconstruction/polygon_covariance.h"
 #include "reconstruction/survey_diagnosis.h"
 
@@ -202,6 +203,29 @@ void WarnOfMasks(const Survey& survey, Adjustment* adjustment) {
   }
 }
 
+// A control point that took no part although it lies where a point without coordinates is.
+void WarnOfMisnamedControl(const Survey& survey, Adjustment* adjustment) {
+  constexpr double kSamePlace = 0.05;  // [m], besides their sigmas
+  std::set<std::string> surveyed, used;
+  for (const ControlPoint& point : survey.control_points) surveyed.insert(point.name);
+  for (const AdjustedPoint& point : adjustment->points) used.insert(point.name);
+  for (const ControlPoint& point : survey.control_points) {
+    if (used.contains(point.name)) continue;
+    for (const AdjustedPoint& there : adjustment->points) {
+      if (there.is_tie_point || surveyed.contains(there.name)) continue;
+      const double sigma = std::sqrt(there.covariance.trace() + point.sigma.squaredNorm());
+      const double distance = (there.position - point.position).norm();
+      if (distance > kSamePlace + 3 * sigma || sigma > 1) continue;
+      adjustment->warnings.push_back(
+          point.place.path.filename().string() + ":" + std::to_string(point.place.line) +
+          ": point '" + point.name + "' is marked on no photo, and point '" + there.name +
+          Format("', %.0f mm from it, has no coordinates: are they one? Expected: one name in all "
+                 "files",
+                 1000 * distance));
+    }
+  }
+}
+
 void AddStatistics(const NetworkSolution& solution, const AdjustmentOptions& options,
                    Adjustment* adjustment) {
   adjustment->iterations = solution.iterations;
@@ -303,9 +327,11 @@ Adjustment Adjust(const Survey& survey, const std::vector<std::string>& photos,
   adjustment.poses = AdjustedPoses(network, solution);
   adjustment.points = AdjustedPoints(network, solution);
   adjustment.planes = AdjustedPlanes(survey_network, solution);
+  adjustment.plane_effect = FindPlaneEffect(survey_network, solution);
   adjustment.polygon_covariance = PolygonCovariances(survey, survey_network, solution);
   adjustment.correlations = HighCorrelations(network, solution);
   CompareWithSurvey(survey, &adjustment);
+  WarnOfMisnamedControl(survey, &adjustment);
   adjustment.left_out = LeaveOneOut(survey_network, solution);
   adjustment.check_rms_over_sigma = RmsOverSigma(adjustment.check);
   adjustment.left_out_rms_over_sigma = RmsOverSigma(adjustment.left_out);

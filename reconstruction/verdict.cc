@@ -129,6 +129,48 @@ void JudgeDatum(const Adjustment& adjustment, std::vector<Objection>* objections
        "survey three control points or more, not on one line, and mark them on two photos each"});
 }
 
+void JudgePlanes(const PlaneEffect& effect, double critical_w, std::vector<Objection>* objections) {
+  if (effect.degrees == 0 || effect.statistic <= effect.limit) return;
+  std::vector<std::pair<double, std::string>> moved;
+  for (const PlaneEffect::Shift& shift : effect.shifts) {
+    const double w = std::abs(shift.w.value_or(0));
+    if (w > critical_w) {
+      moved.emplace_back(-w, shift.name + Number(" by %.0f mm", 1000 * shift.difference.norm()));
+    }
+  }
+  std::sort(moved.begin(), moved.end());
+  std::vector<std::string> names;
+  for (const auto& [minus_w, name] : moved) names.push_back(name);
+  objections->push_back(
+      {Severity::kReview,
+       "the planes do not all hold: they add " + Number("%.0f", effect.statistic) +
+           " to the sum of squares where at most " + Number("%.0f", effect.limit) + " is expected" +
+           (names.empty() ? "" : "; " + Listing("they move", names, 3)),
+       "look at the vertices' distances from their planes: correct marks of the worst, split "
+       "polygons that are not flat, or state a larger --plane-sigma"});
+}
+
+// What the calibration's own report objects to; less so where the adjustment made the lens its own.
+void JudgeCalibration(const AdjustedCamera& camera, const Json::Value& calibration,
+                      std::vector<Objection>* objections) {
+  const bool is_adjusted =
+      std::any_of(camera.parameters.begin(), camera.parameters.end(),
+                  [](const AdjustedCamera::Parameter& each) { return each.is_adjusted; });
+  const std::string name = "calibration of '" + camera.name + "': ";
+  if (!calibration.isObject()) {
+    objections->push_back({Severity::kNote,
+                           name + "no report of it: how sure the lens is, is unknown",
+                           "run insitu-calibrate"});
+    return;
+  }
+  for (const Json::Value& reason : calibration["verdict"]["reasons"]) {
+    Severity severity = reason["severity"] == "fail" ? Severity::kFail : Severity::kReview;
+    if (is_adjusted) severity = Severity::kNote;
+    objections->push_back(
+        {severity, name + reason["reason"].asString(), reason["remedy"].asString()});
+  }
+}
+
 void PassOnWarnings(const Adjustment& adjustment, std::vector<Objection>* objections) {
   for (const std::string& warning : adjustment.warnings) {
     const bool is_said = warning == "the datum is " + adjustment.datum;
@@ -180,7 +222,12 @@ std::vector<Objection> Judge(const Adjustment& adjustment, const ReportContext& 
   JudgeObservations(adjustment, &objections);
   JudgeAccuracy(adjustment, &objections);
   JudgeDatum(adjustment, &objections);
+  JudgePlanes(adjustment.plane_effect, adjustment.critical_w, &objections);
   JudgeGeometry(adjustment, context, &objections);
+  for (size_t i = 0; i < adjustment.cameras.size(); ++i) {
+    JudgeCalibration(adjustment.cameras[i], context.OfCamera(static_cast<int>(i)).calibration,
+                     &objections);
+  }
   JudgeCorrelations(adjustment, &objections);
   PassOnWarnings(adjustment, &objections);
   JudgeControl(adjustment, &objections);

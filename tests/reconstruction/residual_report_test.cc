@@ -39,12 +39,12 @@ class Report : public testing::Test {
 
 TEST_F(Report, HasEverySection) {
   const Json::Value report = Make();
-  for (const char* key : {"format",     "verdict",      "identity",     "conventions",
-                          "summary",    "groups",       "correlations", "cameras",
-                          "photos",     "control",      "check",        "left_out",
-                          "points",     "tie_points",   "polygons",     "adjoining_polygons",
-                          "directions", "observations", "histogram",    "lens_residuals",
-                          "montage"}) {
+  for (const char* key : {"format",         "verdict",    "identity",     "conventions",
+                          "summary",        "groups",     "correlations", "cameras",
+                          "photos",         "control",    "check",        "left_out",
+                          "points",         "tie_points", "polygons",     "adjoining_polygons",
+                          "plane_effect",   "directions", "observations", "histogram",
+                          "lens_residuals", "montage"}) {
     EXPECT_TRUE(report.isMember(key)) << key;
   }
   for (const char* key : {"statistic", "low", "high", "alpha", "p", "is_met"}) {

@@ -133,12 +133,12 @@ TEST_F(Verdict, SeesControlOnOneLineAndPhotosFromOnePlace) {
 
 TEST_F(Verdict, NamesMarksOutsideTheCalibratedRegion) {
   ReportContext context;
-  context.calibrated_region[0] = {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}};
+  context.cameras[0].calibrated_region = {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}};
   const auto objections = Judge(Adjusted(), context);
   const Objection* outside = Find(objections, "outside the region");
   ASSERT_TRUE(outside);
   EXPECT_EQ(outside->severity, Severity::kReview);
-  context.calibration["uncertainty"]["center_px"] = 0.1;
+  context.cameras[0].calibration["uncertainty"]["center_px"] = 0.1;
   EXPECT_EQ(Find(Judge(Adjusted(), context), "outside the region")->severity, Severity::kNote);
 }
 
