@@ -57,7 +57,9 @@ TEST(PlaneEffect, MovesNothingWhereAllIsExact) {
 }
 
 TEST(PlaneEffect, IsDistributedAsItsTestSays) {
-  const SyntheticNetwork network = MakeSyntheticNetwork();
+  SyntheticNetwork network = MakeSyntheticNetwork();
+  // Plumb edges without error make their walls flat in the solution without planes too.
+  network.survey.zenith_pairs.clear();
   constexpr int kNetworks = 40;
   int rejected = 0, shifts = 0;
   double statistic = 0, squares = 0;
@@ -79,21 +81,21 @@ TEST(PlaneEffect, IsDistributedAsItsTestSays) {
 TEST(PlaneEffect, FindsAWallThatIsNotFlat) {
   const SyntheticNetwork network = MakeSyntheticNetwork();
   const Survey survey =
-      Moved(network, WithNoise(network.survey, 1), "b1", Eigen::Vector3d(0, 0.08, 0));
+      Moved(network, WithNoise(network.survey, 1), "b6", Eigen::Vector3d(0, 0.3, 0));
   const Adjustment adjustment = AdjustNetwork(network, survey);
   const PlaneEffect& effect = adjustment.plane_effect;
   EXPECT_GT(effect.statistic, 2 * effect.limit);
-  const PlaneEffect::Shift* corner = ShiftOf(effect, "b1");
+  const PlaneEffect::Shift* corner = ShiftOf(effect, "b6");
   ASSERT_TRUE(corner && corner->w);
   EXPECT_GT(std::abs(*corner->w), adjustment.critical_w);
-  EXPECT_LT(corner->difference.y(), -0.02);  // the planes pull it back
+  EXPECT_LT(corner->difference.y(), -0.04);  // the planes pull it back
   const auto objections = Judge(adjustment);
   EXPECT_TRUE(std::any_of(objections.begin(), objections.end(), [](const Objection& each) {
     return each.reason.find("the planes do not all hold") != std::string::npos;
   }));
 }
 
-TEST(PlaneEffect, IsNotComparedWithoutADatumOrPlanes) {
+TEST(PlaneEffect, IsNotComparedWithoutPlanes) {
   SyntheticNetwork network = MakeSyntheticNetwork();
   Survey flat = network.survey;
   flat.polygons.clear();
