@@ -61,7 +61,11 @@ FilePlace PlaceOf(const Unknown& unknown, const Network& network, const Survey& 
 InputError RankDefectError(const RankDefect& defect, const Network& network, const Survey& survey) {
   constexpr size_t kShown = 8;
   std::set<std::string> names;
-  for (const Unknown& unknown : defect.unknowns) names.insert(NameOf(unknown, network));
+  bool is_of_lens = false;
+  for (const Unknown& unknown : defect.unknowns) {
+    names.insert(NameOf(unknown, network));
+    is_of_lens |= unknown.kind == Unknown::Kind::kCamera;
+  }
   std::string list;
   size_t shown = 0;
   for (const std::string& name : names) {
@@ -71,7 +75,8 @@ InputError RankDefectError(const RankDefect& defect, const Network& network, con
   const FilePlace place = PlaceOf(defect.unknowns.front(), network, survey);
   return InputError(place.path, place.line,
                     "the observations do not determine " + list +
-                        "; expected more marks, control points or polygons that hold them");
+                        "; expected more marks, control points or polygons that hold them" +
+                        (is_of_lens ? ", or a lens model of fewer parameters" : ""));
 }
 
 void CompareWithSurvey(const Survey& survey, Adjustment* adjustment) {
@@ -210,15 +215,20 @@ void WarnOfMisnamedControl(const Survey& survey, Adjustment* adjustment) {
   for (const ControlPoint& point : survey.control_points) surveyed.insert(point.name);
   for (const AdjustedPoint& point : adjustment->points) used.insert(point.name);
   for (const ControlPoint& point : survey.control_points) {
-    if (used.contains(point.name)) continue;
+    const std::string beginning = point.place.path.filename().string() + ":" +
+                                  std::to_string(point.place.line) + ": point '" + point.name +
+                                  "' is marked on no photo";
+    const bool is_said =
+        std::any_of(adjustment->warnings.begin(), adjustment->warnings.end(),
+                    [&](const std::string& warning) { return warning.starts_with(beginning); });
+    if (used.contains(point.name) || is_said) continue;
     for (const AdjustedPoint& there : adjustment->points) {
       if (there.is_tie_point || surveyed.contains(there.name)) continue;
       const double sigma = std::sqrt(there.covariance.trace() + point.sigma.squaredNorm());
       const double distance = (there.position - point.position).norm();
       if (distance > kSamePlace + 3 * sigma || sigma > 1) continue;
       adjustment->warnings.push_back(
-          point.place.path.filename().string() + ":" + std::to_string(point.place.line) +
-          ": point '" + point.name + "' is marked on no photo, and point '" + there.name +
+          beginning + ", and point '" + there.name +
           Format("', %.0f mm from it, has no coordinates: are they one? Expected: one name in all "
                  "files",
                  1000 * distance));

@@ -33,8 +33,8 @@ struct AdjustmentOptions {
 
 // One scalar observation after the adjustment; residual = adjusted - observed, in sigma's unit.
 struct ObservationResidual {
-  std::string group;    // "image x", "image y", "edge", "control x" ..., "camera x" ..., "plane",
-                        // "sun", "zenith", "distance", "height", "angle"
+  std::string group;    // "image x", "image y", "edge", "control x" ..., "camera x" ..., "lens",
+                        // "plane", "sun", "zenith", "distance", "height", "angle"
   std::string photo;    // of image observations and camera positions, else empty
   std::string subject;  // point, polygon or pair
   double observed = 0, residual = 0, sigma = 0;

@@ -71,14 +71,19 @@ void JudgeCorrelations(const Adjustment& adjustment, std::vector<Objection>* obj
   if (adjustment.correlations.empty()) return;
   std::vector<std::string> pairs;
   Severity severity = Severity::kNote;
+  bool is_of_lens = false;
   for (const Correlation& pair : adjustment.correlations) {
+    is_of_lens |= pair.first.starts_with("camera ");
     pairs.push_back(pair.first + " with " + pair.second + " " + Number("%.3f", pair.value));
     const bool is_point = pair.first.starts_with("point ");
     if (!is_point && std::abs(pair.value) > kInseparable) severity = Severity::kReview;
   }
   objections->push_back({severity, Listing("correlations above 0.95", pairs, 3),
-                         "where that matters, take photos from other sides, some turned by 90 "
-                         "degrees, and spread control in depth"});
+                         std::string("where that matters, take photos from other sides, some "
+                                     "turned by 90 degrees, and spread control in depth") +
+                             (is_of_lens ? "; of a lens, calibrate a model of fewer parameters "
+                                           "(insitu-calibrate --lens-model LENSMODEL_OPENCV4)"
+                                         : "")});
 }
 
 std::vector<std::string> WorstPoints(const std::vector<PointComparison>& comparisons) {

@@ -6,7 +6,8 @@ function showCameras() {
   for (const camera of report.cameras) {
     element(node, "h3", `${camera.name}: ${camera.lens_model}`);
     const isAdjusted = camera.parameters.some(p => p.is_adjusted);
-    element(node, "p", isAdjusted ? "Adjusted together with the site (self-calibration)." :
+    element(node, "p", isAdjusted ? "Adjusted together with the site (self-calibration)" +
+      (report.groups.some(g => g.group === "lens") ? "; its calibration is an observation, the group lens." : ".") :
       camera.is_considered ? "Held as calibrated; the calibration's uncertainty enters every σ." :
       "Held as calibrated, taken as exact: every σ leaves the lens's uncertainty out.", "faint");
     table(node, camera.parameters, [
