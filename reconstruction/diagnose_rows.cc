@@ -2,7 +2,6 @@
 // What the rows tell without any photo.
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <map>
 #include <set>
 #include <utility>
@@ -142,14 +141,6 @@ std::vector<Diagnosis> SameMarks(const Survey& survey) {
   return diagnoses;
 }
 
-// Names of another number are other points, not slips.
-std::string DigitsOf(const std::string& name) {
-  std::string digits;
-  std::copy_if(name.begin(), name.end(), std::back_inserter(digits),
-               [](char c) { return c >= '0' && c <= '9'; });
-  return digits;
-}
-
 // A control point that nothing refers to, while a name near its own is in use but not surveyed.
 std::vector<Diagnosis> UnusedControl(const Survey& survey) {
   const std::set<std::string> in_use = PointsInUse(survey);
@@ -158,10 +149,7 @@ std::vector<Diagnosis> UnusedControl(const Survey& survey) {
   std::vector<Diagnosis> diagnoses;
   for (const ControlPoint& point : survey.control_points) {
     if (in_use.contains(point.name)) continue;
-    std::set<std::string> candidates = unsurveyed;
-    std::erase_if(candidates,
-                  [&](const std::string& name) { return DigitsOf(name) != DigitsOf(point.name); });
-    const std::string meant = DidYouMean(point.name, candidates);
+    const std::string meant = DidYouMean(point.name, WithDigitsOf(point.name, unsurveyed));
     if (meant.empty()) continue;
     diagnoses.push_back({point.place,
                          "point '" + point.name + "' is marked on no photo and in no polygon" +

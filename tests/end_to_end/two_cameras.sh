@@ -32,7 +32,7 @@ runs() {
   [[ $ran == "$1" ]]
 }
 # The same without the building, which renders at once.
-redoes() { runs "$1" --no-building; }
+redoes() { runs "$1" --no-building "${@:2}"; }
 
 is_photo_where_untouched() {
   "$COMPARE_IMAGES" identical "$(photo_file "$site" "$1")" "$site/montages/$1.png" \
@@ -61,12 +61,14 @@ done
 check 'the report tells of both calibrations' reports_both
 check 'then all is up to date' runs ''
 check 'without the building' redoes 'render'
-check 'lenses of few photographs can be adjusted' self_calibrate --self-calibrate
-check 'self-calibrated lenses are used' redoes 'undistort light render'
-check 'lenses as calibrated again' self_calibrate
-check 'and used again' redoes 'undistort light render'
+check 'lenses of few photographs can be adjusted' \
+  redoes 'reconstruct undistort light render' --self-calibrate
+check 'and be as calibrated again' redoes 'reconstruct undistort light render'
+check 'lenses adjusted by hand' self_calibrate --self-calibrate
+check 'are used too' redoes 'undistort light render'
 touch -- "$site/calibration/camera/camera.cameramodel"
-check 'a newer camera is heeded' redoes 'calibrate reconstruct undistort light render'
+check 'a newer camera is heeded' \
+  redoes 'calibrate reconstruct undistort light render'
 printf '{"constraints": []}\n' >"$site/survey/constraints.json"
 check 'a new survey file is heeded' redoes 'reconstruct light render'
 touch -- "$site/survey/constraints.json"
