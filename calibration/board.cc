@@ -58,6 +58,12 @@ std::map<std::string, BoardLine> ReadBoardLines(const fs::path& path) {
 }  // namespace
 
 Board ReadBoard(const fs::path& path) {
+  if (!fs::exists(path)) {
+    throw InputError(path,
+                     "no such file, expected it beside the board photos with the lines \"type "
+                     "chessboard\", \"interior_corners_x 9\", \"interior_corners_y 9\" and "
+                     "\"square_m 0.03\", as the board has them");
+  }
   const std::map<std::string, BoardLine> lines = ReadBoardLines(path);
   for (const char* key : {"type", "interior_corners_x", "interior_corners_y", "square_m"}) {
     if (!lines.contains(key)) throw InputError(path, std::string(key) + " is missing");

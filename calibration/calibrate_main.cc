@@ -3,6 +3,7 @@
 
 #include "calibration/program.h"
 #include "calibration/site_calibration.h"
+#include "calibration/site_cameras.h"
 
 int main(int argc, char** argv) {
   CLI::App app(
@@ -17,11 +18,19 @@ int main(int argc, char** argv) {
   app.add_option("--focal-px", options.focal_px,
                  "focal length to start from [px]; else from EXIF, else a 50 degree field of view")
       ->check(CLI::Range(1.0, 1e6));
+  bool is_list = false;
+  app.add_flag("--list", is_list, "only print the camera files that it would write, one a line");
   app.footer(
       "Example: insitu-calibrate gallery\n"
       "writes gallery/work/calibration/camera.cameramodel, report.json and report.html;\n"
       "of several cameras, in calibration/CAMERA/, to gallery/work/calibration/CAMERA/.");
   return insitu::RunProgram(app, argc, argv, [&] {
+    if (is_list) {
+      for (const std::string& camera : insitu::CamerasOf(insitu::ListCameraFolders(site))) {
+        std::cout << site.camera(camera).string() << "\n";
+      }
+      return;
+    }
     const insitu::SiteCalibration calibration = insitu::CalibrateSite(site, options);
     std::cout << calibration.BriefReport() << "\n";
     for (const insitu::CameraCalibration& camera : calibration.cameras) {

@@ -42,6 +42,13 @@ std::string Joined(const std::vector<std::string>& words) {
 
 void CheckHeader(const std::filesystem::path& path, int line,
                  const std::vector<std::string>& header, const std::vector<std::string>& columns) {
+  for (const char* separator : {";", "\t"}) {
+    if (header.size() > 1 || header[0].find(separator) == std::string::npos) continue;
+    throw InputError(path, line,
+                     std::string("columns are separated by ") +
+                         (*separator == ';' ? "semicolons" : "tabs") +
+                         ", expected commas, and points in numbers: " + Joined(columns));
+  }
   for (const std::string& column : columns) {
     const auto count = std::count(header.begin(), header.end(), column);
     if (count == 1) continue;

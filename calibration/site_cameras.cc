@@ -203,6 +203,21 @@ std::vector<CameraFolder> ListCameraFolders(const SitePaths& site) {
   return folders;
 }
 
+std::vector<std::string> CamerasOf(const std::vector<CameraFolder>& folders) {
+  if (folders.empty()) return {""};
+  std::vector<std::string> cameras;
+  for (const CameraFolder& folder : folders) {
+    if (folder.source != CameraSource::kFilm) {
+      cameras.push_back(folder.name);
+      continue;
+    }
+    for (const auto& [photo, marks] : ReadFiducials(folder.folder / "fiducials.csv")) {
+      cameras.push_back(photo);
+    }
+  }
+  return cameras;
+}
+
 std::vector<std::string> CamerasOfPhotos(const SitePaths& site,
                                          const std::vector<fs::path>& photos) {
   const std::vector<CameraFolder> folders = ListCameraFolders(site);

@@ -30,6 +30,10 @@ struct CameraFolder {
 // in calibration/ itself and others in folders, film.json without fiducials.csv.
 std::vector<CameraFolder> ListCameraFolders(const SitePaths& site);
 
+// The cameras that insitu-calibrate makes of these folders, as SitePaths::camera() takes them: one
+// a folder, of scanned film one a photo; "" alone where there are no folders.
+std::vector<std::string> CamerasOf(const std::vector<CameraFolder>& folders);
+
 // The camera of each photograph, as SitePaths::camera() and pinhole_camera() take it; "" where the
 // site has one camera in calibration/ itself, or none. A photo with fiducials has its own. Else
 // site.json tells ("cameras": {photo: camera}), or there is only one, or EXIF model, focal length

@@ -46,6 +46,18 @@ void CheckPhotoSize(const fs::path& photo, const Camera& camera) {
                               " as the camera was calibrated");
 }
 
+// Before any image, so that where all images are there, their pinholes are too.
+std::vector<Camera> WritePinholes(const SitePaths& site,
+                                  const std::map<std::string, Lens>& lenses) {
+  std::vector<Camera> pinholes;
+  for (const auto& [name, lens] : lenses) {
+    WritePosedCamera(site.pinhole_camera(name), {"pinhole", lens.pinhole, Rigid3()},
+                     "camera of the undistorted input images");
+    pinholes.push_back(lens.pinhole);
+  }
+  return pinholes;
+}
+
 }  // namespace
 
 SiteUndistortion UndistortSite(const SitePaths& site) {
@@ -55,20 +67,14 @@ SiteUndistortion UndistortSite(const SitePaths& site) {
   for (size_t i = 0; i < photos.size(); ++i) {
     CheckPhotoSize(photos[i], lenses.at(cameras[i]).camera);
   }
-  Progress progress("undistorting", static_cast<int>(photos.size()));
+  const SiteUndistortion result{WritePinholes(site, lenses), static_cast<int>(photos.size())};
+  Progress progress("undistorting", result.photos);
   for (size_t i = 0; i < photos.size(); ++i) {
     const Lens& lens = lenses.at(cameras[i]);
     const Raster original = ReadPhotograph(photos[i]).linear;
     WriteExr(site.input_image(photos[i].stem()), Reproject(original, lens.camera, lens.pinhole));
     progress.Step();
   }
-  SiteUndistortion result;
-  for (const auto& [name, lens] : lenses) {
-    WritePosedCamera(site.pinhole_camera(name), {"pinhole", lens.pinhole, Rigid3()},
-                     "camera of the undistorted input images");
-    result.pinholes.push_back(lens.pinhole);
-  }
-  result.photos = static_cast<int>(photos.size());
   return result;
 }
 

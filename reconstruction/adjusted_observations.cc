@@ -5,6 +5,9 @@
 #include <Eigen/LU>
 #include <cmath>
 
+#include "calibration/error.h"
+#include "reconstruction/lens_residual.h"
+
 namespace insitu {
 namespace {
 
@@ -16,6 +19,7 @@ class RowNamer {
   explicit RowNamer(const Network& network) : network_(network) {}
 
   ObservationResidual Name(const ObservationRow& row, std::optional<int>* point) const {
+    if (row.kind == ObservationKind::kLens) return {"lens", "", Parameter(row)};
     const std::string axis(1, "xyz"[row.component]);
     switch (row.kind) {
       case ObservationKind::kMark: {
@@ -55,6 +59,7 @@ class RowNamer {
         const HeightObservation& h = network_.heights[row.index];
         return {"height", "", Pair(h.from, h.to), h.height};
       }
+      case ObservationKind::kLens:
       case ObservationKind::kAngle:
         break;
     }
@@ -65,6 +70,15 @@ class RowNamer {
   }
 
  private:
+  std::string Parameter(const ObservationRow& row) const {
+    const NetworkCamera& camera = network_.cameras[network_.lenses[row.index].camera];
+    const std::vector<std::string> names = LensParameterNames(camera.lens);
+    int next = 0;
+    for (size_t i = 0; i < names.size(); ++i) {
+      if (camera.is_free[i] && next++ == row.component) return camera.name + " " + names[i];
+    }
+    throw CheckError(__FILE__, __LINE__, "the row is a free parameter's");
+  }
   std::string Photo(int photo) const { return network_.photos[photo].name; }
   std::string Point(int point) const { return network_.points[point].name; }
   std::string Pair(int from, int to) const { return Point(from) + " " + Point(to); }

@@ -13,6 +13,7 @@
 #include "reconstruction/adjusted_observations.h"
 #include "reconstruction/planarity.h"
 #include "reconstruction/plane.h"
+#include "reconstruction/plane_effect.h"
 #include "reconstruction/polygon_covariance.h"
 #include "reconstruction/survey_diagnosis.h"
 
@@ -60,7 +61,11 @@ FilePlace PlaceOf(const Unknown& unknown, const Network& network, const Survey& 
 InputError RankDefectError(const RankDefect& defect, const Network& network, const Survey& survey) {
   constexpr size_t kShown = 8;
   std::set<std::string> names;
-  for (const Unknown& unknown : defect.unknowns) names.insert(NameOf(unknown, network));
+  bool is_of_lens = false;
+  for (const Unknown& unknown : defect.unknowns) {
+    names.insert(NameOf(unknown, network));
+    is_of_lens |= unknown.kind == Unknown::Kind::kCamera;
+  }
   std::string list;
   size_t shown = 0;
   for (const std::string& name : names) {
@@ -70,7 +75,8 @@ InputError RankDefectError(const RankDefect& defect, const Network& network, con
   const FilePlace place = PlaceOf(defect.unknowns.front(), network, survey);
   return InputError(place.path, place.line,
                     "the observations do not determine " + list +
-                        "; expected more marks, control points or polygons that hold them");
+                        "; expected more marks, control points or polygons that hold them" +
+                        (is_of_lens ? ", or a lens model of fewer parameters" : ""));
 }
 
 void CompareWithSurvey(const Survey& survey, Adjustment* adjustment) {
@@ -202,6 +208,34 @@ void WarnOfMasks(const Survey& survey, Adjustment* adjustment) {
   }
 }
 
+// A control point that took no part although it lies where a point without coordinates is.
+void WarnOfMisnamedControl(const Survey& survey, Adjustment* adjustment) {
+  constexpr double kSamePlace = 0.05;  // [m], besides their sigmas
+  std::set<std::string> surveyed, used;
+  for (const ControlPoint& point : survey.control_points) surveyed.insert(point.name);
+  for (const AdjustedPoint& point : adjustment->points) used.insert(point.name);
+  for (const ControlPoint& point : survey.control_points) {
+    const std::string beginning = point.place.path.filename().string() + ":" +
+                                  std::to_string(point.place.line) + ": point '" + point.name +
+                                  "' is marked on no photo";
+    const bool is_said =
+        std::any_of(adjustment->warnings.begin(), adjustment->warnings.end(),
+                    [&](const std::string& warning) { return warning.starts_with(beginning); });
+    if (used.contains(point.name) || is_said) continue;
+    for (const AdjustedPoint& there : adjustment->points) {
+      if (there.is_tie_point || surveyed.contains(there.name)) continue;
+      const double sigma = std::sqrt(there.covariance.trace() + point.sigma.squaredNorm());
+      const double distance = (there.position - point.position).norm();
+      if (distance > kSamePlace + 3 * sigma || sigma > 1) continue;
+      adjustment->warnings.push_back(
+          beginning + ", and point '" + there.name +
+          Format("', %.0f mm from it, has no coordinates: are they one? Expected: one name in all "
+                 "files",
+                 1000 * distance));
+    }
+  }
+}
+
 void AddStatistics(const NetworkSolution& solution, const AdjustmentOptions& options,
                    Adjustment* adjustment) {
   adjustment->iterations = solution.iterations;
@@ -303,9 +337,11 @@ Adjustment Adjust(const Survey& survey, const std::vector<std::string>& photos,
   adjustment.poses = AdjustedPoses(network, solution);
   adjustment.points = AdjustedPoints(network, solution);
   adjustment.planes = AdjustedPlanes(survey_network, solution);
+  adjustment.plane_effect = FindPlaneEffect(survey_network, solution);
   adjustment.polygon_covariance = PolygonCovariances(survey, survey_network, solution);
   adjustment.correlations = HighCorrelations(network, solution);
   CompareWithSurvey(survey, &adjustment);
+  WarnOfMisnamedControl(survey, &adjustment);
   adjustment.left_out = LeaveOneOut(survey_network, solution);
   adjustment.check_rms_over_sigma = RmsOverSigma(adjustment.check);
   adjustment.left_out_rms_over_sigma = RmsOverSigma(adjustment.left_out);

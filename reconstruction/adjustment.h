@@ -33,8 +33,8 @@ struct AdjustmentOptions {
 
 // One scalar observation after the adjustment; residual = adjusted - observed, in sigma's unit.
 struct ObservationResidual {
-  std::string group;    // "image x", "image y", "edge", "control x" ..., "camera x" ..., "plane",
-                        // "sun", "zenith", "distance", "height", "angle"
+  std::string group;    // "image x", "image y", "edge", "control x" ..., "camera x" ..., "lens",
+                        // "plane", "sun", "zenith", "distance", "height", "angle"
   std::string photo;    // of image observations and camera positions, else empty
   std::string subject;  // point, polygon or pair
   double observed = 0, residual = 0, sigma = 0;
@@ -119,11 +119,31 @@ struct Correlation {
   double value = 0;           // |value| > 0.95
 };
 
+// The solution with planes against that without: do the planes hold, and what do they move?
+struct PlaneEffect {
+  struct Shift {
+    std::string name;            // a point, or "photo IMG_1" for its centre
+    Eigen::Vector3d difference;  // with planes - without [m]
+    // Along the axis that the planes hold most, a priori [m], and the test value there; nullopt:
+    // planes hold it in no way.
+    std::optional<double> sigma, w;
+  };
+  std::string unknown_because;  // empty: it is known
+  int redundancy = 0;           // of the solution without planes
+  double sigma0 = 0;            // of the same
+  // The planes' share of the sum (v / sigma)^2; chi-square distributed if they hold.
+  double statistic = 0, limit = 0, alpha = 0.05;
+  int degrees = 0;
+  std::vector<std::string> held_by_planes;  // points on fewer than two photos, not compared
+  std::vector<Shift> shifts;                // of photos and surveyed points
+};
+
 struct Adjustment {
   std::vector<AdjustedCamera> cameras;
   std::vector<AdjustedPose> poses;
   std::vector<AdjustedPoint> points;
   std::vector<AdjustedPlane> planes;
+  PlaneEffect plane_effect;
   // By polygon of the survey: 3n x 3n [m^2], joint, of its vertices in order; empty: not known.
   std::vector<Eigen::MatrixXd> polygon_covariance;
   SceneGeometry scene;

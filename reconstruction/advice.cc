@@ -23,6 +23,7 @@ std::string Describe(const ObservationResidual& row) {
   if (row.group.starts_with("camera")) {
     return "surveyed position of photo " + Quoted(row.photo) + " (" + row.group.back() + ")";
   }
+  if (row.group == "lens") return "calibrated " + Quoted(row.subject);
   return row.group + " " + Quoted(row.subject);
 }
 
@@ -41,6 +42,10 @@ std::string Advice(const ObservationResidual& row) {
   }
   if (row.group.starts_with("camera")) {
     return "check the surveyed position of photo " + photo + ": is it the lens that was measured?";
+  }
+  if (row.group == "lens") {
+    return "the site contradicts the lens's calibration: make sure that focus, zoom and camera are "
+           "those of the boards, and look for the fault among marks and control first";
   }
   if (row.group == "plane") {
     return "make sure that the vertex of " + subject +

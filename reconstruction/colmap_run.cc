@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <sstream>
 
 #include "calibration/error.h"
 #include "calibration/external_program.h"
@@ -61,14 +62,28 @@ class Run {
  private:
   fs::path database_path() const { return folder_ / "database.db"; }
 
-  void Colmap(const std::string& command, const std::vector<std::string>& arguments) const {
+  void Colmap(const std::string& command, std::vector<std::string> arguments) const {
+    arguments.insert(arguments.begin(), {"--random_seed", "0"});
+    RunProgram(command, arguments);
+  }
+
+  void RunProgram(const std::string& command, const std::vector<std::string>& arguments) const {
     ExternalProgram program;
-    program.command = {"colmap", command, "--random_seed", "0"};
+    program.command = {"colmap", command};
     program.command.insert(program.command.end(), arguments.begin(), arguments.end());
     program.package = "colmap";
     program.folder = folder_;
     program.output = program.log = folder_ / "logs" / (command + ".log");
     RunExternal(program);
+  }
+
+  // Its help begins "COLMAP 3.8 -- Structure-from-Motion ...".
+  std::string Version() const {
+    RunProgram("help", {});
+    std::istringstream words(ReadWhole(folder_ / "logs/help.log"));
+    std::string name, version;
+    words >> name >> version;
+    return name == "COLMAP" ? version : "unknown";
   }
 
   // JPEG files as they are; what COLMAP might read otherwise than we do becomes 8-bit PNG.
@@ -198,6 +213,7 @@ class Run {
     for (const fs::directory_entry& entry : fs::directory_iterator(folder_ / "models")) {
       if (HasColmapModel(entry.path())) folders[entry.path().filename()] = entry.path();
     }
+    const std::string version = Version();
     std::vector<MatchedModel> models;
     for (const auto& [name, path] : folders) {
       MatchedModel model;
@@ -205,6 +221,8 @@ class Run {
       if (model.colmap.images.size() < 2) continue;
       for (auto& [id, image] : model.colmap.images) image.name = PhotoOf(id).file.filename();
       model.tie_points = TiePointsFromColmap(model.colmap, &database_.features);
+      model.tie_points.program = "COLMAP";
+      model.tie_points.program_version = version;
       models.push_back(std::move(model));
     }
     std::stable_sort(models.begin(), models.end(), [](const auto& a, const auto& b) {

@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 #include <utility>
 
 #include "reconstruction/diagnosis_parts.h"
+#include "reconstruction/near_names.h"
 
 namespace insitu {
 namespace {
@@ -46,6 +48,12 @@ std::vector<std::string> NamesOf(Points points) {
   return names;
 }
 
+// Of national coordinates a slip of the unit shows to the digit.
+const char* WordOnUnit(const Points& odd, const Points& rest, int axis) {
+  const double ratio = odd.front()->position[axis] / rest.front()->position[axis];
+  return std::abs(ratio / 1000 - 1) < 0.01 ? " (are they in millimetres?)" : "";
+}
+
 std::vector<Diagnosis> TwoSystems(const Points& points) {
   for (int axis = 0; axis < 3 && points.size() > 1; ++axis) {
     const Gap gap = WidestGap(points, axis);
@@ -58,8 +66,9 @@ std::vector<Diagnosis> TwoSystems(const Points& points) {
     });
     return {
         {first->place, "the control points are in two coordinate systems: " + ListOf(NamesOf(odd)) +
-                           " lie " + Short(gap.width / 1000) + " km from the " +
-                           std::to_string(rest.size()) + " others along " + "xyz"[axis] +
+                           (odd.size() == 1 ? " lies " : " lie ") + Short(gap.width / 1000) +
+                           " km from the " + std::to_string(rest.size()) + " others along " +
+                           "xyz"[axis] + WordOnUnit(odd, rest, axis) +
                            ". Expected: all coordinates in one system and one unit"}};
   }
   return {};
@@ -132,6 +141,24 @@ std::vector<Diagnosis> SameMarks(const Survey& survey) {
   return diagnoses;
 }
 
+// A control point that nothing refers to, while a name near its own is in use but not surveyed.
+std::vector<Diagnosis> UnusedControl(const Survey& survey) {
+  const std::set<std::string> in_use = PointsInUse(survey);
+  std::set<std::string> unsurveyed = in_use;
+  for (const ControlPoint& point : survey.control_points) unsurveyed.erase(point.name);
+  std::vector<Diagnosis> diagnoses;
+  for (const ControlPoint& point : survey.control_points) {
+    if (in_use.contains(point.name)) continue;
+    const std::string meant = DidYouMean(point.name, WithDigitsOf(point.name, unsurveyed));
+    if (meant.empty()) continue;
+    diagnoses.push_back({point.place,
+                         "point '" + point.name + "' is marked on no photo and in no polygon" +
+                             meant + " Expected: one name for one point in all files",
+                         Diagnosis::Kind::kMisfit});
+  }
+  return diagnoses;
+}
+
 }  // namespace
 
 std::vector<Diagnosis> DiagnoseRows(const Survey& survey) {
@@ -139,7 +166,7 @@ std::vector<Diagnosis> DiagnoseRows(const Survey& survey) {
   for (const ControlPoint& point : survey.control_points) control.push_back(&point);
   std::vector<Diagnosis> diagnoses = TwoSystems(control);
   if (diagnoses.empty()) diagnoses = Degrees(control);
-  for (const auto& part : {SameMarks(survey), SameCoordinates(survey)}) {
+  for (const auto& part : {SameMarks(survey), UnusedControl(survey), SameCoordinates(survey)}) {
     diagnoses.insert(diagnoses.end(), part.begin(), part.end());
   }
   return diagnoses;

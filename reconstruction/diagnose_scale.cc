@@ -129,6 +129,7 @@ Plausibility PlausibilityOf(const DiagnosisInput& input, const std::vector<Contr
   return {Median(distances), Median(errors), Median(sigmas)};
 }
 
+// A wrong unit is no contradiction, but the likely cause where the survey turns out unusable.
 std::vector<Diagnosis> Implausible(const DiagnosisInput& input,
                                    const std::vector<ControlFit>& fits) {
   const FilePlace place = input.survey.control_points.front().place;
@@ -141,10 +142,10 @@ std::vector<Diagnosis> Implausible(const DiagnosisInput& input,
                          stand + (is_whole ? ", whose coordinates are whole numbers" : "") +
                              ": are these in millimetres? Expected: metres; photos alone "
                              "cannot tell the scale, a distance in constraints.json can",
-                         Kind::kQuestion});
+                         Kind::kMisfit});
   } else if (distance < kTooClose) {
-    diagnoses.push_back({place, stand + ": are their coordinates in kilometres? Expected: metres",
-                         Kind::kQuestion});
+    diagnoses.push_back(
+        {place, stand + ": are their coordinates in kilometres? Expected: metres", Kind::kMisfit});
   }
   if (sigma > kLargeSigma && fit * kMuchBetter < sigma) {
     diagnoses.push_back({place,

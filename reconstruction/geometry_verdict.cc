@@ -88,6 +88,7 @@ void JudgeControlFigure(const Adjustment& adjustment, std::vector<Objection>* ob
 void JudgeFrames(const Adjustment& adjustment, const std::vector<ImageMark>& marks,
                  const ReportContext& context, std::vector<Objection>* objections) {
   std::vector<std::string> small, outside;
+  bool is_mapped = true;  // whether the calibrations' reports map the uncertainty out there
   for (const AdjustedPose& pose : adjustment.poses) {
     if (pose.coverage < kSmallCoverage) {
       small.push_back(pose.photo + " " + Number("%.0f", 100 * pose.coverage) + " %");
@@ -95,9 +96,11 @@ void JudgeFrames(const Adjustment& adjustment, const std::vector<ImageMark>& mar
   }
   for (const ImageMark& mark : marks) {
     const AdjustedPose& pose = adjustment.poses[mark.photo];
-    const auto region = context.calibrated_region.find(pose.camera);
-    if (mark.is_tie_point || region == context.calibrated_region.end()) continue;
-    if (!IsInside(mark.pixel, region->second)) outside.push_back(mark.point + " on " + pose.photo);
+    const CameraContext& camera = context.OfCamera(pose.camera);
+    if (mark.is_tie_point || camera.calibrated_region.empty()) continue;
+    if (IsInside(mark.pixel, camera.calibrated_region)) continue;
+    outside.push_back(mark.point + " on " + pose.photo);
+    is_mapped &= camera.calibration.isObject() && camera.calibration["uncertainty"];
   }
   if (!small.empty()) {
     objections->push_back({Severity::kReview,
@@ -105,8 +108,6 @@ void JudgeFrames(const Adjustment& adjustment, const std::vector<ImageMark>& mar
                            "spread marks over the frame, towards its corners"});
   }
   if (outside.empty()) return;
-  // Where the calibration's report maps the lens's uncertainty, that says how much this matters.
-  const bool is_mapped = context.calibration.isObject() && context.calibration["uncertainty"];
   objections->push_back(
       {is_mapped ? Severity::kNote : Severity::kReview,
        Listing("marks outside the region that mrcal calls valid for the lens", outside, 3),

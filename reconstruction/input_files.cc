@@ -7,6 +7,7 @@
 #include <fstream>
 #include <memory>
 #include <regex>
+#include <set>
 
 #include "calibration/error.h"
 #include "calibration/whole_file.h"
@@ -56,11 +57,14 @@ std::string Sha256(const fs::path& path) {
   return Hexadecimal(digest, size);
 }
 
-std::vector<InputFile> HashInputs(const SitePaths& site) {
-  std::vector<fs::path> paths = ListPhotographs(site);
-  for (const fs::path& path : {site.root / "site.json", site.camera()}) {
-    if (fs::is_regular_file(path)) paths.push_back(path);
+std::vector<InputFile> HashInputs(const SitePaths& site, const std::vector<std::string>& cameras) {
+  std::set<fs::path> candidates = {site.description(), site.tie_points()};
+  for (const std::string& camera : cameras) {
+    candidates.insert({site.camera(camera), site.calibration_report(camera)});
   }
+  std::vector<fs::path> paths = ListPhotographs(site);
+  std::copy_if(candidates.begin(), candidates.end(), std::back_inserter(paths),
+               [](const fs::path& path) { return fs::is_regular_file(path); });
   if (fs::is_directory(site.survey())) {
     for (const fs::directory_entry& entry : fs::directory_iterator(site.survey())) {
       const bool is_hidden = entry.path().filename().string().starts_with('.');

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cstddef>
+#include <iterator>
 
 namespace insitu {
 namespace {
@@ -62,6 +63,18 @@ std::vector<std::string> NearNames(const std::string& name, const std::set<std::
   std::vector<std::string>& names = alike.empty() ? near : alike;
   if (names.size() > kMostNames) names.clear();
   return names;
+}
+
+std::set<std::string> WithDigitsOf(const std::string& name, const std::set<std::string>& known) {
+  const auto digits_of = [](const std::string& text) {
+    std::string digits;
+    std::copy_if(text.begin(), text.end(), std::back_inserter(digits),
+                 [](char c) { return c >= '0' && c <= '9'; });
+    return digits;
+  };
+  std::set<std::string> alike = known;
+  std::erase_if(alike, [&](const auto& each) { return digits_of(each) != digits_of(name); });
+  return alike;
 }
 
 std::string DidYouMean(const std::string& name, const std::set<std::string>& known) {

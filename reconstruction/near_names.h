@@ -14,6 +14,9 @@ namespace insitu {
 // more. Empty if there are none, or more than three.
 std::vector<std::string> NearNames(const std::string& name, const std::set<std::string>& known);
 
+// Those of the same digits: 'P8' is another point than 'P7', not a slip of its name.
+std::set<std::string> WithDigitsOf(const std::string& name, const std::set<std::string>& known);
+
 // "; did you mean 'P7' or 'P8'?", to be put at a message's end; empty without near names.
 std::string DidYouMean(const std::string& name, const std::set<std::string>& known);
 

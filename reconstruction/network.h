@@ -87,6 +87,14 @@ struct CenterObservation {
   Eigen::Vector3d sigma;     // [m], per axis
 };
 
+// What a calibration told of a lens. Where the lens is adjusted, of its free parameters; else this
+// observes nothing.
+struct LensObservation {
+  int camera = 0;
+  std::vector<double> values;  // of all its parameters
+  Eigen::MatrixXd covariance;  // the same, positive definite
+};
+
 // What a survey states without measuring it is observed as 0; a simulation adds its error there.
 
 // A vertex on a plane, or at a distance along its normal.
@@ -148,6 +156,7 @@ struct Network {
   std::vector<EdgeObservation> edges;
   std::vector<ControlObservation> control;
   std::vector<CenterObservation> centers;
+  std::vector<LensObservation> lenses;
   std::vector<PlaneObservation> on_planes;
   std::vector<DirectionObservation> along_directions;
   std::vector<DistanceObservation> distances;

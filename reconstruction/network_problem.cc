@@ -23,10 +23,6 @@ ceres::CostFunction* AutoDiff(const Cost& cost) {
 
 std::vector<double> List(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
 
-bool IsAdjusted(const NetworkCamera& camera) {
-  return std::find(camera.is_free.begin(), camera.is_free.end(), true) != camera.is_free.end();
-}
-
 ceres::Problem::Options ProblemOptions() {
   ceres::Problem::Options options;
   options.manifold_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
@@ -150,23 +146,6 @@ void NetworkProblem::AddUnknowns() {
   }
 }
 
-void NetworkProblem::AddCameras() {
-  columns_.camera.resize(network_.cameras.size());
-  for (int i = 0; i < static_cast<int>(network_.cameras.size()); ++i) {
-    const NetworkCamera& camera = network_.cameras[i];
-    if (!IsAdjusted(camera)) continue;
-    const int size = static_cast<int>(lens_parameters_[i].size());
-    INSITU_CHECK(static_cast<int>(camera.is_free.size()) == size);
-    std::vector<int> held;
-    for (int k = 0; k < size; ++k) {
-      if (!camera.is_free[k]) held.push_back(k);
-    }
-    ceres::Manifold* manifold = nullptr;
-    if (!held.empty()) manifold = &lens_manifolds_.emplace_back(size, held);
-    columns_.camera[i] = AddBlock(lens_parameters_[i].data(), size, manifold, {Kind::kCamera, i});
-  }
-}
-
 double* NetworkProblem::Unit(const UnitReference& reference) {
   if (const auto* plane = std::get_if<PlaneNormal>(&reference)) {
     return Normal(plane->plane);
@@ -189,6 +168,7 @@ void NetworkProblem::AddObservations() {
   AddMarks();
   AddEdges();
   AddPositions();
+  AddLenses();
   AddPlanesAndDirections();
   AddConstraints();
 }

@@ -47,6 +47,7 @@ class NetworkProblem {
   void AddMarks();
   void AddEdges();
   void AddPositions();
+  void AddLenses();
   void AddPlanesAndDirections();
   void AddConstraints();
   void AddAngle(int index);

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "reconstruction/observation_costs.h"
 
+#include <ceres/normal_prior.h>
+
+#include <Eigen/Cholesky>
 #include <Eigen/LU>
 #include <cmath>
 
@@ -138,6 +141,27 @@ bool EdgeCost::Evaluate(double const* const* parameters, double* residuals,
   Eigen::Map<Eigen::RowVectorXd>(jacobians[4], lens_size) =
       -by_sight * pixel_from_sight.transpose() * gram.inverse() * pixel_from_lens;
   return true;
+}
+
+ceres::CostFunction* LensCost(const LensObservation& lens, const std::vector<bool>& is_free) {
+  std::vector<int> free;
+  for (size_t i = 0; i < is_free.size(); ++i) {
+    if (is_free[i]) free.push_back(static_cast<int>(i));
+  }
+  // Focal lengths and distortion differ by many powers of ten: scaled before it is factored.
+  const Eigen::MatrixXd covariance = lens.covariance(free, free);
+  const Eigen::VectorXd scale = covariance.diagonal().cwiseSqrt().cwiseInverse();
+  const Eigen::LLT<Eigen::MatrixXd> factor(scale.asDiagonal() * covariance * scale.asDiagonal());
+  INSITU_CHECK(factor.info() == Eigen::Success);
+  const Eigen::MatrixXd decorrelated = factor.matrixL().solve(Eigen::MatrixXd(scale.asDiagonal()));
+  Eigen::MatrixXd by_parameter =
+      Eigen::MatrixXd::Zero(decorrelated.rows(), static_cast<Eigen::Index>(lens.values.size()));
+  for (size_t i = 0; i < free.size(); ++i) {
+    by_parameter.col(free[i]) = decorrelated.col(static_cast<Eigen::Index>(i));
+  }
+  const Eigen::Map<const Eigen::VectorXd> values(lens.values.data(),
+                                                 static_cast<Eigen::Index>(lens.values.size()));
+  return new ceres::NormalPrior(by_parameter, values);
 }
 
 }  // namespace insitu

@@ -179,6 +179,10 @@ struct AngleCost {
   }
 };
 
+// The free parameters less their observed values, uncorrelated and over their sigma: row i is the
+// i-th given those before it.
+ceres::CostFunction* LensCost(const LensObservation& lens, const std::vector<bool>& is_free);
+
 // Two rows orthogonal to `unit` and to one another.
 Eigen::Matrix<double, 2, 3> AxesAcross(const Eigen::Vector3d& unit);
 

@@ -26,19 +26,28 @@ Rigid3 Upright(const Eigen::Vector3d& center, const Eigen::Vector3d& forward) {
   return {rotation, -(rotation * center)};
 }
 
-ReportContext SiteContext(const SitePaths& site, const AdjustmentOptions& options,
-                          const Adjustment& adjustment, const std::string& command) {
+CameraContext ContextOfCamera(const SitePaths& site, const std::string& camera) {
+  CameraContext context;
+  context.model_file = site.camera(camera).lexically_relative(site.root).generic_string();
+  context.calibrated_region = ReadCalibratedRegion(site.camera(camera));
+  if (std::filesystem::exists(site.calibration_report(camera))) {
+    context.calibration = ReadJson(site.calibration_report(camera));
+  }
+  return context;
+}
+
+ReportContext SiteContext(const SitePaths& site, const SitePhotos& photos,
+                          const AdjustmentOptions& options, const Adjustment& adjustment,
+                          const std::optional<TiePoints>& tie_points) {
   ReportContext context;
   context.options = options;
-  context.command = command;
-  context.inputs = HashInputs(site);
-  for (size_t i = 0; i < adjustment.cameras.size(); ++i) {
-    const std::string camera = CameraFolderName(adjustment.cameras[i].name);
-    if (i == 0 && std::filesystem::exists(site.calibration_report(camera))) {
-      context.calibration = ReadJson(site.calibration_report(camera));
-    }
-    const std::vector<Eigen::Vector2d> region = ReadCalibratedRegion(site.camera(camera));
-    if (!region.empty()) context.calibrated_region[static_cast<int>(i)] = region;
+  context.inputs = HashInputs(site, photos.site_cameras);
+  for (size_t i = 0; i < adjustment.poses.size(); ++i) {
+    context.cameras.try_emplace(adjustment.poses[i].camera,
+                                ContextOfCamera(site, photos.site_cameras[i]));
+  }
+  if (tie_points && !tie_points->program.empty()) {
+    context.programs[tie_points->program] = tie_points->program_version;
   }
   context.montage = MontagePoints(site, adjustment.scene);
   return context;
@@ -59,13 +68,13 @@ std::optional<TiePoints> TiePointsOf(const SitePaths& site,
 }
 
 // Lenses that the adjustment changed; without any, those of an earlier run go.
-void WriteAdjustedLenses(const SitePaths& site, const Adjustment& adjustment,
-                         bool is_self_calibrating) {
+void WriteAdjustedLenses(const SitePaths& site, const SitePhotos& photos,
+                         const Adjustment& adjustment, bool is_self_calibrating) {
   std::filesystem::remove_all(site.adjusted_camera().parent_path());
   if (!is_self_calibrating) return;
   for (size_t i = 0; i < adjustment.poses.size(); ++i) {
     const std::string& camera = adjustment.cameras[adjustment.poses[i].camera].name;
-    WritePosedCamera(site.adjusted_camera(CameraFolderName(camera)),
+    WritePosedCamera(site.adjusted_camera(photos.site_cameras[i]),
                      {camera, adjustment.scene.cameras[i].camera, Rigid3()},
                      "lens adjusted by insitu-reconstruct --self-calibrate");
   }
@@ -100,11 +109,12 @@ Adjustment ReconstructSite(const SitePaths& site, AdjustmentOptions options,
   survey.tie_points = tie_points;
   if (!start_poses.empty()) options.initial_cam_from_world = ReadStartPoses(start_poses, photos);
   Adjustment adjustment = Adjust(survey, photos, site_photos.cameras, options);
-  const Json::Value report =
-      ResidualReport(adjustment, survey, SiteContext(site, options, adjustment, command));
+  ReportContext context = SiteContext(site, site_photos, options, adjustment, tie_points);
+  context.command = command;
+  const Json::Value report = ResidualReport(adjustment, survey, context);
   const std::string page = ResidualPage(report);
   WriteSceneGeometry(site, adjustment.scene);
-  WriteAdjustedLenses(site, adjustment, options.is_self_calibrating);
+  WriteAdjustedLenses(site, site_photos, adjustment, options.is_self_calibrating);
   WriteJson(site.residual_report(), report);
   WriteWhole(site.residual_page(), page);
   WriteWhole(site.observations_csv(), ObservationsCsv(adjustment));

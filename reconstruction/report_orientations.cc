@@ -32,19 +32,20 @@ Json::Value Parameters(const AdjustedCamera& camera) {
 Json::Value CalibrationFacts(const Json::Value& calibration) {
   if (!calibration.isObject()) return Json::Value();
   Json::Value json;
-  for (const char* key : {"source", "lens_model", "boards_found", "points", "outliers", "rms_px",
-                          "worst_px", "uncertainty", "splined_uncertainty"}) {
+  for (const char* key : {"source", "width", "height", "lens_model", "boards_found", "points",
+                          "outliers", "rms_px", "worst_px", "uncertainty", "splined_uncertainty"}) {
     json[key] = calibration.get(key, Json::Value());
   }
   return json;
 }
 
 // The outline within which the boards calibrated a camera [px]; null: not known.
-Json::Value Region(int camera, const ReportContext& context) {
-  const auto region = context.calibrated_region.find(camera);
-  if (region == context.calibrated_region.end()) return Json::Value();
+Json::Value Region(const CameraContext& context) {
+  if (context.calibrated_region.empty()) return Json::Value();
   Json::Value json(Json::arrayValue);
-  for (const Eigen::Vector2d& corner : region->second) json.append(ToJson(Eigen::VectorXd(corner)));
+  for (const Eigen::Vector2d& corner : context.calibrated_region) {
+    json.append(ToJson(Eigen::VectorXd(corner)));
+  }
   return json;
 }
 
@@ -95,13 +96,13 @@ Json::Value MarksReport(const std::vector<ImageMark>& marks) {
   return json;
 }
 
-Json::Value OutsideRegion(const std::vector<ImageMark>& marks, int camera,
-                          const ReportContext& context) {
-  const auto region = context.calibrated_region.find(camera);
-  if (region == context.calibrated_region.end()) return Json::Value();
+Json::Value OutsideRegion(const std::vector<ImageMark>& marks, const CameraContext& context) {
+  if (context.calibrated_region.empty()) return Json::Value();
   Json::Value names(Json::arrayValue);
   for (const ImageMark& mark : marks) {
-    if (!mark.is_tie_point && !IsInside(mark.pixel, region->second)) names.append(mark.point);
+    if (!mark.is_tie_point && !IsInside(mark.pixel, context.calibrated_region)) {
+      names.append(mark.point);
+    }
   }
   return names;
 }
@@ -161,8 +162,10 @@ Json::Value CamerasSection(const Adjustment& adjustment, const ReportContext& co
     camera["correlation"] =
         adjusted.correlation.size() > 0 ? ToJson(adjusted.correlation) : Json::Value();
     camera["is_considered"] = adjusted.is_considered;
-    camera["calibration"] = CalibrationFacts(context.calibration);
-    camera["calibrated_region"] = Region(static_cast<int>(i), context);
+    const CameraContext& known = context.OfCamera(static_cast<int>(i));
+    camera["model_file"] = known.model_file.empty() ? Json::Value() : Json::Value(known.model_file);
+    camera["calibration"] = CalibrationFacts(known.calibration);
+    camera["calibrated_region"] = Region(known);
     json.append(camera);
   }
   return json;
@@ -176,7 +179,8 @@ Json::Value PhotosSection(const Adjustment& adjustment, const std::vector<ImageM
   for (size_t i = 0; i < adjustment.poses.size(); ++i) {
     const AdjustedPose& pose = adjustment.poses[i];
     Json::Value photo = PhotoReport(pose, adjustment.scene.cameras[i].camera, marks_of_photo[i]);
-    photo["outside_calibrated_region"] = OutsideRegion(marks_of_photo[i], pose.camera, context);
+    photo["outside_calibrated_region"] =
+        OutsideRegion(marks_of_photo[i], context.OfCamera(pose.camera));
     json.append(photo);
   }
   return json;

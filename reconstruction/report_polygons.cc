@@ -156,6 +156,30 @@ Json::Value AdjoiningSection(const Adjustment& adjustment, const Survey& survey)
   return json;
 }
 
+Json::Value PlaneEffectSection(const PlaneEffect& effect) {
+  Json::Value json;
+  json["unknown_because"] = effect.unknown_because;
+  json["redundancy_without"] = effect.redundancy;
+  json["sigma0_without"] = effect.sigma0;
+  json["test"]["statistic"] = effect.statistic;
+  json["test"]["degrees"] = effect.degrees;
+  json["test"]["limit"] = effect.limit;
+  json["test"]["alpha"] = effect.alpha;
+  json["test"]["is_met"] = effect.statistic <= effect.limit;
+  json["held_by_planes"] = Json::Value(Json::arrayValue);
+  for (const std::string& name : effect.held_by_planes) json["held_by_planes"].append(name);
+  json["shifts"] = Json::Value(Json::arrayValue);
+  for (const PlaneEffect::Shift& shift : effect.shifts) {
+    Json::Value row;
+    row["name"] = shift.name;
+    row["difference_m"] = ToJson(Eigen::VectorXd(shift.difference));
+    row["sigma_m"] = shift.sigma ? Json::Value(*shift.sigma) : Json::Value();
+    row["w"] = shift.w ? Json::Value(*shift.w) : Json::Value();
+    json["shifts"].append(row);
+  }
+  return json;
+}
+
 Json::Value DirectionsSection(const Adjustment& adjustment, const Survey& survey) {
   Json::Value json;
   const SceneGeometry& scene = adjustment.scene;

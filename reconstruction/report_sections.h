@@ -30,6 +30,7 @@ Json::Value ComparisonSection(const std::vector<PointComparison>& comparisons);
 Json::Value PolygonsSection(const Adjustment& adjustment, const Survey& survey,
                             const AdjustmentOptions& options);
 Json::Value AdjoiningSection(const Adjustment& adjustment, const Survey& survey);
+Json::Value PlaneEffectSection(const PlaneEffect& effect);
 Json::Value DirectionsSection(const Adjustment& adjustment, const Survey& survey);
 
 // report_observations.cc

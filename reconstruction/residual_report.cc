@@ -36,6 +36,12 @@ Json::Value Conventions() {
 
 }  // namespace
 
+const CameraContext& ReportContext::OfCamera(int camera) const {
+  static const CameraContext kUnknown;
+  const auto found = cameras.find(camera);
+  return found == cameras.end() ? kUnknown : found->second;
+}
+
 Json::Value ResidualReport(const Adjustment& adjustment, const Survey& survey,
                            const ReportContext& context) {
   const std::vector<ImageMark> marks = ImageMarks(adjustment);
@@ -55,6 +61,7 @@ Json::Value ResidualReport(const Adjustment& adjustment, const Survey& survey,
   report["points"] = PointsSection(adjustment, marks);
   report["tie_points"] = TiePointsSection(adjustment);
   report["polygons"] = PolygonsSection(adjustment, survey, context.options);
+  report["plane_effect"] = PlaneEffectSection(adjustment.plane_effect);
   report["adjoining_polygons"] = AdjoiningSection(adjustment, survey);
   report["directions"] = DirectionsSection(adjustment, survey);
   report["observations"] = ObservationsSection(adjustment);

@@ -26,16 +26,24 @@ struct MontagePoint {
   Eigen::Vector3d position;  // [m], world
 };
 
+// What is known of a camera from its calibration.
+struct CameraContext {
+  std::string model_file;   // its .cameramodel among the inputs
+  Json::Value calibration;  // the content of its calibration's report.json, or null
+  // The outline within which mrcal calls the lens valid [px]; empty: not known.
+  std::vector<Eigen::Vector2d> calibrated_region;
+};
+
 // What the report says besides the adjustment; everything may be missing, and is then said to be.
 struct ReportContext {
   AdjustmentOptions options;
   std::string command;  // with its options, without paths
   std::vector<InputFile> inputs;
   std::map<std::string, std::string> programs;  // version of other programs used, by name
-  Json::Value calibration;  // the content of the calibration's report.json, or null
-  // By camera (index into Adjustment::cameras): the outline within which boards calibrated it [px].
-  std::map<int, std::vector<Eigen::Vector2d>> calibrated_region;
+  std::map<int, CameraContext> cameras;         // by index into Adjustment::cameras
   std::vector<MontagePoint> montage;
+
+  const CameraContext& OfCamera(int camera) const;  // nothing known: an empty one
 };
 
 Json::Value ResidualReport(const Adjustment& adjustment, const Survey& survey,

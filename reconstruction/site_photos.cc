@@ -19,12 +19,9 @@ SitePhotos ReadSitePhotos(const SitePaths& site) {
       lens.covariance = *covariance;
     }
     photos.lenses.push_back(lens);
+    photos.site_cameras.push_back(camera);
   }
   return photos;
-}
-
-std::string CameraFolderName(const std::string& camera) {
-  return camera == PhotoLens().camera ? std::string() : camera;
 }
 
 }  // namespace insitu

@@ -18,12 +18,10 @@ struct SitePhotos {
   std::vector<std::string> names;  // stems
   std::vector<Camera> cameras;
   std::vector<PhotoLens> lenses;
+  std::vector<std::string> site_cameras;  // their cameras as SitePaths takes them
 };
 
 // Throws InputError: no photographs, a photo whose camera is unknown or not calibrated yet.
 SitePhotos ReadSitePhotos(const SitePaths& site);
-
-// The name of a site's camera in SitePaths, given PhotoLens::camera.
-std::string CameraFolderName(const std::string& camera);
 
 }  // namespace insitu

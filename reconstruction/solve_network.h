@@ -21,6 +21,7 @@ enum class ObservationKind {
   kEdge,
   kControl,
   kCenter,
+  kLens,
   kPlane,
   kDirection,
   kDistance,
@@ -30,7 +31,7 @@ enum class ObservationKind {
 struct ObservationRow {
   ObservationKind kind;
   int index = 0;      // into the kind's list in the network
-  int component = 0;  // x, y, z or first, second
+  int component = 0;  // x, y, z or first, second; of a lens the free parameter, given those before
 };
 
 // What a column of the system belongs to, to name it.

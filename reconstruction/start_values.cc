@@ -179,7 +179,9 @@ class StartFinder {
       const FilePlace place = first_of_photo ? first_of_photo->place : FileOfObservations();
       throw InputError(place.path, place.line,
                        "photo '" + name + "' shows " + std::to_string(points.size()) +
-                           " control points, expected at least three");
+                           " control points, expected at least three (check points do not "
+                           "count); mark more, or let insitu-tie-points connect it to photos that "
+                           "show them");
     }
     std::vector<Eigen::Vector3d> positions;
     for (const ResectionPoint& point : points) positions.push_back(point.world);

@@ -52,20 +52,24 @@ const Words kZWords = {"z", "altitude", "alt", "elevation", "height"};
 Column SigmaColumn(const Words& words) {
   if (HasAny(words, {"xyz", "sxyz"})) return Column::kSigmaXyz;
   const bool has_both = HasAny(words, kXWords) && HasAny(words, kYWords);  // "Accuracy_X/Y_(m)"
+  if (has_both && HasAny(words, kZWords)) return Column::kSigmaXyz;        // "Accuracy_X/Y/Z_(m)"
   if (has_both || HasAny(words, {"xy", "sxy", "horz", "horizontal"})) return Column::kSigmaXy;
-  if (HasAny(words, kXWords) || words.contains("sx")) return Column::kSigmaX;
-  if (HasAny(words, kYWords) || words.contains("sy")) return Column::kSigmaY;
-  if (HasAny(words, kZWords) || HasAny(words, {"sz", "vert", "vertical"})) return Column::kSigmaZ;
+  if (HasAny(words, kXWords) || HasAny(words, {"sx", "se"})) return Column::kSigmaX;
+  if (HasAny(words, kYWords) || HasAny(words, {"sy", "sn"})) return Column::kSigmaY;
+  if (HasAny(words, kZWords) || HasAny(words, {"sz", "sh", "vert", "vertical"})) {
+    return Column::kSigmaZ;
+  }
   return Column::kSigmaXyz;
 }
 
 // Residuals and estimates, which Metashape writes beside what was measured, are kOther.
 Column ColumnOf(const std::string& title) {
   const Words words = WordsOf(title);
-  if (HasAny(words, {"error", "errors", "est", "estimated", "variance", "projections"})) {
+  if (HasAny(words, {"error", "errors", "est", "estimated", "var", "variance", "projections"})) {
     return Column::kOther;
   }
-  if (HasAny(words, {"accuracy", "sigma", "std", "precision", "sx", "sy", "sz", "sxy", "sxyz"})) {
+  if (HasAny(words, {"accuracy", "sigma", "std", "precision", "sx", "sy", "sz", "se", "sn", "sh",
+                     "sxy", "sxyz"})) {
     return SigmaColumn(words);
   }
   if (HasAny(words, {"enable", "enabled"})) return Column::kEnabled;
@@ -133,11 +137,14 @@ std::optional<Header> FindHeader(const SurveyText& text) {
   return std::nullopt;
 }
 
-// "#CoordinateSystem: WKT", as Metashape writes it.
+// "#CoordinateSystem: WKT" or "# CoordinateSystem: WKT", as versions of Metashape write it.
 std::optional<std::string> NamedSystem(const std::string& content) {
-  const std::string key = "#CoordinateSystem:";
+  const std::string key = "CoordinateSystem:";
   const size_t start = content.find(key);
-  if (start == std::string::npos) return std::nullopt;
+  if (start == std::string::npos || content.find_last_of("#\n", start) == std::string::npos ||
+      content[content.find_last_of("#\n", start)] != '#') {
+    return std::nullopt;
+  }
   const size_t end = std::min(content.find('\n', start), content.size());
   return std::string(
       TrimmedView(std::string_view(content).substr(start + key.size(), end - start - key.size())));
@@ -161,26 +168,44 @@ class Line {
   }
   std::optional<double> Sigma(Column column) const {
     if (!Has(column)) return std::nullopt;
-    const double sigma = Number(column, "the accuracy");
-    if (!(sigma > 0)) throw row_.Error("an accuracy that is not positive");
+    return Positive(Number(column, "the accuracy"));
+  }
+  // "0.01/0.01/0.02", as Metashape writes what differs by axis; one number stands for all three.
+  std::optional<Eigen::Vector3d> SigmaOfAxes() const {
+    if (!Has(Column::kSigmaXyz)) return std::nullopt;
+    const auto parts = SplitAt(Text(Column::kSigmaXyz, "the accuracy"), '/');
+    if (parts.size() == 1) return Eigen::Vector3d::Constant(*Sigma(Column::kSigmaXyz));
+    if (parts.size() > 3) throw row_.Error("expected an accuracy of one to three parts");
+    Eigen::Vector3d sigma;
+    for (size_t axis = 0; axis < 3; ++axis) {  // of two, plan and height
+      const std::string& part = parts[parts.size() == 3 ? axis : axis / 2];
+      const auto value = ParseNumber(part);
+      if (!value) throw row_.Error("\"" + part + "\" for the accuracy, expected a finite number");
+      sigma[static_cast<Eigen::Index>(axis)] = Positive(*value);
+    }
     return sigma;
   }
   FilePlace Place() const { return {row_.path, row_.line}; }
   const TextRow& row() const { return row_; }
 
  private:
+  double Positive(double sigma) const {
+    if (!(sigma > 0)) throw row_.Error("an accuracy that is not positive");
+    return sigma;
+  }
   const Header& header_;
   const TextRow& row_;
 };
 
 std::optional<Eigen::Vector3d> SigmaOf(const Line& line) {
-  const auto all = line.Sigma(Column::kSigmaXyz), plan = line.Sigma(Column::kSigmaXy);
-  const auto or_else = [](const auto& a, const auto& b) { return a ? a : b; };
-  const auto x = or_else(line.Sigma(Column::kSigmaX), or_else(plan, all));
-  const auto y = or_else(line.Sigma(Column::kSigmaY), or_else(plan, all));
-  const auto z = or_else(line.Sigma(Column::kSigmaZ), all);
-  if (!x || !y || !z) return std::nullopt;
-  return Eigen::Vector3d(*x, *y, *z);
+  const auto all = line.SigmaOfAxes();
+  const auto plan = line.Sigma(Column::kSigmaXy);
+  const auto x = line.Sigma(Column::kSigmaX), y = line.Sigma(Column::kSigmaY),
+             z = line.Sigma(Column::kSigmaZ);
+  if ((!x && !plan && !all) || (!y && !plan && !all) || (!z && !all)) return std::nullopt;
+  const Eigen::Vector3d rest = all.value_or(Eigen::Vector3d::Zero());
+  return Eigen::Vector3d(x.value_or(plan.value_or(rest.x())), y.value_or(plan.value_or(rest.y())),
+                         z.value_or(rest.z()));
 }
 
 ControlRole RoleOf(const Line& line) {
@@ -228,9 +253,12 @@ SurveyFile ReadHeaderTable(const SurveyText& text) {
   file.crs = NamedSystem(text.content);
   file.has_degrees = header->has_degrees;
   file.format = file.crs ? "reference table of Metashape (CSV)" : "table with a header";
-  for (const TextRow& guessed : text.rows) {
-    if (guessed.line <= header->line) continue;
-    const Line line(*header, guessed);
+  const std::vector<TextRow> rows =
+      header->separator == ';' ? SplitTextRows(text.path, text.content, WordSeparator::kSemicolon)
+                               : text.rows;
+  for (const TextRow& row : rows) {
+    if (row.line <= header->line) continue;
+    const Line line(*header, row);
     if (has_marks) {
       file.marks.push_back(MarkOf(line));
     } else {

@@ -2,6 +2,7 @@
 #include "reconstruction/survey_names.h"
 
 #include <algorithm>
+#include <map>
 #include <set>
 
 #include "reconstruction/near_names.h"
@@ -57,14 +58,24 @@ Names NotMarkedOn(const std::string& photo, Names names, const Survey& survey) {
   return names;
 }
 
+// A point that two photos show needs no other file: it ties them together. But a name near to one
+// that the photo lacks is rather a slip.
 void RequireKnownMarks(const Survey& survey, const Names& known) {
+  std::map<std::string, int> photos_of_point;
+  for (const ImageObservation& mark : survey.observations) ++photos_of_point[mark.point];
   for (const ImageObservation& mark : survey.observations) {
     if (known.contains(mark.point)) continue;
+    const Names missing = NotMarkedOn(mark.photo, known, survey);
+    if (photos_of_point.at(mark.point) > 1 &&
+        NearNames(mark.point, WithDigitsOf(mark.point, missing)).empty()) {
+      continue;
+    }
     throw InputError(mark.place.path, mark.place.line,
                      "point '" + mark.point +
                          "' is unknown, expected a point of control_points.csv, polygons.json, "
-                         "directions.json, edges.csv or constraints.json" +
-                         DidYouMean(mark.point, NotMarkedOn(mark.photo, known, survey)));
+                         "directions.json, edges.csv or constraints.json, or one marked on two "
+                         "photos" +
+                         DidYouMean(mark.point, missing));
   }
 }
 

@@ -14,7 +14,8 @@ namespace insitu {
 std::optional<std::string> FaultOfPhoto(const std::string& photo,
                                         const std::vector<std::string>& photos);
 
-// Marks must be of points that another file names, or that an edge or a constraint joins; the ends
+// Marks must be of points that another file names, that an edge or a constraint joins, or that two
+// photos show; the ends
 // of pairs, edges and constraints must be surveyed, marked or vertices. Throws InputError.
 void RequireKnownPoints(const Survey& survey);
 

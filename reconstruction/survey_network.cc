@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "reconstruction/survey_network.h"
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <set>
@@ -25,6 +26,14 @@ Eigen::Vector3d RoundedCentroid(const Survey& survey, const StartValues& start) 
     for (const StartTiePoint& point : start.tie_points) mean += (point.position - mean) / ++count;
   }
   return (mean / kOriginStep).array().round() * kOriginStep;
+}
+
+// Not that of a lens without calibration, nor one with parameters that the calibration held.
+bool IsPositiveDefinite(const Eigen::MatrixXd& covariance) {
+  if (covariance.size() == 0 || !(covariance.diagonal().minCoeff() > 0)) return false;
+  const Eigen::VectorXd scale = covariance.diagonal().cwiseSqrt().cwiseInverse();
+  return Eigen::LLT<Eigen::MatrixXd>(scale.asDiagonal() * covariance * scale.asDiagonal()).info() ==
+         Eigen::Success;
 }
 
 // Builds the network's lists in order; names become indices.
@@ -68,9 +77,15 @@ class Builder {
       }
     }
     NetworkCamera added{lens.camera, camera, {}, lens.covariance};
-    if (options_.is_self_calibrating) added.is_free.assign(camera.intrinsics().size(), true);
+    const int index = static_cast<int>(network_.cameras.size());
+    if (options_.is_self_calibrating) {
+      added.is_free.assign(camera.intrinsics().size(), true);
+      if (IsPositiveDefinite(lens.covariance)) {
+        network_.lenses.push_back({index, camera.intrinsics(), lens.covariance});
+      }
+    }
     network_.cameras.push_back(added);
-    return static_cast<int>(network_.cameras.size()) - 1;
+    return index;
   }
 
   void AddPhotos() {

@@ -175,6 +175,11 @@ void ReadMmviiMarks(const XmlNode& set, SurveyFile* file, int* unstated) {
 }  // namespace
 
 SurveyFile ReadMetashapeXml(const XmlNode& document) {
+  if (!document.Find("chunk")) {
+    throw document.Error(
+        "is neither a chunk of Metashape nor a script of DBAT, expected of Metashape the exported "
+        "markers, of DBAT the script, which names its other files");
+  }
   SurveyFile file;
   file.format = "markers of Metashape (XML)";
   const XmlNode chunk = document.At("chunk");
@@ -186,7 +191,10 @@ SurveyFile ReadMetashapeXml(const XmlNode& document) {
   return file;
 }
 
-SurveyFile ReadMicMacXml(const XmlNode& root) {
+SurveyFile ReadMicMacXml(const XmlNode& given) {
+  // Some of MicMac's companions write <Global> around what they hold.
+  const auto parts = given.Children();
+  const XmlNode root = given.Name() == "Global" && !parts.empty() ? parts.front() : given;
   SurveyFile file;
   int unstated = 0;
   if (root.Name() == "DicoAppuisFlottant") {

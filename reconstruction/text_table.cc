@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "reconstruction/text_table.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <limits>
@@ -13,8 +14,22 @@ namespace {
 
 constexpr std::string_view kBlanks = " \t\r\n";
 
+// "12,5" as "12.5", if that makes it a number.
+std::string WithDecimalPoint(const std::string& word) {
+  const size_t comma = word.find(',');
+  if (comma == std::string::npos) return word;
+  std::string number = word;
+  number[comma] = '.';
+  return ParseNumber(number) ? number : word;
+}
+
 std::vector<std::string> SplitLine(std::string_view text, WordSeparator separator) {
   if (separator == WordSeparator::kComma) return SplitAt(text, ',');
+  if (separator == WordSeparator::kSemicolon) {
+    std::vector<std::string> words = SplitAt(text, ';');
+    std::transform(words.begin(), words.end(), words.begin(), WithDecimalPoint);
+    return words;
+  }
   if (separator == WordSeparator::kGuess) {
     for (const char candidate : {',', ';', '\t'}) {
       if (text.find(candidate) != std::string_view::npos) return SplitAt(text, candidate);

@@ -39,8 +39,9 @@ struct TextRow {
 };
 
 // How the words of a line are told apart; kGuess: by commas, else semicolons, else tabulators, else
-// blanks, whichever a line has.
-enum class WordSeparator { kGuess, kComma, kBlanks };
+// blanks, whichever a line has. Between semicolons a number may have a decimal comma, as
+// spreadsheets of many countries write it; it becomes a point.
+enum class WordSeparator { kGuess, kComma, kSemicolon, kBlanks };
 
 // The lines that hold something and do not begin with #. Throws InputError: unreadable, not text.
 std::vector<TextRow> ReadTextRows(const std::filesystem::path& path, WordSeparator separator);

@@ -87,6 +87,8 @@ void WriteTiePoints(const SitePaths& site, const TiePoints& tie_points) {
   Json::Value root;
   root["format"] = kFormat;
   root["version"] = kVersion;
+  root["program"] = tie_points.program;
+  root["program_version"] = tie_points.program_version;
   root["sigma_px"] = tie_points.sigma_px;
   root["photos"] = PhotosJson(tie_points);
   root["points"] = PointsJson(tie_points);
@@ -103,6 +105,10 @@ std::optional<TiePoints> ReadTiePoints(const SitePaths& site) {
                      std::to_string(kVersion) + ": run insitu-tie-points again");
   }
   TiePoints tie_points;
+  if (const auto program = root.Find("program")) tie_points.program = program->Text();
+  if (const auto version = root.Find("program_version")) {
+    tie_points.program_version = version->Text();
+  }
   tie_points.sigma_px = root.At("sigma_px").Number();
   if (!(tie_points.sigma_px > 0)) throw root.At("sigma_px").Error("expected more than 0");
   std::vector<std::string> photos;

@@ -28,9 +28,10 @@ struct TiePoint {
 struct TiePoints {
   std::map<std::string, Rigid3> cam_from_model;  // of the photos that could be placed
   std::vector<TiePoint> points;
-  double sigma_px = 1;                       // of a mark
-  std::vector<std::string> not_placed = {};  // photos that image matching could not place
-  std::vector<std::string> remarks = {};     // what was dropped, merged, left out; for the user
+  double sigma_px = 1;                             // of a mark
+  std::string program = {}, program_version = {};  // that matched the photographs; may be unknown
+  std::vector<std::string> not_placed = {};        // photos that image matching could not place
+  std::vector<std::string> remarks = {};  // what was dropped, merged, left out; for the user
 };
 
 // site.tie_points(), written whole and with 17 digits.

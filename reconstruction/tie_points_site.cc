@@ -90,6 +90,8 @@ MatchedModel BroughtModel(const fs::path& folder, const std::vector<fs::path>& p
     image.name = photo->filename();
   }
   model.tie_points = TiePointsFromColmap(model.colmap);
+  model.tie_points.program = "COLMAP, its model brought";
+  model.tie_points.program_version = "unknown";
   return model;
 }
 

@@ -71,14 +71,19 @@ void JudgeCorrelations(const Adjustment& adjustment, std::vector<Objection>* obj
   if (adjustment.correlations.empty()) return;
   std::vector<std::string> pairs;
   Severity severity = Severity::kNote;
+  bool is_of_lens = false;
   for (const Correlation& pair : adjustment.correlations) {
+    is_of_lens |= pair.first.starts_with("camera ");
     pairs.push_back(pair.first + " with " + pair.second + " " + Number("%.3f", pair.value));
     const bool is_point = pair.first.starts_with("point ");
     if (!is_point && std::abs(pair.value) > kInseparable) severity = Severity::kReview;
   }
   objections->push_back({severity, Listing("correlations above 0.95", pairs, 3),
-                         "where that matters, take photos from other sides, some turned by 90 "
-                         "degrees, and spread control in depth"});
+                         std::string("where that matters, take photos from other sides, some "
+                                     "turned by 90 degrees, and spread control in depth") +
+                             (is_of_lens ? "; of a lens, calibrate a model of fewer parameters "
+                                           "(insitu-calibrate --lens-model LENSMODEL_OPENCV4)"
+                                         : "")});
 }
 
 std::vector<std::string> WorstPoints(const std::vector<PointComparison>& comparisons) {
@@ -127,6 +132,48 @@ void JudgeDatum(const Adjustment& adjustment, std::vector<Objection>* objections
   objections->push_back(
       {Severity::kReview, "the datum is " + adjustment.datum,
        "survey three control points or more, not on one line, and mark them on two photos each"});
+}
+
+void JudgePlanes(const PlaneEffect& effect, double critical_w, std::vector<Objection>* objections) {
+  if (effect.degrees == 0 || effect.statistic <= effect.limit) return;
+  std::vector<std::pair<double, std::string>> moved;
+  for (const PlaneEffect::Shift& shift : effect.shifts) {
+    const double w = std::abs(shift.w.value_or(0));
+    if (w > critical_w) {
+      moved.emplace_back(-w, shift.name + Number(" by %.0f mm", 1000 * shift.difference.norm()));
+    }
+  }
+  std::sort(moved.begin(), moved.end());
+  std::vector<std::string> names;
+  for (const auto& [minus_w, name] : moved) names.push_back(name);
+  objections->push_back(
+      {Severity::kReview,
+       "the planes do not all hold: they add " + Number("%.0f", effect.statistic) +
+           " to the sum of squares where at most " + Number("%.0f", effect.limit) + " is expected" +
+           (names.empty() ? "" : "; " + Listing("they move", names, 3)),
+       "look at the vertices' distances from their planes: correct marks of the worst, split "
+       "polygons that are not flat, or state a larger --plane-sigma"});
+}
+
+// What the calibration's own report objects to; less so where the adjustment made the lens its own.
+void JudgeCalibration(const AdjustedCamera& camera, const Json::Value& calibration,
+                      std::vector<Objection>* objections) {
+  const bool is_adjusted =
+      std::any_of(camera.parameters.begin(), camera.parameters.end(),
+                  [](const AdjustedCamera::Parameter& each) { return each.is_adjusted; });
+  const std::string name = "calibration of '" + camera.name + "': ";
+  if (!calibration.isObject()) {
+    objections->push_back({Severity::kNote,
+                           name + "no report of it: how sure the lens is, is unknown",
+                           "run insitu-calibrate"});
+    return;
+  }
+  for (const Json::Value& reason : calibration["verdict"]["reasons"]) {
+    Severity severity = reason["severity"] == "fail" ? Severity::kFail : Severity::kReview;
+    if (is_adjusted) severity = Severity::kNote;
+    objections->push_back(
+        {severity, name + reason["reason"].asString(), reason["remedy"].asString()});
+  }
 }
 
 void PassOnWarnings(const Adjustment& adjustment, std::vector<Objection>* objections) {
@@ -180,7 +227,12 @@ std::vector<Objection> Judge(const Adjustment& adjustment, const ReportContext& 
   JudgeObservations(adjustment, &objections);
   JudgeAccuracy(adjustment, &objections);
   JudgeDatum(adjustment, &objections);
+  JudgePlanes(adjustment.plane_effect, adjustment.critical_w, &objections);
   JudgeGeometry(adjustment, context, &objections);
+  for (size_t i = 0; i < adjustment.cameras.size(); ++i) {
+    JudgeCalibration(adjustment.cameras[i], context.OfCamera(static_cast<int>(i)).calibration,
+                     &objections);
+  }
   JudgeCorrelations(adjustment, &objections);
   PassOnWarnings(adjustment, &objections);
   JudgeControl(adjustment, &objections);

@@ -6,7 +6,8 @@ function showCameras() {
   for (const camera of report.cameras) {
     element(node, "h3", `${camera.name}: ${camera.lens_model}`);
     const isAdjusted = camera.parameters.some(p => p.is_adjusted);
-    element(node, "p", isAdjusted ? "Adjusted together with the site (self-calibration)." :
+    element(node, "p", isAdjusted ? "Adjusted together with the site (self-calibration)" +
+      (report.groups.some(g => g.group === "lens") ? "; its calibration is an observation, the group lens." : ".") :
       camera.is_considered ? "Held as calibrated; the calibration's uncertainty enters every σ." :
       "Held as calibrated, taken as exact: every σ leaves the lens's uncertainty out.", "faint");
     table(node, camera.parameters, [
@@ -22,23 +23,29 @@ function showCameras() {
         camera.parameters.filter(p => p.is_adjusted).map(p => p.name), camera.correlation,
         v => v.toFixed(3));
     }
+    showCalibration(node, camera);
   }
-  showCalibration(node, report.cameras[0]?.calibration);
 }
 
-function showCalibration(node, calibration) {
-  if (!calibration) return element(node, "p", "No calibration report: how sure the lens is, is unknown.", "faint");
-  element(node, "h3", "Calibration");
-  const c = calibration;
-  element(node, "p", isKnown(c.rms_px) ? `From ${count(c.boards_found, "board")}, ${c.points} points, ` +
+const kSources = {
+  brought: "The camera was brought with the site; its calibration's residuals are not known.",
+  film: "Scanned film: see the calibration's own report for its fiducial marks.",
+  exif: "NOT CALIBRATED: the focal length is EXIF's, without distortion and principal point.",
+};
+
+function showCalibration(node, camera) {
+  const c = camera.calibration;
+  if (!c) return element(node, "p", "No calibration report: how sure the lens is, is unknown.", "faint");
+  const boards = isKnown(c.boards_found) ? count(c.boards_found, "board") : "boards";
+  element(node, "p", (isKnown(c.rms_px) ? `Calibrated from ${boards}, ${count(c.points, "corner")}, ` +
     `${count(c.outliers, "outlier")}: RMS ${fixed(c.rms_px, 3)} px, worst ${fixed(c.worst_px, 2)} px.` :
-    "The camera was brought with the site; its calibration's residuals are not known.");
-  const frame = report.photos[0];
-  const node_plots = plots(node);
-  for (const [what, uncertainty] of [["this lens model", c.uncertainty],
-                                     ["the splined model", c.splined_uncertainty]]) {
-    if (uncertainty?.sigma_px && frame) uncertaintyPlot(node_plots, what, uncertainty.sigma_px, frame);
-  }
+    kSources[c.source] ?? "Where the calibration comes from was not stated.") +
+    (camera.model_file ? ` Model: ${camera.model_file}, its SHA-256 under Identity.` : ""));
+  const maps = [["this lens model", c.uncertainty], ["the splined model", c.splined_uncertainty]]
+    .filter(([, uncertainty]) => uncertainty?.sigma_px);
+  if (maps.length === 0) return;
+  const pair = plots(node);
+  for (const [what, {sigma_px}] of maps) uncertaintyPlot(pair, `${what} of ${camera.name}`, sigma_px, c);
 }
 
 // Expected standard deviation of a projection over the frame, cell by cell.

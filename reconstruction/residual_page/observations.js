@@ -1,6 +1,7 @@
 // Data snooping, reliability, and the distribution of the test values.
 
-const unitOf = o => /^(image|edge)/.test(o.group) ? "px" : o.group === "angle" ? "rad" : "m";
+const unitOf = o => /^(image|edge)/.test(o.group) ? "px" : o.group === "angle" ? "rad" :
+  o.group === "lens" ? "σ" : "m";
 
 const kObservationColumns = [
   ["observation", o => o.observation, "long"],

@@ -5,9 +5,7 @@ const slope = s => s ? `${fixed(s.mm_per_m, 2)} ± ${fixed(s.sigma_mm_per_m, 2)}
 function showPolygons() {
   const polygons = report.polygons;
   if (polygons.length === 0) return;
-  const node = section("Polygons", "Plumb: tilt of a wall out of the zenith; level: of a floor. The " +
-    "difference between a solution with and one without the planes is not computed: the planes' own σ0 " +
-    "and the vertices' test values tell whether they hold.");
+  const node = section("Polygons", "Plumb: tilt of a wall out of the zenith; level: of a floor.");
   longTable(node, polygons, [
     ["polygon", p => p.name, "text"],
     ["photo", p => p.photo, "text"],
@@ -65,6 +63,29 @@ function planarityPlot(parent, polygons, shown = 40) {
       Plot.dot(vertices, {x: "off_plane_mm", y: "polygon", r: 2.5, fill: color}),
     ],
   });
+}
+
+function showPlaneEffect() {
+  const effect = report.plane_effect, test = effect.test;
+  if (report.polygons.length === 0) return;
+  const node = section("With and without planes", "The same network solved again without its planes. " +
+    "σ and w are along the axis that the planes hold most; without an error in them w is standard normal.");
+  if (effect.unknown_because) return element(node, "p", `Not compared: ${effect.unknown_because}.`, "faint");
+  element(node, "p", `Without planes: σ0 ${fixed(effect.sigma0_without, 4)}, redundancy ` +
+    `${effect.redundancy_without}. The planes add ${fixed(test.statistic, 1)} to vᵀPv; if they hold, ` +
+    `${test.degrees} are expected and at most ${fixed(test.limit, 1)} (χ², α ${test.alpha}): ` +
+    `${test.is_met ? "they hold" : "they do not all hold"}.`);
+  const size = s => norm(s.difference_m), critical = report.observations.critical_w;
+  longTable(node, [...effect.shifts].sort((a, b) => size(b) - size(a)), [
+    ["point or camera", s => s.name, "text"],
+    ...kAxes.map((axis, i) => [`moved ${axis} mm`, s => 1000 * s.difference_m[i], 1]),
+    ["in space mm", s => 1000 * size(s), 1],
+    ["σ mm", s => isKnown(s.sigma_m) ? 1000 * s.sigma_m : null, 1],
+    ["w", s => s.w, 2],
+  ], {isFlagged: s => Math.abs(s.w) > critical});
+  if (effect.held_by_planes.length === 0) return;
+  element(node, "p", "On fewer than two photos, therefore held by planes and constraints alone and not " +
+    `compared: ${effect.held_by_planes.join(", ")}.`);
 }
 
 function showAdjoining() {

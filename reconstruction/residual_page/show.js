@@ -11,6 +11,7 @@ showCoverage();
 showNetwork();
 showPoints();
 showPolygons();
+showPlaneEffect();
 showAdjoining();
 showDirections();
 showCameras();

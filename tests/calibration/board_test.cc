@@ -55,7 +55,9 @@ TEST_F(BoardFile, FaultsNameTheLine) {
 
 TEST_F(BoardFile, Missing) {
   const auto path = folder_.path() / "none.txt";
-  EXPECT_EQ(InputErrorOf([&] { ReadBoard(path); }), path.string() + ": cannot be read");
+  const std::string expected =
+      path.string() + ": no such file, expected it beside the board photos";
+  EXPECT_EQ(InputErrorOf([&] { ReadBoard(path); }).find(expected), 0u);
 }
 
 class BoardPhotos : public testing::Test {

@@ -53,6 +53,9 @@ TEST_F(CsvFile, FaultsNameTheLine) {
   EXPECT_EQ(ErrorOf("name,x\nA, \n"), At(2) + "column \"x\" is empty");
   EXPECT_EQ(ErrorOf("# first\nname,y\n"),
             At(2) + "column \"x\" is missing, expected the header name,x");
+  EXPECT_EQ(ErrorOf("name;x\nA;1,5\n"), At(1) +
+                                            "columns are separated by semicolons, expected commas, "
+                                            "and points in numbers: name,x");
   EXPECT_EQ(ErrorOf("name,x,x\n"), At(1) + "column \"x\" stands twice, expected the header name,x");
   EXPECT_EQ(InputErrorOf([&] { Read("name,x\nA,1\n")[0].Text("y"); }),
             At(2) + "column \"y\" is missing");

@@ -119,6 +119,7 @@ TEST_F(SiteCameras, SeveralCamerasFromCalibrationToInputImages) {
   AddPhoto("photos/a.jpg", 64, 48);
   AddPhoto("photos/b.jpg", 64, 48);
   folder_.Write("site.json", R"({"cameras": {"a": "wide", "b": "long"}})");
+  EXPECT_EQ(CamerasOf(ListCameraFolders(site_)), (std::vector<std::string>{"long", "wide"}));
   EXPECT_EQ(CalibrateSite(site_).cameras.size(), 2u);
   EXPECT_EQ(ReadCamera(site_.camera("long")).focal_px(), 90);
   EXPECT_EQ(JsonNode::Load(site_.calibration_report("wide")).At("photos").Items()[0].Text(), "a");
@@ -132,6 +133,7 @@ TEST_F(SiteCameras, SeveralCamerasFromCalibrationToInputImages) {
 // ---- EXIF as a last resort -------------------------------------------------------------------
 
 TEST_F(SiteCameras, ExifAloneIsNoCalibration) {
+  EXPECT_EQ(CamerasOf(ListCameraFolders(site_)), std::vector<std::string>{""});
   AddPhoto("photos/a.jpg", 360, 240, "X-T3", 0, 36);
   const SiteCalibration calibration = CalibrateSite(site_);
   const CameraCalibration& camera = calibration.cameras.front();
@@ -174,6 +176,7 @@ TEST_F(ScannedFilm, EachScanHasItsCamera) {
              "1,-28,-28,east,20,473\n2,28,-28,east,468,473\n3,28,28,east,468,25\n"
              "4,-28,28,east,20,25\n");
   EXPECT_EQ(Cameras(), (std::vector<std::string>{"east", "west"}));
+  EXPECT_EQ(CamerasOf(ListCameraFolders(site_)), Cameras());
   const SiteCalibration calibration = CalibrateSite(site_);
   ASSERT_EQ(calibration.cameras.size(), 2u);
   EXPECT_NEAR(ReadCamera(site_.camera("west")).focal_px(), 480, 1);

@@ -143,6 +143,50 @@ asks_for_millimetres() {
 check 'millimetres for metres, nothing tells: a question' asks_for_millimetres
 
 fresh_site
+edit_table control_points.csv 'for (i = 2; i <= 4; ++i) $i *= 1000'
+check 'millimetres for metres, but not of sigmas' refuses reconstruct \
+  'survey/control_points\.csv:2: .*are these in millimetres\?'
+
+fresh_site
+edit_table control_points.csv 'if ($1 == "tower_1") for (i = 2; i <= 4; ++i) $i *= 1000'
+check 'one control point in millimetres' refuses reconstruct \
+  "survey/control_points\.csv:3: .*'tower_1' lies .*are they in millimetres\?"
+
+# warns PATTERN: insitu-reconstruct takes $site, but with a warning like that.
+warns() { "$INSITU_BIN/insitu-reconstruct" "$site" 2>&1 | grep -E "^warning: .*$1"; }
+
+fresh_site
+edit_table control_points.csv 'if ($1 == "tower_1") $1 = "toewr_1"'
+check 'a control point misspelt' warns "toewr_1.*did you mean 'tower_1'\?"
+
+fresh_site
+edit_table control_points.csv 'if ($1 == "tower_1") $1 = "Q17"'
+check 'a control point under another name' warns \
+  "'Q17' is marked on no photo, and point 'tower_1', [0-9]+ mm from it"
+
+fresh_site
+sed -i 's/,/;/g' "$(survey control_points.csv)"
+check 'semicolons between columns' refuses reconstruct \
+  'survey/control_points\.csv:1: columns are separated by semicolons, expected commas'
+
+fresh_site
+find "$site/calibration" -name 'board_*' | sort | tail -n +2 | xargs -d '\n' rm --
+# The corners found so far are new in work/, the lens is not.
+keeps_the_lens() {
+  local lens=work/calibration/camera.cameramodel message status=0
+  message=$("$INSITU_BIN/insitu-calibrate" "$site" 2>&1) || status=$?
+  printf '%s' "${message//"$site/"/}"
+  [[ $status -eq 2 && $message =~ "calibration: whole boards found in 1 of 1 photos, expected at least 3"
+    && $message =~ 'a lens needs 20 to 40' ]] && cmp -- "$DEMO_SITE/$lens" "$site/$lens"
+}
+check 'a board folder with one photo' keeps_the_lens
+
+fresh_site
+rm -- "$site/calibration/board.txt"
+check 'board photos without board.txt' refuses calibrate \
+  'calibration/board\.txt: no such file, expected it beside the board photos'
+
+fresh_site
 edit_table control_points.csv 'if ($1 ~ /^tower_[01]$/) $1 = $1 == "tower_0" ? "tower_1" : "tower_0"'
 check 'two control points exchanged' refuses reconstruct \
   "survey/control_points\.csv:2: points 'tower_1' and 'tower_0' .*exchanged"

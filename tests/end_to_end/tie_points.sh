@@ -63,6 +63,8 @@ new_site berlin "$berlin/images" 3264 2448 2838.59 0.0885 -0.2324
 check 'berlin: all three photographs placed' prints '^3 of 3 photos placed' tie_points
 check 'berlin: the same bytes again' same_again
 check 'berlin: a report without survey' prints '^sigma0 (0\.9|1\.0)' reconstruct
+check 'berlin: the report tells of COLMAP'\''s version' \
+  prints '"COLMAP" : "[0-9.]+"' cat "$site/work/reconstruction/report.json"
 check 'berlin: a word on scale and datum' prints 'no control: position, orientation and scale' \
   reconstruct
 check 'berlin: COLMAP adjusts our model to the same' colmap_agrees

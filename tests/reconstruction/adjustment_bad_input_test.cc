@@ -107,6 +107,19 @@ TEST_F(BadInput, APointWithOneRayAndNoPolygon) {
   ExpectError("observations.csv", 999, "mast");
 }
 
+TEST_F(BadInput, AControlPointUnderAnotherNameIsToldByItsPlace) {
+  auto& control = network_.survey.control_points;
+  const auto point = std::find_if(control.begin(), control.end(),
+                                  [](const auto& each) { return each.name == "a6"; });
+  point->name = "Q17";
+  const auto warnings = Adjust(network_.survey, network_.photos, network_.cameras).warnings;
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_EQ(warnings[0].find("control_points.csv:" + std::to_string(point->place.line) +
+                             ": point 'Q17' is marked on no photo, and point 'a6', 0 mm from it"),
+            0u)
+      << warnings[0];
+}
+
 TEST_F(BadInput, ASurveyedPolygonFarFromPlanar) {
   auto& vertices = PolygonNamed("a_roof").vertices;
   std::replace(vertices.begin(), vertices.end(), std::string("a6"), std::string("a2"));

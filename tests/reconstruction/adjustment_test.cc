@@ -219,6 +219,26 @@ TEST(Adjust, SettlesAThreePointResectionByTheOtherPhotos) {
   EXPECT_LT(PoseError(adjustment.poses[1].cam_from_world, network.cam_from_world[1]).norm(), 1e-7);
 }
 
+TEST(Adjust, SelfCalibrationObservesTheCalibration) {
+  const SyntheticNetwork network = MakeSyntheticNetwork();
+  AdjustmentOptions options = ExactGeometry();
+  options.is_self_calibrating = true;
+  Eigen::VectorXd sigma(12);
+  sigma << 1, 1, 1, 1, 1e-3, 1e-3, 1e-4, 1e-4, 1e-3, 1e-3, 1e-3, 1e-3;
+  options.lenses.assign(network.photos.size(), {"wide", sigma.cwiseAbs2().asDiagonal()});
+  const Adjustment adjustment = AdjustNetwork(network, WithNoise(network.survey, 4), options);
+  const auto is_lens = [](const ObservationResidual& row) { return row.group == "lens"; };
+  EXPECT_EQ(std::count_if(adjustment.residuals.begin(), adjustment.residuals.end(), is_lens), 12);
+  const auto first =
+      std::find_if(adjustment.residuals.begin(), adjustment.residuals.end(), is_lens);
+  EXPECT_EQ(first->subject, "wide fx");
+  for (size_t i = 0; i < 12; ++i) {  // never worse than the calibration, up to sigma0
+    const auto& parameter = adjustment.cameras[0].parameters[i];
+    EXPECT_LT(parameter.sigma, 1.0001 * adjustment.sigma0 * sigma[static_cast<Eigen::Index>(i)])
+        << parameter.name;
+  }
+}
+
 TEST(Adjust, FlagsAGrossErrorAtItsObservation) {
   SyntheticNetwork network = MakeSyntheticNetwork();
   Survey survey = WithNoise(network.survey, 5);

@@ -30,12 +30,19 @@ TEST_F(InputFiles, AreNamedBelowTheSiteFolder) {
   WriteWhole(site_.photos() / "left.jpg", "1");
   WriteWhole(site_.survey() / "observations.csv", "2");
   WriteWhole(site_.survey() / ".observations.csv.swp", "3");
-  WriteWhole(site_.camera(), "4");
-  const std::vector<InputFile> inputs = HashInputs(site_);
-  ASSERT_EQ(inputs.size(), 3u);
-  EXPECT_EQ(inputs[0].name, "photos/left.jpg");
-  EXPECT_EQ(inputs[1].name, "survey/observations.csv");
-  EXPECT_EQ(inputs[2].name, "work/calibration/camera.cameramodel");
+  WriteWhole(site_.camera("wide"), "4");
+  WriteWhole(site_.camera("tele"), "5");
+  WriteWhole(site_.calibration_report("wide"), "6");
+  WriteWhole(site_.tie_points(), "7");
+  std::vector<std::string> names;
+  for (const InputFile& input : HashInputs(site_, {"wide", "tele", "wide"})) {
+    names.push_back(input.name);
+  }
+  EXPECT_EQ(names, (std::vector<std::string>{"photos/left.jpg", "survey/observations.csv",
+                                             "work/calibration/tele/camera.cameramodel",
+                                             "work/calibration/wide/camera.cameramodel",
+                                             "work/calibration/wide/report.json",
+                                             "work/tie_points/tie_points.json"}));
 }
 
 TEST_F(InputFiles, TellWhereTheLensIsValid) {

@@ -39,12 +39,12 @@ class Report : public testing::Test {
 
 TEST_F(Report, HasEverySection) {
   const Json::Value report = Make();
-  for (const char* key : {"format",     "verdict",      "identity",     "conventions",
-                          "summary",    "groups",       "correlations", "cameras",
-                          "photos",     "control",      "check",        "left_out",
-                          "points",     "tie_points",   "polygons",     "adjoining_polygons",
-                          "directions", "observations", "histogram",    "lens_residuals",
-                          "montage"}) {
+  for (const char* key : {"format",         "verdict",    "identity",     "conventions",
+                          "summary",        "groups",     "correlations", "cameras",
+                          "photos",         "control",    "check",        "left_out",
+                          "points",         "tie_points", "polygons",     "adjoining_polygons",
+                          "plane_effect",   "directions", "observations", "histogram",
+                          "lens_residuals", "montage"}) {
     EXPECT_TRUE(report.isMember(key)) << key;
   }
   for (const char* key : {"statistic", "low", "high", "alpha", "p", "is_met"}) {
@@ -177,6 +177,22 @@ TEST_F(Report, SaysHowWellAPlannedCornerIsSeen) {
   EXPECT_GT(montage[0]["views"][0]["sigma_major_px"].asDouble(), 0);
   EXPECT_LT(montage[0]["views"][0]["sigma_major_px"].asDouble(), 5);
   EXPECT_EQ(montage[1]["views"].size(), 0u);
+}
+
+TEST_F(Report, TellsTheCalibrationOfEachCamera) {
+  adjustment_.cameras.push_back(adjustment_.cameras[0]);
+  adjustment_.cameras[1].name = "tele";
+  ReportContext context;
+  context.cameras[1].model_file = "work/calibration/tele/camera.cameramodel";
+  context.cameras[1].calibration["rms_px"] = 0.25;
+  context.cameras[1].calibrated_region = {{1, 2}, {9, 2}, {5, 8}};
+  const Json::Value cameras = ResidualReport(adjustment_, survey_, context)["cameras"];
+  ASSERT_EQ(cameras.size(), 2u);
+  EXPECT_TRUE(cameras[0]["calibration"].isNull());
+  EXPECT_TRUE(cameras[0]["model_file"].isNull());
+  EXPECT_EQ(cameras[1]["calibration"]["rms_px"].asDouble(), 0.25);
+  EXPECT_EQ(cameras[1]["model_file"].asString(), "work/calibration/tele/camera.cameramodel");
+  EXPECT_EQ(cameras[1]["calibrated_region"].size(), 3u);
 }
 
 // As many as the Arch of Constantine has: 26 000 tie points, 90 000 marks.

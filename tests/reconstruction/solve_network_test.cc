@@ -141,6 +141,31 @@ TEST(SolveNetwork, SelfCalibrationFindsTheLens) {
   EXPECT_NEAR(solution.redundancy_numbers.sum(), solution.redundancy, 1e-6);
 }
 
+// What is known of the lens adds up: the inverse of its cofactors grows by that of the calibration.
+TEST(SolveNetwork, SelfCalibrationHeedsTheCalibration) {
+  Network network = MakeRandomNetwork(8);
+  network.cameras[0].is_free = {true, true, true, true, true, true, true, false};
+  const auto lens_cofactor = [&](const NetworkSolution& solution) {
+    const int column = *solution.columns.camera[0];
+    return Eigen::MatrixXd(solution.cofactor.Block(column, 7, column, 7));
+  };
+  const NetworkSolution alone = SolveNetwork(&network);
+  Eigen::MatrixXd root = Eigen::MatrixXd::Constant(8, 8, 0.3);
+  root.diagonal().setOnes();
+  Eigen::VectorXd sigma(8);
+  sigma << 0.5, 0.6, 1, 1, 1e-3, 2e-3, 1e-4, 1e-4;
+  const Eigen::MatrixXd covariance =
+      sigma.asDiagonal() * root * root.transpose() * sigma.asDiagonal();
+  network.lenses = {{0, std::get<Camera>(network.cameras[0].lens).intrinsics(), covariance}};
+  const NetworkSolution calibrated = SolveNetwork(&network);
+  EXPECT_EQ(calibrated.redundancy, alone.redundancy + 7);
+  EXPECT_NEAR(calibrated.redundancy_numbers.sum(), calibrated.redundancy, 1e-6);
+  const Eigen::MatrixXd information = lens_cofactor(calibrated).inverse();
+  const Eigen::MatrixXd expected =
+      lens_cofactor(alone).inverse() + covariance.topLeftCorner<7, 7>().inverse();
+  EXPECT_LT((information - expected).cwiseQuotient(expected).cwiseAbs().maxCoeff(), 1e-5);
+}
+
 // A lens known as well as nothing is a lens adjusted; one known exactly adds nothing.
 TEST(SolveNetwork, ConsideredLensAddsWhatItsErrorWouldDo) {
   const Network truth = MakeRandomNetwork(9);

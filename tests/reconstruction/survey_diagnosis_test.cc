@@ -156,12 +156,20 @@ TEST_F(SurveyDiagnosis, AllInMillimetresAgainstCameraPositions) {
   ExpectFirst("camera_positions.csv", 2, Kind::kFault, {"control points in millimetres"});
 }
 
-TEST_F(SurveyDiagnosis, AllInMillimetresWithoutWitnessIsAQuestion) {
+TEST_F(SurveyDiagnosis, AllInMillimetresWithoutWitnessIsTheLikelyCause) {
   survey_.constraints.clear();
   survey_.camera_positions.clear();
   MoveControl([](const Vector3d& p) { return Vector3d(1000 * p); });
   for (ControlPoint& point : survey_.control_points) point.sigma *= 1000;
-  ExpectFirst("control_points.csv", 2, Kind::kQuestion, {"are these in millimetres?"});
+  ExpectFirst("control_points.csv", 2, Kind::kMisfit, {"are these in millimetres?"});
+}
+
+TEST_F(SurveyDiagnosis, AControlPointUnderAMisspeltName) {
+  Control("a1").name = "a1x";
+  ExpectFirst("control_points.csv", Control("a1x").place.line, Kind::kMisfit,
+              {"'a1x' is marked on no photo", "did you mean 'a1'?"});
+  Control("a1x").name = "a9";  // another number is another point
+  EXPECT_TRUE(Diagnoses().empty());
 }
 
 TEST_F(SurveyDiagnosis, SigmasInMillimetres) {

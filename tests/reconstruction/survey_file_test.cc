@@ -134,6 +134,20 @@ TEST_F(SurveyFileRead, MetashapeTable) {
   EXPECT_EQ(file.points[1].role, ControlRole::kCheck);
 }
 
+TEST_F(SurveyFileRead, MetashapeTableWithOneAccuracy) {
+  const SurveyFile file = Read(Write("reference.csv",
+                                     "# CoordinateSystem: LOCAL_CS[\"Local Coordinates (m)\"]\n"
+                                     "#Label,Enable,X,Y,Z,Accuracy_X/Y/Z_(m),X_error,X_est,X_var\n"
+                                     "p,1,1.5,2.5,3.5,0.01,9,9,9\nq,1,4,5,6,0.01/0.02/0.03,9,9,9\n"
+                                     "r,1,7,8,9,0.01/0.03,9,9,9\n"));
+  ASSERT_TRUE(file.crs);
+  ASSERT_EQ(file.points.size(), 3u);
+  EXPECT_EQ(file.points[0].position, Eigen::Vector3d(1.5, 2.5, 3.5));
+  EXPECT_EQ(file.points[0].sigma, Eigen::Vector3d(0.01, 0.01, 0.01));
+  EXPECT_EQ(file.points[1].sigma, Eigen::Vector3d(0.01, 0.02, 0.03));
+  EXPECT_EQ(file.points[2].sigma, Eigen::Vector3d(0.01, 0.01, 0.03));
+}
+
 TEST_F(SurveyFileRead, MetashapeXmlTakesPinnedProjectionsOnly) {
   const SurveyFile file = Read(Write("markers.xml", kMetashapeXml));
   ASSERT_EQ(file.points.size(), 1u);
@@ -154,6 +168,9 @@ TEST_F(SurveyFileRead, MicMacXml) {
   const SurveyFile marks = Read(Write("marks.xml", kMicMacMarks));
   ASSERT_EQ(marks.marks.size(), 1u);
   EXPECT_EQ(marks.marks[0].pixel, Eigen::Vector2d(452.25, 808.5));
+  const std::string text = kMicMacPoints;
+  const std::string wrapped = "<Global>" + text.substr(text.find('\n')) + "</Global>";
+  EXPECT_EQ(Read(Write("global.xml", wrapped)).points.size(), 2u);
 }
 
 TEST_F(SurveyFileRead, MmviiXmlHasVariances) {
@@ -189,6 +206,12 @@ TEST_F(SurveyFileRead, TablesWithHeader) {
   ASSERT_EQ(marks.marks.size(), 1u);
   EXPECT_EQ(marks.marks[0].pixel, Eigen::Vector2d(1.5, 2.5));
   EXPECT_FALSE(marks.remarks.empty());
+  const SurveyFile german =
+      Read(Write("points.csv",
+                 "Point;East;North;Height;sE;sN;sH\ng1;2600000,25;1200000,5;430;0,01;0,01;0,02\n"));
+  ASSERT_EQ(german.points.size(), 1u);
+  EXPECT_EQ(german.points[0].position, Eigen::Vector3d(2600000.25, 1200000.5, 430));
+  EXPECT_EQ(german.points[0].sigma, Eigen::Vector3d(0.01, 0.01, 0.02));
 }
 
 const char kIor[] = "1 -999 -28.0 0.5 0.25 0 0 13\n0\n0 0\n0 0\n36.0 24.0 3600 2400\n";
@@ -226,6 +249,8 @@ TEST_F(SurveyFileRead, FaultsAreNamedWithTheirLine) {
   expect("marks.csv", "a.jpg,p,1,2\na.jpg,p,1\n", 2, "y is missing");
   expect("table.csv", "name,x,y,z\np,1,2,inf\n", 2, "finite");
   expect("page.html", "<html><body>no</body></html>", 1, "no survey that we know");
+  expect("cameras.xml", "<document><cameras/></document>", 1, "of DBAT the script");
+  expect("accuracy.csv", "Label,X,Y,Z,Accuracy_X/Y/Z_(m)\np,1,2,3,0.1/x/0.1\n", 2, "\"x\"");
   expect("cut.xml", "<DicoAppuisFlottant>\n<OneAppuisDAF>", 2, "XML");
   expect("points.xml",
          "<DicoAppuisFlottant>\n<OneAppuisDAF><Pt>1 2</Pt><NamePt>p</NamePt></OneAppuisDAF>"

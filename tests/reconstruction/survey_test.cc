@@ -66,6 +66,25 @@ TEST_F(SurveyFiles, RefuseAMarkOfAnUnknownPoint) {
   ExpectError("observations.csv", 5, "nobody");
 }
 
+TEST_F(SurveyFiles, TakeAPointThatTwoPhotosShow) {
+  auto& marks = network_.survey.observations;
+  marks.push_back({"P1", "knob", {100, 100}, 0.4, {}});
+  marks.push_back({"P2", "knob", {110, 100}, 0.4, {}});
+  WriteSurvey(site_, network_.survey);
+  EXPECT_EQ(ReadSurvey(site_, network_.photos).observations.back().point, "knob");
+}
+
+TEST_F(SurveyFiles, RefuseASlipOfAKnownNameThoughTwoPhotosShowIt) {
+  int first = 0;
+  for (ImageObservation& mark : network_.survey.observations) {
+    if (mark.point != "shadow_a5" || mark.photo > "P2") continue;
+    mark.point = "shaddow_a5";
+    if (first == 0) first = mark.place.line;
+  }
+  WriteSurvey(site_, network_.survey);
+  ExpectError("observations.csv", first, "did you mean 'shadow_a5'?");
+}
+
 TEST_F(SurveyFiles, RefuseAMarkOnAnUnknownPhoto) {
   ReplaceLine("observations.csv", 7, "P9,g0,100,100,0.4");
   ExpectError("observations.csv", 7, "P9");

@@ -133,18 +133,35 @@ TEST_F(Verdict, SeesControlOnOneLineAndPhotosFromOnePlace) {
 
 TEST_F(Verdict, NamesMarksOutsideTheCalibratedRegion) {
   ReportContext context;
-  context.calibrated_region[0] = {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}};
+  context.cameras[0].calibrated_region = {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}};
   const auto objections = Judge(Adjusted(), context);
   const Objection* outside = Find(objections, "outside the region");
   ASSERT_TRUE(outside);
   EXPECT_EQ(outside->severity, Severity::kReview);
-  context.calibration["uncertainty"]["center_px"] = 0.1;
+  context.cameras[0].calibration["uncertainty"]["center_px"] = 0.1;
   EXPECT_EQ(Find(Judge(Adjusted(), context), "outside the region")->severity, Severity::kNote);
 }
 
+TEST_F(Verdict, PassesOnWhatTheCalibrationObjectsTo) {
+  ReportContext context;
+  Json::Value reason;
+  reason["severity"] = "fail";
+  reason["reason"] = "NOT CALIBRATED";
+  reason["remedy"] = "Photograph a chessboard.";
+  context.cameras[0].calibration["verdict"]["reasons"].append(reason);
+  Adjustment adjustment = Adjusted();
+  const auto objections = Judge(adjustment, context);
+  const Objection* objection = Find(objections, "NOT CALIBRATED");
+  ASSERT_TRUE(objection);
+  EXPECT_EQ(objection->severity, Severity::kFail);
+  EXPECT_EQ(objection->remedy, "Photograph a chessboard.");
+  adjustment.cameras[0].parameters[0].is_adjusted = true;
+  EXPECT_EQ(Find(Judge(adjustment, context), "NOT CALIBRATED")->severity, Severity::kNote);
+}
+
 TEST(Advice, TellsWhatToDoForEveryKindOfObservation) {
-  for (const char* group : {"image x", "edge", "control y", "camera z", "plane", "sun", "zenith",
-                            "distance", "height", "angle"}) {
+  for (const char* group : {"image x", "edge", "control y", "camera z", "lens", "plane", "sun",
+                            "zenith", "distance", "height", "angle"}) {
     ObservationResidual row;
     row.group = group;
     row.subject = "S";
