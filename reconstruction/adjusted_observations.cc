@@ -108,6 +108,18 @@ double ShiftPerSigma(const NetworkSolution& solution, int row, int point_column)
   return shift.norm();
 }
 
+// What the considered lenses add to a point's covariance [m^2].
+Eigen::Matrix3d LensCovariance(const Network& network, const NetworkSolution& solution,
+                               int point_column) {
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
+  for (size_t i = 0; i < network.cameras.size(); ++i) {
+    if (solution.lens_sensitivity[i].size() == 0) continue;
+    const Eigen::MatrixXd by_lens = solution.lens_sensitivity[i].middleRows(point_column, 3);
+    covariance += by_lens * network.cameras[i].calibration_covariance * by_lens.transpose();
+  }
+  return covariance;
+}
+
 }  // namespace
 
 std::vector<ObservationResidual> AdjustedObservations(const SurveyNetwork& survey_network,
@@ -175,11 +187,18 @@ std::vector<PointComparison> LeaveOneOut(const SurveyNetwork& survey_network,
     PointComparison comparison;
     comparison.name = point.name;
     comparison.difference = (inverse * residual).cwiseProduct(control.sigma);
-    comparison.sigma = inverse.diagonal().cwiseSqrt().cwiseProduct(control.sigma);
+    // What is predicted has the network's sigma0 and its lens in it, as a check point's sigma has.
+    const Eigen::Vector3d of_network =
+        solution.sigma0 * solution.sigma0 * (inverse.diagonal().array() - 1).max(0).matrix();
+    const Eigen::Matrix3d by_lens = inverse * weight.asDiagonal() *
+                                    LensCovariance(network, solution, column) *
+                                    weight.asDiagonal() * inverse.transpose();
+    comparison.adjusted_sigma =
+        (of_network + by_lens.diagonal()).cwiseSqrt().cwiseProduct(control.sigma);
+    comparison.sigma =
+        (comparison.adjusted_sigma.cwiseAbs2() + control.sigma.cwiseAbs2()).cwiseSqrt();
     comparison.surveyed = control.position + network.origin;
     comparison.surveyed_sigma = control.sigma;
-    comparison.adjusted_sigma =
-        (comparison.sigma.array().square() - control.sigma.array().square()).max(0).sqrt();
     predicted.push_back(comparison);
   }
   return predicted;

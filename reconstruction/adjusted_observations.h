@@ -31,7 +31,10 @@ std::vector<AdjustedPlane> AdjustedPlanes(const SurveyNetwork& survey_network,
 std::vector<Correlation> HighCorrelations(const Network& network, const NetworkSolution& solution,
                                           double limit = 0.95);
 
-// "control", or what is free of position, orientation and scale and how it was fixed.
+// The columns of an unknown in words: "photo IMG_1 center x".
+std::vector<std::string> ColumnNames(const Network& network, const Unknown& unknown);
+
+// "fixed by the survey", or what is free of position, orientation and scale and how it was fixed.
 std::string DatumInWords(const Datum& datum);
 
 // Each control point as the rest of the network predicts it, from its own residuals v and their

@@ -93,6 +93,9 @@ Eigen::MatrixXd LensCorrelation(const Network& network, const NetworkSolution& s
 }
 
 // Names the columns of one unknown.
+
+}  // namespace
+
 std::vector<std::string> ColumnNames(const Network& network, const Unknown& unknown) {
   switch (unknown.kind) {
     case Unknown::Kind::kCamera: {
@@ -113,14 +116,16 @@ std::vector<std::string> ColumnNames(const Network& network, const Unknown& unkn
       const std::string point = "point " + network.points[unknown.index].name + " ";
       return {point + "x", point + "y", point + "z"};
     }
-    case Unknown::Kind::kPlane:
+    case Unknown::Kind::kPlane: {
+      const std::string plane = "plane of polygon " + network.planes[unknown.index].name + " ";
+      return {plane + "normal", plane + "normal", plane + "offset"};
+    }
     case Unknown::Kind::kDirection:
       break;
   }
-  return {};
+  const std::string direction = "direction to the " + network.directions[unknown.index].name;
+  return {direction, direction};
 }
-
-}  // namespace
 
 std::vector<AdjustedCamera> AdjustedCameras(const Network& network,
                                             const NetworkSolution& solution) {
@@ -238,40 +243,77 @@ std::vector<AdjustedPoint> AdjustedPoints(const Network& network, const NetworkS
   return points;
 }
 
+namespace {
+
+using UnitFromTangent = Eigen::Matrix<double, 3, 2, Eigen::RowMajor>;
+
+UnitFromTangent TangentsOf(const Eigen::Vector3d& unit) {
+  UnitFromTangent unit_from_tangent;
+  ceres::SphereManifold<3>().PlusJacobian(unit.data(), unit_from_tangent.data());
+  return unit_from_tangent;
+}
+
+// Of a plane's normal n after the zenith z is turned back by its own error:
+// dn - dz (z . n) + z (dz . n).
+Eigen::Matrix3d TiltCovariance(const SurveyNetwork& survey_network, const NetworkSolution& solution,
+                               int plane) {
+  const Network& network = survey_network.network;
+  const Eigen::Vector3d &n = network.planes[plane].normal,
+                        &z = network.directions[*survey_network.zenith].unit;
+  Eigen::MatrixXd by_unknowns = Eigen::MatrixXd::Zero(3, solution.columns.count);
+  by_unknowns.middleCols<2>(*solution.columns.plane[plane]) = TangentsOf(n);
+  if (const auto column = solution.columns.direction[*survey_network.zenith]) {
+    const UnitFromTangent dz = TangentsOf(z);
+    by_unknowns.middleCols<2>(*column) = z * (n.transpose() * dz) - z.dot(n) * dz;
+  }
+  return CovarianceOf(network, solution, by_unknowns);
+}
+
+AdjustedPlane Adjusted(const SurveyNetwork& survey_network, const NetworkSolution& solution,
+                       int index) {
+  const Network& network = survey_network.network;
+  const NetworkPlane& plane = network.planes[index];
+  const Eigen::Vector3d zenith = network.directions[*survey_network.zenith].unit;
+  const int column = *solution.columns.plane[index];
+  const Eigen::MatrixXd covariance = Covariance(network, solution, column, 3, column, 3);
+  const UnitFromTangent tangents = TangentsOf(plane.normal);
+  AdjustedPlane adjusted;
+  adjusted.polygon = plane.name;
+  adjusted.normal = plane.normal;
+  adjusted.centroid = plane.centroid + network.origin;
+  adjusted.offset = plane.offset;
+  adjusted.normal_covariance = tangents * covariance.topLeftCorner<2, 2>() * tangents.transpose();
+  adjusted.tilt_covariance = TiltCovariance(survey_network, solution, index);
+  adjusted.offset_sigma = std::sqrt(covariance(2, 2));
+  const double sine = plane.normal.dot(zenith);
+  if (std::abs(sine) < std::sin(M_PI / 8)) {  // a wall
+    adjusted.off_vertical = std::asin(sine);
+    adjusted.off_vertical_sigma =
+        std::sqrt(zenith.dot(adjusted.tilt_covariance * zenith) / (1 - sine * sine));
+  }
+  return adjusted;
+}
+
+}  // namespace
+
 std::vector<AdjustedPlane> AdjustedPlanes(const SurveyNetwork& survey_network,
                                           const NetworkSolution& solution) {
   const Network& network = survey_network.network;
-  std::vector<AdjustedPlane> planes(network.planes.size());
+  std::vector<AdjustedPlane> planes;
+  for (int i = 0; i < static_cast<int>(network.planes.size()); ++i) {
+    planes.push_back(Adjusted(survey_network, solution, i));
+  }
   std::vector<int> vertices(planes.size(), 0);
-  const Eigen::Vector3d zenith = network.directions[*survey_network.zenith].unit;
   for (const PlaneObservation& on_plane : network.on_planes) {
     const NetworkPlane& plane = network.planes[on_plane.plane];
     const double distance =
         plane.normal.dot(network.points[on_plane.point].position - plane.centroid) - plane.offset;
     planes[on_plane.plane].planarity_rms += distance * distance;
+    planes[on_plane.plane].vertex_sigma = on_plane.sigma;
     ++vertices[on_plane.plane];
   }
   for (size_t i = 0; i < planes.size(); ++i) {
-    const NetworkPlane& plane = network.planes[i];
-    const Eigen::MatrixXd covariance =
-        Covariance(network, solution, *solution.columns.plane[i], 3, *solution.columns.plane[i], 3);
-    Eigen::Matrix<double, 3, 2, Eigen::RowMajor> unit_from_tangent;
-    ceres::SphereManifold<3>().PlusJacobian(plane.normal.data(), unit_from_tangent.data());
-    AdjustedPlane& adjusted = planes[i];
-    adjusted.polygon = plane.name;
-    adjusted.normal = plane.normal;
-    adjusted.centroid = plane.centroid + network.origin;
-    adjusted.offset = plane.offset;
-    adjusted.normal_covariance =
-        unit_from_tangent * covariance.topLeftCorner<2, 2>() * unit_from_tangent.transpose();
-    adjusted.offset_sigma = std::sqrt(covariance(2, 2));
-    adjusted.planarity_rms = std::sqrt(adjusted.planarity_rms / vertices[i]);
-    const double sine = plane.normal.dot(zenith);
-    if (std::abs(sine) < std::sin(M_PI / 8)) {  // a wall
-      adjusted.off_vertical = std::asin(sine);
-      adjusted.off_vertical_sigma =
-          std::sqrt(zenith.dot(adjusted.normal_covariance * zenith) / (1 - sine * sine));
-    }
+    planes[i].planarity_rms = std::sqrt(planes[i].planarity_rms / vertices[i]);
   }
   return planes;
 }
@@ -290,7 +332,9 @@ std::vector<Correlation> HighCorrelations(const Network& network, const NetworkS
     const std::vector<std::string> names = ColumnNames(network, unknown);
     const bool is_tie_point =
         unknown.kind == Unknown::Kind::kPoint && network.points[unknown.index].is_tie_point;
-    if (!names.empty() && !is_tie_point) {
+    const bool is_named = unknown.kind != Unknown::Kind::kPlane &&
+                          unknown.kind != Unknown::Kind::kDirection && !is_tie_point;
+    if (is_named) {
       const Eigen::MatrixXd correlation =
           CorrelationOf(Covariance(network, solution, first, count, first, count));
       for (int i = 0; i < count; ++i) {

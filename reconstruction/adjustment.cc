@@ -15,69 +15,11 @@
 #include "reconstruction/plane.h"
 #include "reconstruction/plane_effect.h"
 #include "reconstruction/polygon_covariance.h"
+#include "reconstruction/solution_errors.h"
 #include "reconstruction/survey_diagnosis.h"
 
 namespace insitu {
 namespace {
-
-std::string NameOf(const Unknown& unknown, const Network& network) {
-  switch (unknown.kind) {
-    case Unknown::Kind::kCamera:
-      return "lens of camera '" + network.cameras[unknown.index].name + "'";
-    case Unknown::Kind::kPhoto:
-      return "photo '" + network.photos[unknown.index].name + "'";
-    case Unknown::Kind::kPoint:
-      return "point '" + network.points[unknown.index].name + "'";
-    case Unknown::Kind::kPlane:
-      return "plane of polygon '" + network.planes[unknown.index].name + "'";
-    case Unknown::Kind::kDirection:
-      break;
-  }
-  return "direction '" + network.directions[unknown.index].name + "'";
-}
-
-FilePlace PlaceOf(const Unknown& unknown, const Network& network, const Survey& survey) {
-  if (unknown.kind == Unknown::Kind::kPoint) {
-    return PlaceOfPoint(survey, network.points[unknown.index].name);
-  }
-  if (unknown.kind == Unknown::Kind::kDirection) {
-    const bool is_sun = network.directions[unknown.index].name == "sun";
-    return (is_sun ? survey.sun_pairs : survey.zenith_pairs).at(0).place;
-  }
-  for (const PolygonOutline& polygon : survey.polygons) {
-    if (unknown.kind == Unknown::Kind::kPlane &&
-        polygon.name == network.planes[unknown.index].name) {
-      return polygon.place;
-    }
-  }
-  for (const ImageObservation& mark : survey.observations) {
-    if (unknown.kind == Unknown::Kind::kPhoto && mark.photo == network.photos[unknown.index].name) {
-      return mark.place;
-    }
-  }
-  return survey.observations.empty() ? FilePlace{} : survey.observations[0].place;
-}
-
-InputError RankDefectError(const RankDefect& defect, const Network& network, const Survey& survey) {
-  constexpr size_t kShown = 8;
-  std::set<std::string> names;
-  bool is_of_lens = false;
-  for (const Unknown& unknown : defect.unknowns) {
-    names.insert(NameOf(unknown, network));
-    is_of_lens |= unknown.kind == Unknown::Kind::kCamera;
-  }
-  std::string list;
-  size_t shown = 0;
-  for (const std::string& name : names) {
-    if (shown++ < kShown) list += (list.empty() ? "" : ", ") + name;
-  }
-  if (names.size() > kShown) list += " and " + std::to_string(names.size() - kShown) + " more";
-  const FilePlace place = PlaceOf(defect.unknowns.front(), network, survey);
-  return InputError(place.path, place.line,
-                    "the observations do not determine " + list +
-                        "; expected more marks, control points or polygons that hold them" +
-                        (is_of_lens ? ", or a lens model of fewer parameters" : ""));
-}
 
 void CompareWithSurvey(const Survey& survey, Adjustment* adjustment) {
   std::map<std::string, const AdjustedPoint*> adjusted;
@@ -238,6 +180,7 @@ void WarnOfMisnamedControl(const Survey& survey, Adjustment* adjustment) {
 
 void AddStatistics(const NetworkSolution& solution, const AdjustmentOptions& options,
                    Adjustment* adjustment) {
+  adjustment->is_converged = solution.is_converged;
   adjustment->iterations = solution.iterations;
   adjustment->observations = solution.observations;
   adjustment->unknowns = solution.unknowns;
@@ -281,7 +224,6 @@ std::map<std::string, int> CountUnknowns(const Network& network, const NetworkCo
 
 void Warn(const NetworkSolution& solution, const SurveyNetwork& survey_network,
           Adjustment* adjustment) {
-  if (!solution.is_converged) adjustment->warnings.push_back("the adjustment has not converged");
   if (survey_network.network.directions[*survey_network.zenith].is_fixed) {
     adjustment->warnings.push_back("no zenith pairs: the z axis was taken for the zenith");
   }
@@ -291,11 +233,10 @@ void Warn(const NetworkSolution& solution, const SurveyNetwork& survey_network,
 }
 
 NetworkSolution Solve(const Survey& survey, Network* network) {
-  const FilePlace place = survey.observations.empty() ? FilePlace{} : survey.observations[0].place;
   try {
     return SolveNetwork(network);
-  } catch (const NoSolution&) {
-    throw InputError(place.path, "the adjustment fails, expected marks that fit their points");
+  } catch (const NoSolution& failure) {
+    throw NoSolutionError(failure, *network, survey);
   } catch (const RankDefect& defect) {
     throw RankDefectError(defect, *network, survey);
   }

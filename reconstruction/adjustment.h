@@ -90,8 +90,10 @@ struct AdjustedPlane {
   Eigen::Vector3d centroid;           // [m], world; offset counts from it
   double offset = 0;                  // [m]
   Eigen::Matrix3d normal_covariance;  // rank 2
-  double offset_sigma = 0;            // [m]
-  double planarity_rms = 0;           // [m], of its vertices
+  Eigen::Matrix3d tilt_covariance;  // of the normal against the zenith, whose error counts; rank 2
+  double offset_sigma = 0;          // [m]
+  double vertex_sigma = 0;          // [m], a priori, of a vertex's distance from it
+  double planarity_rms = 0;         // [m], of its vertices
   std::optional<double> off_vertical,
       off_vertical_sigma;  // [rad], angle of the plane to the zenith
 };
@@ -149,8 +151,9 @@ struct Adjustment {
   SceneGeometry scene;
   double sigma0 = 0;  // a posteriori, a priori 1
   int observations = 0, unknowns = 0, datum_defect = 0, redundancy = 0, iterations = 0;
+  bool is_converged = true;
   std::map<std::string, int> unknowns_of;  // their number by what they belong to: "points", ...
-  std::string datum;        // in words: "control", or what is free and how it was fixed
+  std::string datum;        // in words: "fixed by the survey", or what is free and how it was fixed
   double chi_square_p = 0;  // two-sided p of the global test
   GlobalTest global_test;
   double critical_w = 3.29;  // of each w-test, at AdjustmentOptions::significance

@@ -8,6 +8,8 @@
 #include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <variant>
 
 #include "calibration/error.h"
 
@@ -87,20 +89,7 @@ Eigen::MatrixXd SimilarityMotions(const Network& network, const NetworkColumns& 
   return g;
 }
 
-bool IsReferredTo(const Network& network, int direction) {
-  const auto refers = [&](const auto& observation) { return observation.direction == direction; };
-  const auto is_unit = [&](const UnitReference& reference) {
-    const auto* unit = std::get_if<DirectionUnit>(&reference);
-    return unit && unit->direction == direction;
-  };
-  return std::any_of(network.along_directions.begin(), network.along_directions.end(), refers) ||
-         std::any_of(network.heights.begin(), network.heights.end(), refers) ||
-         std::any_of(network.angles.begin(), network.angles.end(), [&](const auto& angle) {
-           return is_unit(angle.first) || is_unit(angle.second);
-         });
-}
-
-// How what is fixed would move: three rows a fixed point, centre or direction.
+// How what is fixed would move: three rows a fixed point or centre.
 std::vector<PointMotions> MotionsOfFixed(const Network& network) {
   const Extent extent = ExtentOf(network);
   std::vector<PointMotions> motions;
@@ -110,12 +99,26 @@ std::vector<PointMotions> MotionsOfFixed(const Network& network) {
   for (const NetworkPhoto& photo : network.photos) {
     if (photo.is_center_fixed) motions.push_back(MotionsOf(extent, photo.center) / extent.radius);
   }
-  for (int i = 0; i < static_cast<int>(network.directions.size()); ++i) {
-    if (!network.directions[i].is_fixed || !IsReferredTo(network, i)) continue;
-    motions.emplace_back(PointMotions::Zero());
-    motions.back().middleCols<3>(3) = -CrossMatrix(network.directions[i].unit);
-  }
   return motions;
+}
+
+// The fixed direction that an observation refers to.
+std::optional<Eigen::Vector3d> FixedUnit(const Network& network, const ObservationRow& row) {
+  const auto unit_of = [&](int direction) -> std::optional<Eigen::Vector3d> {
+    if (!network.directions[direction].is_fixed) return std::nullopt;
+    return network.directions[direction].unit;
+  };
+  if (row.kind == ObservationKind::kDirection) {
+    return unit_of(network.along_directions[row.index].direction);
+  }
+  if (row.kind == ObservationKind::kHeight) return unit_of(network.heights[row.index].direction);
+  if (row.kind != ObservationKind::kAngle) return std::nullopt;
+  const AngleObservation& angle = network.angles[row.index];
+  for (const UnitReference& reference : {angle.first, angle.second}) {
+    const auto* unit = std::get_if<DirectionUnit>(&reference);
+    if (unit && unit_of(unit->direction)) return unit_of(unit->direction);
+  }
+  return std::nullopt;
 }
 
 bool HoldsDatum(const Network& network, const ObservationRow& row) {
@@ -140,18 +143,50 @@ Eigen::MatrixXd HeldMotions(const Network& network, const std::vector<Observatio
     for (int axis = 0; axis < 3; ++axis) held.emplace_back(motions.row(axis));
   }
   for (int row = 0; row < static_cast<int>(rows.size()); ++row) {
-    if (!HoldsDatum(network, rows[row])) continue;
+    const bool holds_datum = HoldsDatum(network, rows[row]);
+    const std::optional<Eigen::Vector3d> unit = FixedUnit(network, rows[row]);
+    if (!holds_datum && !unit) continue;
     Eigen::Matrix<double, 1, kMotions> seen = Eigen::Matrix<double, 1, kMotions>::Zero();
     double magnitude = 0;
     for (Jacobian::InnerIterator entry(jacobian, row); entry; ++entry) {
       seen += entry.value() * g.row(entry.col());
       magnitude += std::abs(entry.value()) * g.row(entry.col()).norm();
     }
+    // What is observed as 0 sees neither shift nor scale but by its misclosure, and nothing sees a
+    // turn about the fixed direction itself.
+    if (!holds_datum) seen.head<3>().setZero(), seen[6] = 0;
+    if (unit) seen.segment<3>(3) -= seen.segment<3>(3).dot(*unit) * unit->transpose();
     if (magnitude > 0) held.emplace_back(seen / magnitude);
   }
   Eigen::MatrixXd matrix(static_cast<Eigen::Index>(held.size()), kMotions);
   for (size_t i = 0; i < held.size(); ++i) matrix.row(static_cast<Eigen::Index>(i)) = held[i];
   return matrix;
+}
+
+// Seven small amounts as a motion: x -> middle + (1 + s) R (x - middle) + radius t.
+void Move(const Extent& extent, const Eigen::Matrix<double, kMotions, 1>& amounts,
+          Network* network) {
+  const Eigen::Vector3d shift = extent.radius * amounts.head<3>(), turn = amounts.segment<3>(3);
+  const double factor = 1 + amounts[6];
+  const Eigen::Quaterniond rotation(
+      Eigen::AngleAxisd(turn.norm(), turn.norm() > 0 ? Eigen::Vector3d(turn.normalized())
+                                                     : Eigen::Vector3d::UnitX()));
+  const auto moved = [&](const Eigen::Vector3d& x) -> Eigen::Vector3d {
+    return extent.middle + factor * (rotation * (x - extent.middle)) + shift;
+  };
+  for (NetworkPhoto& photo : network->photos) {
+    photo.center = moved(photo.center);
+    photo.cam_from_local = (photo.cam_from_local * rotation.conjugate()).normalized();
+  }
+  for (NetworkPoint& point : network->points) point.position = moved(point.position);
+  for (NetworkPlane& plane : network->planes) {
+    const Eigen::Vector3d foot = moved(plane.centroid + plane.offset * plane.normal);
+    plane.normal = (rotation * plane.normal).normalized();
+    plane.offset = plane.normal.dot(foot - plane.centroid);
+  }
+  for (NetworkDirection& direction : network->directions) {
+    if (!direction.is_fixed) direction.unit = (rotation * direction.unit).normalized();
+  }
 }
 
 bool IsPointColumn(const NetworkColumns& columns, int column) {
@@ -194,44 +229,13 @@ std::vector<int> DatumPins(const Network& network, const NetworkColumns& columns
   return pins;
 }
 
-Eigen::MatrixXd InnerConstraints(const Network&, const NetworkColumns& columns,
-                                 const Datum& datum) {
+Eigen::MatrixXd InnerConstraints(const NetworkColumns& columns, const Datum& datum) {
   Eigen::MatrixXd b = datum.motions;
   for (int column = 0; column < columns.count; ++column) {
     if (!IsPointColumn(columns, column)) b.row(column).setZero();
   }
   return b;
 }
-
-namespace {
-
-// Seven small amounts as a motion: x -> middle + (1 + s) R (x - middle) + radius t.
-void Move(const Extent& extent, const Eigen::Matrix<double, kMotions, 1>& amounts,
-          Network* network) {
-  const Eigen::Vector3d shift = extent.radius * amounts.head<3>(), turn = amounts.segment<3>(3);
-  const double factor = 1 + amounts[6];
-  const Eigen::Quaterniond rotation(
-      Eigen::AngleAxisd(turn.norm(), turn.norm() > 0 ? Eigen::Vector3d(turn.normalized())
-                                                     : Eigen::Vector3d::UnitX()));
-  const auto moved = [&](const Eigen::Vector3d& x) -> Eigen::Vector3d {
-    return extent.middle + factor * (rotation * (x - extent.middle)) + shift;
-  };
-  for (NetworkPhoto& photo : network->photos) {
-    photo.center = moved(photo.center);
-    photo.cam_from_local = (photo.cam_from_local * rotation.conjugate()).normalized();
-  }
-  for (NetworkPoint& point : network->points) point.position = moved(point.position);
-  for (NetworkPlane& plane : network->planes) {
-    const Eigen::Vector3d foot = moved(plane.centroid + plane.offset * plane.normal);
-    plane.normal = (rotation * plane.normal).normalized();
-    plane.offset = plane.normal.dot(foot - plane.centroid);
-  }
-  for (NetworkDirection& direction : network->directions) {
-    if (!direction.is_fixed) direction.unit = (rotation * direction.unit).normalized();
-  }
-}
-
-}  // namespace
 
 void MoveToStart(const NetworkColumns& columns, const std::vector<Eigen::Vector3d>& start_points,
                  Network* network, Datum* datum) {
@@ -242,7 +246,7 @@ void MoveToStart(const NetworkColumns& columns, const std::vector<Eigen::Vector3
     const Eigen::MatrixXd g = SimilarityMotions(*network, columns);
     // The free motions are combinations of the seven; these are their amounts.
     const Eigen::MatrixXd amounts = g.colPivHouseholderQr().solve(datum->motions);
-    const Eigen::MatrixXd b = InnerConstraints(*network, columns, *datum);
+    const Eigen::MatrixXd b = InnerConstraints(columns, *datum);
     Eigen::VectorXd away = Eigen::VectorXd::Zero(columns.count);
     for (size_t i = 0; i < network->points.size(); ++i) {
       if (!columns.point[i]) continue;

@@ -10,7 +10,8 @@
 namespace insitu {
 
 // The free motions at the network's present values: those that no surveyed coordinate, distance or
-// height, nothing fixed holds. Marks, planes and directions are taken not to see them. `rows` are
+// height holds, nothing fixed, nothing observed against a fixed direction. Marks, planes and
+// adjusted directions are taken not to see them. `rows` are
 // those of the Jacobian.
 Datum FindDatum(const Network& network, const NetworkColumns& columns,
                 const std::vector<ObservationRow>& rows, const Jacobian& jacobian);
@@ -21,8 +22,7 @@ std::vector<int> DatumPins(const Network& network, const NetworkColumns& columns
                            const Datum& datum);
 
 // B of the inner constraints B^T x = 0 over all points. [Meissl 1965; Granshaw 1980]
-Eigen::MatrixXd InnerConstraints(const Network& network, const NetworkColumns& columns,
-                                 const Datum& datum);
+Eigen::MatrixXd InnerConstraints(const NetworkColumns& columns, const Datum& datum);
 
 // Moves the whole network along the datum's motions so that its points lie as near as possible to
 // `start_points` (as network->points, local).

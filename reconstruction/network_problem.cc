@@ -345,6 +345,20 @@ ceres::Solver::Summary NetworkProblem::Solve(const SolveOptions& options) {
   return summary;
 }
 
+void NetworkProblem::ThrowNoValue() const {
+  size_t block = 0;
+  for (const ObservationRow& row : rows_) {
+    if (row.component != 0) continue;
+    const ceres::ResidualBlockId id = residual_blocks_[block++];
+    std::vector<double> residuals(
+        static_cast<size_t>(problem_.GetCostFunctionForResidualBlock(id)->num_residuals()));
+    if (!problem_.EvaluateResidualBlock(id, false, nullptr, residuals.data(), nullptr)) {
+      throw NoSolution("an observation has no value at the start values", row);
+    }
+  }
+  throw NoSolution("an observation has no derivative at the start values");
+}
+
 NetworkProblem::Linearization NetworkProblem::Linearize() {
   Load();
   ceres::Problem::EvaluateOptions options;
@@ -352,7 +366,7 @@ NetworkProblem::Linearization NetworkProblem::Linearize() {
   options.residual_blocks = residual_blocks_;
   std::vector<double> residuals;
   ceres::CRSMatrix crs;
-  INSITU_CHECK(problem_.Evaluate(options, nullptr, &residuals, nullptr, &crs));
+  if (!problem_.Evaluate(options, nullptr, &residuals, nullptr, &crs)) ThrowNoValue();
   Linearization result{
       Eigen::Map<Eigen::VectorXd>(residuals.data(), static_cast<Eigen::Index>(residuals.size())),
       Eigen::Map<const Jacobian>(crs.num_rows, crs.num_cols,

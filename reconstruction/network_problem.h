@@ -38,7 +38,7 @@ class NetworkProblem {
     Eigen::VectorXd residuals;
     Jacobian jacobian;
   };
-  Linearization Linearize();
+  Linearization Linearize();  // throws NoSolution: a point behind its camera
 
  private:
   void AddUnknowns();
@@ -65,8 +65,9 @@ class NetworkProblem {
   double* Offset(int plane) { return Normal(plane) + 3; }
   double* Unit(int direction) { return &parameters_[first_direction_ + 3 * direction]; }
   double* Unit(const UnitReference& reference);
-  void Load();   // the network's values into the parameters
-  void Store();  // and back
+  [[noreturn]] void ThrowNoValue() const;  // names the observation that cannot be evaluated
+  void Load();                             // the network's values into the parameters
+  void Store();                            // and back
 
   Network& network_;
   ceres::EigenQuaternionManifold quaternion_manifold_;

@@ -74,6 +74,7 @@ bool MarkCost::Evaluate(double const* const* parameters, double* residuals,
       Eigen::Vector3d(parameters[2]) - Eigen::Vector3d(parameters[1]);
   const Eigen::Vector3d point_in_cam = cam_from_local * point_from_center;
   const double* lens_parameters = held_parameters_ ? held_parameters_->data() : parameters[3];
+  if (!(lens_parameters[0] > 0)) return false;  // a step too far, not a lens
 
   Eigen::Matrix<double, 2, 3> by_point;
   Eigen::Matrix<double, 2, Eigen::Dynamic, Eigen::RowMajor> by_lens;
@@ -122,6 +123,7 @@ EdgeCost::EdgeCost(const Camera& camera, const std::vector<double>* held_paramet
 bool EdgeCost::Evaluate(double const* const* parameters, double* residuals,
                         double** jacobians) const {
   const double* lens = held_parameters_ ? held_parameters_->data() : parameters[4];
+  if (!(lens[0] > 0 && lens[1] > 0)) return false;  // a step too far, not a lens
   const auto lens_size = static_cast<Eigen::Index>(camera_.intrinsics().size());
   const Camera camera(camera_.lens_model(), std::vector<double>(lens, lens + lens_size),
                       camera_.width(), camera_.height());

@@ -72,7 +72,7 @@ UncertainValue OffLevel(const AdjustedPlane& plane, const Eigen::Vector3d& zenit
   const Eigen::Vector3d across = plane.normal.cross(zenith);
   const double sine = across.norm(), cosine = std::abs(plane.normal.dot(zenith));
   // Towards the zenith, or where that has no direction the largest sigma of any.
-  const Eigen::Matrix3d& covariance = plane.normal_covariance;
+  const Eigen::Matrix3d& covariance = plane.tilt_covariance;
   const Eigen::Vector3d towards = plane.normal.cross(across).normalized();
   const double variance = sine > 1e-9 ? towards.dot(covariance * towards) : covariance.trace();
   return {std::atan2(sine, cosine), std::sqrt(std::max(0.0, variance))};

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <iostream>
 
+#include "calibration/json_file.h"
 #include "calibration/program.h"
 #include "reconstruction/colmap_export.h"
 #include "reconstruction/reconstruct_site.h"
@@ -44,6 +45,9 @@ int main(int argc, char** argv) {
     if (!colmap_model.empty()) {
       insitu::WriteColmapText(colmap_model, insitu::ColmapFromAdjustment(adjustment));
     }
-    std::cout << adjustment.BriefReport();
+    std::cout << "verdict: "
+              << insitu::ReadJson(site.residual_report())["verdict"]["status"].asString() << " ("
+              << site.residual_page().string() << ")\n"
+              << adjustment.BriefReport();
   });
 }

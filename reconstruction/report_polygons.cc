@@ -54,6 +54,7 @@ Json::Value Vertices(const PolygonOutline& outline, const PlaneRows& rows, doubl
 
 Json::Value PlaneReport(const AdjustedPlane& plane, const Direction& zenith) {
   Json::Value json;
+  json["plane_sigma_m"] = plane.vertex_sigma;
   json["normal_covariance"] = ToJson(Eigen::MatrixXd(plane.normal_covariance));
   json["centroid"] = ToJson(Eigen::VectorXd(plane.centroid));
   json["offset_m"] = plane.offset;
@@ -112,8 +113,7 @@ Json::Value DirectionReport(const Direction& direction, size_t pairs) {
 
 }  // namespace
 
-Json::Value PolygonsSection(const Adjustment& adjustment, const Survey& survey,
-                            const AdjustmentOptions& options) {
+Json::Value PolygonsSection(const Adjustment& adjustment, const Survey& survey) {
   PlaneRows rows;
   for (const ObservationResidual& row : adjustment.residuals) {
     if (row.group == "plane") rows[row.subject] = &row;
@@ -131,7 +131,6 @@ Json::Value PolygonsSection(const Adjustment& adjustment, const Survey& survey,
     if (const AdjustedPlane* plane = FindPlane(adjustment, outline.name)) {
       Merge(PlaneReport(*plane, adjustment.scene.zenith), &polygon);
     }
-    polygon["plane_sigma_m"] = options.plane_sigma;
     json.append(polygon);
   }
   return json;

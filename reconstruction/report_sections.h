@@ -27,8 +27,7 @@ Json::Value TiePointsSection(const Adjustment& adjustment);
 Json::Value ComparisonSection(const std::vector<PointComparison>& comparisons);
 
 // report_polygons.cc
-Json::Value PolygonsSection(const Adjustment& adjustment, const Survey& survey,
-                            const AdjustmentOptions& options);
+Json::Value PolygonsSection(const Adjustment& adjustment, const Survey& survey);
 Json::Value AdjoiningSection(const Adjustment& adjustment, const Survey& survey);
 Json::Value PlaneEffectSection(const PlaneEffect& effect);
 Json::Value DirectionsSection(const Adjustment& adjustment, const Survey& survey);

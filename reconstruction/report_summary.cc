@@ -29,6 +29,7 @@ Json::Value Options(const AdjustmentOptions& options) {
 
 Json::Value TestReport(const Adjustment& adjustment) {
   Json::Value json;
+  if (adjustment.redundancy == 0) return json;
   json["statistic"] = adjustment.global_test.statistic;
   json["low"] = adjustment.global_test.low;
   json["high"] = adjustment.global_test.high;

@@ -60,7 +60,7 @@ Json::Value ResidualReport(const Adjustment& adjustment, const Survey& survey,
   report["left_out"] = ComparisonSection(adjustment.left_out);
   report["points"] = PointsSection(adjustment, marks);
   report["tie_points"] = TiePointsSection(adjustment);
-  report["polygons"] = PolygonsSection(adjustment, survey, context.options);
+  report["polygons"] = PolygonsSection(adjustment, survey);
   report["plane_effect"] = PlaneEffectSection(adjustment.plane_effect);
   report["adjoining_polygons"] = AdjoiningSection(adjustment, survey);
   report["directions"] = DirectionsSection(adjustment, survey);

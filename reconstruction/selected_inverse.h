@@ -16,7 +16,8 @@ namespace insitu {
 // matrix", PICA 1973; Erisman & Tinney, CACM 18 (1975). As many operations as the factor.
 class SelectedInverse {
  public:
-  // nullopt on a rank defect: a pivot of the matrix with unit diagonal below 1e-12.
+  // nullopt on a rank defect or an element that is not finite: a pivot of the matrix with unit
+  // diagonal below 1e-12.
   static std::optional<SelectedInverse> Of(const Eigen::SparseMatrix<double>& normal);
 
   SelectedInverse() = default;

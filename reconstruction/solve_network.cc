@@ -20,14 +20,20 @@ std::vector<Eigen::Vector3d> Positions(const Network& network) {
   return positions;
 }
 
-std::vector<Unknown> UnknownsOf(const NetworkColumns& columns, const std::vector<int>& list) {
-  std::vector<Unknown> unknowns;
-  std::set<std::pair<Unknown::Kind, int>> named;
+std::vector<RankDefect::Column> ColumnsOf(const NetworkColumns& columns,
+                                          const std::vector<int>& list) {
+  std::vector<RankDefect::Column> named;
   for (const int column : list) {
     const Unknown& unknown = columns.unknowns[column];
-    if (named.insert({unknown.kind, unknown.index}).second) unknowns.push_back(unknown);
+    int component = 0;
+    while (component < column) {
+      const Unknown& before = columns.unknowns[column - component - 1];
+      if (before.kind != unknown.kind || before.index != unknown.index) break;
+      ++component;
+    }
+    named.push_back({unknown, component});
   }
-  return unknowns;
+  return named;
 }
 
 // Without it the steps wander, and pseudo-observations in metres would shrink a network whose scale
@@ -54,10 +60,10 @@ SelectedInverse CofactorOf(const Network& network, const NetworkSolution& soluti
     }
   }
   std::optional<SelectedInverse> cofactor = SelectedInverse::Of(normal);
-  if (!cofactor) throw RankDefect(UnknownsOf(solution.columns, UndeterminedColumns(normal)));
+  if (!cofactor) throw RankDefect(ColumnsOf(solution.columns, UndeterminedColumns(normal)));
   if (is_free) {
     cofactor->ChangeDatum(solution.datum.motions,
-                          InnerConstraints(network, solution.columns, solution.datum));
+                          InnerConstraints(solution.columns, solution.datum));
   }
   return *std::move(cofactor);
 }
@@ -89,9 +95,9 @@ std::vector<Eigen::MatrixXd> LensSensitivity(const Network& network,
 
 }  // namespace
 
-RankDefect::RankDefect(std::vector<Unknown> unknowns_in)
+RankDefect::RankDefect(std::vector<Column> columns_in)
     : std::runtime_error("the observations do not determine every unknown"),
-      unknowns(std::move(unknowns_in)) {}
+      columns(std::move(columns_in)) {}
 
 NetworkSolution SolveNetwork(Network* network, const SolveOptions& options) {
   const std::vector<Eigen::Vector3d> start = Positions(*network);
@@ -143,6 +149,18 @@ Eigen::MatrixXd Covariance(const Network& network, const NetworkSolution& soluti
     if (by_lens.size() == 0) continue;
     covariance += by_lens.middleRows(row, rows) * network.cameras[i].calibration_covariance *
                   by_lens.middleRows(column, columns).transpose();
+  }
+  return covariance;
+}
+
+Eigen::MatrixXd CovarianceOf(const Network& network, const NetworkSolution& solution,
+                             const Eigen::MatrixXd& by_unknowns) {
+  Eigen::MatrixXd covariance = solution.sigma0 * solution.sigma0 * by_unknowns *
+                               solution.cofactor.Times(by_unknowns.transpose());
+  for (size_t i = 0; i < network.cameras.size(); ++i) {
+    if (solution.lens_sensitivity[i].size() == 0) continue;
+    const Eigen::MatrixXd by_lens = by_unknowns * solution.lens_sensitivity[i];
+    covariance += by_lens * network.cameras[i].calibration_covariance * by_lens.transpose();
   }
   return covariance;
 }

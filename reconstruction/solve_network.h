@@ -81,13 +81,20 @@ struct NetworkSolution {
 // The observations do not determine these.
 class RankDefect : public std::runtime_error {
  public:
-  explicit RankDefect(std::vector<Unknown> unknowns_in);
-  std::vector<Unknown> unknowns;  // each once
+  struct Column {
+    Unknown unknown;
+    int component = 0;  // among the unknown's columns
+  };
+  explicit RankDefect(std::vector<Column> columns_in);
+  std::vector<Column> columns;  // at least one
 };
 
 // The solver could not start or diverges: a point behind its camera, no finite value.
 class NoSolution : public std::runtime_error {
-  using std::runtime_error::runtime_error;
+ public:
+  explicit NoSolution(const std::string& what, std::optional<ObservationRow> row_in = {})
+      : std::runtime_error(what), row(row_in) {}
+  std::optional<ObservationRow> row;  // the observation that has no value
 };
 
 struct SolveOptions {
@@ -103,5 +110,9 @@ NetworkSolution SolveNetwork(Network* network, const SolveOptions& options = {})
 // lens parameters add. Both must occur together in some observation, or be of one unknown.
 Eigen::MatrixXd Covariance(const Network& network, const NetworkSolution& solution, int row,
                            int rows, int column, int columns);
+
+// The same of linear functions of any unknowns: one a row, by column.
+Eigen::MatrixXd CovarianceOf(const Network& network, const NetworkSolution& solution,
+                             const Eigen::MatrixXd& by_unknowns);
 
 }  // namespace insitu

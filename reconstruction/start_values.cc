@@ -33,7 +33,13 @@ class StartFinder {
       index_of_photo_[photos[i]] = i;
     }
     is_posed_.assign(photos.size(), false);
-    for (const ImageObservation& mark : survey.observations) RequireOnPhotograph(mark);
+    for (const ImageObservation& mark : survey.observations) {
+      RequireOnPhotograph("point '" + mark.point + "'", mark.photo, mark.pixel, mark.place);
+    }
+    for (const EdgeMark& mark : survey.edges) {
+      RequireOnPhotograph("edge '" + mark.from + "' to '" + mark.to + "'", mark.photo, mark.pixel,
+                          mark.place);
+    }
   }
 
   StartValues Find() {
@@ -59,11 +65,12 @@ class StartFinder {
   }
 
  private:
-  void RequireOnPhotograph(const ImageObservation& mark) const {
-    const Camera& camera = result_.cameras[index_of_photo_.at(mark.photo)].camera;
-    if (camera.Sees(mark.pixel)) return;
-    throw InputError(mark.place.path, mark.place.line,
-                     "point '" + mark.point + "' is marked outside photo '" + mark.photo +
+  void RequireOnPhotograph(const std::string& what, const std::string& photo,
+                           const Eigen::Vector2d& pixel, const FilePlace& place) const {
+    const Camera& camera = result_.cameras[index_of_photo_.at(photo)].camera;
+    if (camera.Sees(pixel)) return;
+    throw InputError(place.path, place.line,
+                     what + " is marked outside photo '" + photo +
                          "', expected a position within " + std::to_string(camera.width()) + "x" +
                          std::to_string(camera.height()) + " pixels");
   }
@@ -131,6 +138,7 @@ class StartFinder {
   void TakeTiePoints() {
     const TiePoints& source = aligned_ ? *aligned_ : *survey_.tie_points;
     result_.tie_point_sigma_px = source.sigma_px;
+    size_t far = 0;
     for (size_t i = 0; i < source.points.size(); ++i) {
       char name[32];
       std::snprintf(name, sizeof(name), "tie_%06zu", i + 1);
@@ -143,11 +151,17 @@ class StartFinder {
       }
       if (!aligned_) {
         const auto position = Intersect(sights, kStrongAngle);
-        if (!position) continue;
+        if (!position) {
+          ++far;
+          continue;
+        }
         point.position = *position;
       }
       result_.tie_points.push_back(std::move(point));
     }
+    if (far == 0) return;
+    result_.warnings.push_back(std::to_string(far) + " of " + std::to_string(source.points.size()) +
+                               " tie points are left out: their rays hardly meet");
   }
 
   void SetKnown(const std::string& name, const StartPoint& point) {

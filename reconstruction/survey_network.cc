@@ -12,6 +12,7 @@ namespace insitu {
 namespace {
 
 constexpr double kOriginStep = 10;        // [m]
+constexpr double kLeastLength = 1e-6;     // [m]
 constexpr double kHardPlaneSigma = 1e-5;  // [m]
 
 // A round point near the control, or near the points where there is none.
@@ -159,6 +160,7 @@ class Builder {
       network_.marks.push_back({Photo(mark.photo), Point(mark.point), mark.pixel, mark.sigma_px});
     }
     for (const EdgeMark& edge : survey_.edges) {
+      RequireApart(edge.from, edge.to, edge.place);
       network_.edges.push_back(
           {Photo(edge.photo), Point(edge.from), Point(edge.to), edge.pixel, edge.sigma_px});
     }
@@ -196,6 +198,14 @@ class Builder {
     }
   }
 
+  // Between points in one place there is no direction.
+  void RequireApart(const std::string& from, const std::string& to, const FilePlace& place) const {
+    if (Step({from, to, place}).norm() > kLeastLength) return;
+    throw InputError(
+        place.path, place.line,
+        "'" + from + "' and '" + to + "' lie in the same place, expected two distinct points");
+  }
+
   std::vector<UnitReference> UnitsOf(const GeometricConstraint& constraint) const {
     std::vector<UnitReference> units;
     for (const std::string& polygon : constraint.polygons) {
@@ -209,6 +219,10 @@ class Builder {
 
   void AddConstraint(const GeometricConstraint& constraint) {
     using Kind = GeometricConstraint::Kind;
+    for (size_t i = 0; i + 1 < constraint.points.size() && constraint.kind != Kind::kHeight;
+         i += 2) {
+      RequireApart(constraint.points[i], constraint.points[i + 1], constraint.place);
+    }
     if (constraint.kind == Kind::kDistance) {
       network_.distances.push_back({Point(constraint.points[0]), Point(constraint.points[1]),
                                     constraint.value, constraint.sigma});

@@ -10,6 +10,8 @@ namespace {
 
 constexpr double kInseparable = 0.99;  // correlation of two unknowns of a photo or camera
 constexpr double kCheckLimit = 1.5;    // root mean square over combined sigma; twice that fails
+// A sigma0 so near to 1 is no fault: with tens of thousands of tie points any test would find it.
+constexpr double kSigma0Band = 0.05;
 
 void JudgeGlobalTest(const Adjustment& adjustment, std::vector<Objection>* objections) {
   const GlobalTest& test = adjustment.global_test;
@@ -22,7 +24,9 @@ void JudgeGlobalTest(const Adjustment& adjustment, std::vector<Objection>* objec
                                 Number("%.2f", adjustment.sigma0) + ", p " +
                                 Number("%.4f", adjustment.chi_square_p);
     objections->push_back(
-        {adjustment.sigma0 > 2 ? Severity::kFail : Severity::kReview,
+        {adjustment.sigma0 > 2                           ? Severity::kFail
+         : std::abs(adjustment.sigma0 - 1) < kSigma0Band ? Severity::kNote
+                                                         : Severity::kReview,
          figures + (is_worse ? "; the observations are worse than their sigmas say, or one is wrong"
                              : "; the observations are better than their sigmas say"),
          is_worse
@@ -32,21 +36,47 @@ void JudgeGlobalTest(const Adjustment& adjustment, std::vector<Objection>* objec
   }
 }
 
+struct FlagCount {
+  int flagged = 0, tested = 0;
+};
+
+FlagCount CountFlagged(const Adjustment& adjustment, bool of_tie_points) {
+  FlagCount count;
+  for (const ObservationResidual& row : adjustment.residuals) {
+    if (row.is_tie_point != of_tie_points || !row.w) continue;
+    ++count.tested;
+    count.flagged += std::abs(*row.w) > adjustment.critical_w;
+  }
+  return count;
+}
+
+// What the surveyor measured, one observation at a time.
 void JudgeObservations(const Adjustment& adjustment, std::vector<Objection>* objections) {
   const std::optional<ObservationResidual> suspect = Suspect(adjustment);
-  if (!suspect) return;
-  const auto flagged = std::count_if(
-      adjustment.residuals.begin(), adjustment.residuals.end(),
-      [&](const auto& row) { return std::abs(row.w.value_or(0)) > adjustment.critical_w; });
-  const std::string number = std::to_string(flagged);
-  const bool is_surely_wrong =
-      !suspect->is_tie_point && std::abs(*suspect->w) > 2 * adjustment.critical_w;
-  objections->push_back({is_surely_wrong ? Severity::kFail : Severity::kReview,
-                         number + (flagged == 1 ? " observation has" : " observations have") +
-                             " a test value over " + Number("%.2f", adjustment.critical_w) +
-                             "; the suspect is " + Describe(*suspect) + ", w " +
-                             Number("%.1f", *suspect->w),
-                         Advice(*suspect) + "; then adjust again before judging the next one"});
+  if (!suspect || suspect->is_tie_point) return;
+  const int flagged = CountFlagged(adjustment, false).flagged;
+  const bool is_surely_wrong = std::abs(*suspect->w) > 2 * adjustment.critical_w;
+  objections->push_back(
+      {is_surely_wrong ? Severity::kFail : Severity::kReview,
+       std::to_string(flagged) + (flagged == 1 ? " observation has" : " observations have") +
+           " a test value over " + Number("%.2f", adjustment.critical_w) + "; the suspect is " +
+           Describe(*suspect) + ", w " + Number("%.1f", *suspect->w),
+       Advice(*suspect) + "; then adjust again before judging the next one"});
+}
+
+// Tie points were chosen by a program out of thousands; only their share counts.
+void JudgeTiePoints(const Adjustment& adjustment, std::vector<Objection>* objections) {
+  const FlagCount count = CountFlagged(adjustment, true);
+  const double by_chance = count.tested * std::erfc(adjustment.critical_w / std::sqrt(2.0));
+  if (count.flagged <= by_chance + 3 * std::sqrt(by_chance) + 1) return;
+  objections->push_back(
+      {Severity::kReview,
+       std::to_string(count.flagged) + " of " + std::to_string(count.tested) +
+           " coordinates of tie points have a test value over " +
+           Number("%.2f", adjustment.critical_w) + ", where chance explains " +
+           Number("%.0f", by_chance),
+       "run insitu-tie-points anew with fewer points (--points), or mark points by hand where "
+       "image matching errs: foliage, water, repeated windows"});
 }
 
 void JudgeControl(const Adjustment& adjustment, std::vector<Objection>* objections) {
@@ -211,20 +241,28 @@ std::string Listing(const std::string& what, const std::vector<std::string>& nam
 }
 
 std::optional<ObservationResidual> Suspect(const Adjustment& adjustment) {
-  const ObservationResidual* suspect = nullptr;
-  double largest = adjustment.critical_w;
-  for (const ObservationResidual& row : adjustment.residuals) {
-    if (std::abs(row.w.value_or(0)) <= largest) continue;
-    largest = std::abs(*row.w);
-    suspect = &row;
+  for (const bool of_tie_points : {false, true}) {
+    const ObservationResidual* suspect = nullptr;
+    double largest = adjustment.critical_w;
+    for (const ObservationResidual& row : adjustment.residuals) {
+      if (row.is_tie_point != of_tie_points || std::abs(row.w.value_or(0)) <= largest) continue;
+      largest = std::abs(*row.w);
+      suspect = &row;
+    }
+    if (suspect) return *suspect;
   }
-  return suspect ? std::optional(*suspect) : std::nullopt;
+  return std::nullopt;
 }
 
 std::vector<Objection> Judge(const Adjustment& adjustment, const ReportContext& context) {
   std::vector<Objection> objections;
   JudgeGlobalTest(adjustment, &objections);
+  if (!adjustment.is_converged) {
+    objections.push_back({Severity::kFail, "the adjustment has not converged: no figure holds",
+                          "look for gross errors: names exchanged, units, a photo's start value"});
+  }
   JudgeObservations(adjustment, &objections);
+  JudgeTiePoints(adjustment, &objections);
   JudgeAccuracy(adjustment, &objections);
   JudgeDatum(adjustment, &objections);
   JudgePlanes(adjustment.plane_effect, adjustment.critical_w, &objections);

@@ -32,8 +32,9 @@ std::vector<Objection> Judge(const Adjustment& adjustment,
 // first; notes leave it a pass.
 Json::Value VerdictReport(std::vector<Objection> objections);
 
-// The observation that data snooping suspects: the largest |w| over the critical value. One at a
-// time, since a gross error spoils the residuals around it. [Baarda 1968]
+// The observation that data snooping suspects: the largest |w| over the critical value, of what the
+// surveyor measured if any, else of tie points. One at a time, since a gross error spoils the
+// residuals around it. [Baarda 1968]
 std::optional<ObservationResidual> Suspect(const Adjustment& adjustment);
 
 // What the surveyor should do about an observation that was flagged.

@@ -9,7 +9,8 @@ function showSummary() {
   element(node, "p", `σ0 ${fixed(s.sigma0, 4)} a posteriori (1 a priori), ${fixed(s.sigma0_px, 3)} px ` +
     `in the images; RMS of the residuals of ${count(s.marks, "mark")} ${fixed(s.image_rms_px, 3)} px. ` +
     `Median σ of a vertex coordinate ${fixed(1000 * s.vertex_sigma_m, 1)} mm.`);
-  element(node, "p", `Global test (χ², α ${test.alpha}): Ω = vᵀPv = ${fixed(test.statistic, 1)}, ` +
+  if (!test) element(node, "p", "No redundancy: there is nothing to test.");
+  else element(node, "p", `Global test (χ², α ${test.alpha}): Ω = vᵀPv = ${fixed(test.statistic, 1)}, ` +
     `accepted from ${fixed(test.low, 1)} to ${fixed(test.high, 1)}, p ${fixed(test.p, 4)}: ` +
     `${test.is_met ? "met" : "not met"}.`);
   table(node, report.groups, [
