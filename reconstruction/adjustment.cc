@@ -239,6 +239,7 @@ void WarnOfMisnamedControl(const Survey& survey, Adjustment* adjustment) {
 void AddStatistics(const NetworkSolution& solution, const AdjustmentOptions& options,
                    Adjustment* adjustment) {
   adjustment->iterations = solution.iterations;
+  adjustment->is_converged = solution.is_converged;
   adjustment->observations = solution.observations;
   adjustment->unknowns = solution.unknowns;
   adjustment->datum_defect = solution.datum.defect();

@@ -149,6 +149,7 @@ struct Adjustment {
   SceneGeometry scene;
   double sigma0 = 0;  // a posteriori, a priori 1
   int observations = 0, unknowns = 0, datum_defect = 0, redundancy = 0, iterations = 0;
+  bool is_converged = true;
   std::map<std::string, int> unknowns_of;  // their number by what they belong to: "points", ...
   std::string datum;        // in words: "control", or what is free and how it was fixed
   double chi_square_p = 0;  // two-sided p of the global test
