@@ -182,6 +182,7 @@ void AddStatistics(const NetworkSolution& solution, const AdjustmentOptions& opt
                    Adjustment* adjustment) {
   adjustment->is_converged = solution.is_converged;
   adjustment->iterations = solution.iterations;
+  adjustment->is_converged = solution.is_converged;
   adjustment->observations = solution.observations;
   adjustment->unknowns = solution.unknowns;
   adjustment->datum_defect = solution.datum.defect();

@@ -88,6 +88,7 @@ Json::Value SummarySection(const Adjustment& adjustment, const std::vector<Image
   json["datum_defect"] = adjustment.datum_defect;
   json["redundancy"] = adjustment.redundancy;
   json["iterations"] = adjustment.iterations;
+  json["termination"] = adjustment.is_converged ? "converged" : "stopped before it converged";
   json["sigma0_a_priori"] = 1;
   json["sigma0"] = adjustment.sigma0;
   json["sigma0_px"] = adjustment.sigma0 * ImageSigma(adjustment);

@@ -4,7 +4,7 @@ function showSummary() {
   const s = report.summary, test = s.global_test, node = section("Adjustment");
   const unknowns = Object.entries(s.unknowns_of).map(([what, n]) => `${n} of ${what}`).join(", ");
   element(node, "p", `${s.observations} observations, ${s.unknowns} unknowns` +
-    `${unknowns ? ` (${unknowns})` : ""}, datum defect ${s.datum_defect}, redundancy ${s.redundancy}; ${count(s.iterations, "iteration")}. ` +
+    `${unknowns ? ` (${unknowns})` : ""}, datum defect ${s.datum_defect}, redundancy ${s.redundancy}; ${count(s.iterations, "iteration")}, ${s.termination}. ` +
     `The datum is ${s.datum || "not stated"}.`);
   element(node, "p", `σ0 ${fixed(s.sigma0, 4)} a posteriori (1 a priori), ${fixed(s.sigma0_px, 3)} px ` +
     `in the images; RMS of the residuals of ${count(s.marks, "mark")} ${fixed(s.image_rms_px, 3)} px. ` +

@@ -79,6 +79,7 @@ TEST_F(Report, SumsItsGroupsToTheWhole) {
   for (const Json::Value& part : report["summary"]["unknowns_of"]) unknowns += part.asInt();
   EXPECT_EQ(unknowns, report["summary"]["unknowns"].asInt());
   EXPECT_EQ(report["summary"]["unknowns_of"]["exterior orientations"].asInt(), 4 * 6);
+  EXPECT_EQ(report["summary"]["termination"].asString(), "converged");
   EXPECT_EQ(report["photos"].size(), 4u);
   EXPECT_EQ(report["polygons"].size(), network_.survey.polygons.size());
   EXPECT_EQ(report["check"]["points"].size(), 2u);
