@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "renderer/isolated.h"
 
+#include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -192,6 +193,7 @@ int64_t AddressSpace() {
 }
 
 void Limit(const IsolationLimits& limits) {
+  prctl(PR_SET_PDEATHSIG, SIGKILL);  // nobody waits for it then
   const auto seconds = static_cast<rlim_t>(limits.seconds);
   const rlimit cpu{seconds, seconds + 1};
   setrlimit(RLIMIT_CPU, &cpu);

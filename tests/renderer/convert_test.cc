@@ -79,14 +79,16 @@ TEST_F(Convert, LayersGetTheirMaterials) {
 }
 
 TEST_F(Convert, DrawingsJoinInOrderOfTheirNames) {
-  Write("b.DXF", DrawingText(UnitSquare("WALL")));
+  Write("b.DXF", DrawingText(UnitSquare("WALL", "1") + UnitSquare("WALL")));
   Write("a.dxf", DrawingText(UnitSquare("GLASS") + UnitSquare("WALL")));
   Write("a.txt", "not a drawing");
   Write("materials.json", kMaterials);
-  const ArtificialEnvironment building = Converted().environment;
+  const Conversion conversion = Converted();
+  const ArtificialEnvironment& building = conversion.environment;
   EXPECT_THAT(building.material_of_triangle, ElementsAre(0, 0, 1, 1, 1, 1));
-  EXPECT_EQ(building.vertices.size(), 12u);
-  EXPECT_EQ(building.triangles[4].minCoeff(), 8);
+  EXPECT_EQ(conversion.solids.duplicate_faces, 2);  // the wall that is in both
+  EXPECT_EQ(building.vertices.size(), 8u);
+  EXPECT_EQ(building.triangles[4].minCoeff(), 4);
 }
 
 TEST_F(Convert, BareMirrorHasNoIndex) {

@@ -21,6 +21,7 @@ namespace {
 using Eigen::Vector3d;
 using testing::Contains;
 using testing::HasSubstr;
+using testing::Not;
 
 const char kObj[] = R"(# a house on a national grid
 mtllib house.mtl
@@ -85,6 +86,9 @@ TEST_F(ModelFile, FaultyObj) {
   EXPECT_THAT(complaint("f 1 2 -4"), HasSubstr("names vertex -4"));
   EXPECT_THAT(complaint("f 1 2 0"), HasSubstr("names vertex 0"));
   EXPECT_THAT(complaint("f 1 2"), HasSubstr("at least 3 corners"));
+  std::string long_face = "f";
+  for (int i = 0; i < 5001; ++i) long_face += " 1 2";
+  EXPECT_THAT(complaint(long_face), HasSubstr("a.obj:4: a face has over 10000 corners"));
   EXPECT_THAT(complaint("f 1/1 2/1 3/1"), HasSubstr("texture coordinate 1"));
   EXPECT_THAT(complaint("f 1 2 x"), HasSubstr("a.obj:4: \"x\""));
   EXPECT_THAT(complaint("v 1e300 0 0"), HasSubstr("at most 1e12"));
@@ -217,6 +221,36 @@ TEST_F(ModelFile, IfcOfAnotherSchemaOrCutShort) {
   old.replace(old.find("IFC4"), 4, "IFC2X3");
   EXPECT_THAT(Complaint("a.ifc", old), HasSubstr("a.ifc:4: the file ends here"));
   EXPECT_THAT(Complaint("a.ifc", "ISO-10303-21;\nENDSEC;\n"), HasSubstr("no FILE_SCHEMA"));
+}
+
+// A statement that is none would be passed over, and with it what it describes.
+TEST_F(ModelFile, FaultyIfcStatements) {
+  const auto complaint = [this](const std::string& statement) {
+    return Complaint("a.ifc", "ISO-10303-21;\nHEADER;\nFILE_SCHEMA(('IFC2X3'));\nENDSEC;\nDATA;\n" +
+                                  statement + "\nENDSEC;\nEND-ISO-10303-21;\n");
+  };
+  EXPECT_THAT(complaint("#1=IFCWALL('a;b',(1,2));\n#garbage\n#2=IFCWALL();"),
+              HasSubstr("a.ifc:7: \"#garbage#2=IFCWALL()\", expected an instance"));
+  EXPECT_THAT(complaint("#1=IFCWALL((1,2);"), HasSubstr("a.ifc:6: "));
+  EXPECT_THAT(complaint("#=IFCWALL();"), HasSubstr("a.ifc:6: "));
+  EXPECT_THAT(complaint("/* #1 */ #1 =\n IFCWALL ('it''s', *, $);\n#2=(IFCA()IFCB());"),
+              Not(HasSubstr("expected an instance")));
+}
+
+TEST_F(ModelFile, FilesThatWereCut) {
+  const std::string ply = kPly, stl = kStl, gltf = kGltf, collada = kCollada;
+  EXPECT_THAT(Complaint("a.ply", ply.substr(0, ply.size() - 8)),
+              HasSubstr("a.ply: holds 3 faces, expected 4"));
+  EXPECT_THAT(Complaint("a.ply", ply.substr(0, 140)), HasSubstr("a.ply:7: its head ends here"));
+  EXPECT_THAT(Complaint("a.stl", stl.substr(0, stl.find("endsolid"))),
+              HasSubstr("a.stl:7: the file ends here, expected endsolid"));
+  EXPECT_THAT(
+      Complaint("a.stl", std::string(80, ' ') + std::string("\2\0\0\0", 4) + std::string(50, '\0')),
+      HasSubstr("a.stl: is 134 bytes long, expected 184"));
+  EXPECT_THAT(Complaint("a.glb", std::string("glTF\2\0\0\0\0\1\0\0", 12)),
+              HasSubstr("a.glb: is 12 bytes long, expected 256"));
+  EXPECT_THAT(Complaint("a.gltf", gltf.substr(0, 400)), HasSubstr("a.gltf:5: "));
+  EXPECT_THAT(Complaint("a.dae", collada.substr(0, 700)), HasSubstr("a.dae:"));
 }
 
 TEST_F(ModelFile, DamagedFilesAreRefusedOrRead) {
