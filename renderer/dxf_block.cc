@@ -136,7 +136,10 @@ void DxfEntityReader::Read(const DxfRecord& record) {
   const bool invisible = record.Integer(60, 0) == 1, on_paper = record.Integer(67, 0) == 1;
   if (invisible || on_paper) {
     Skip(record.kind(), invisible ? "invisible" : "paper space");
-    if (record.kind() == "POLYLINE") polyline_.emplace().hidden = true;
+    if (record.kind() == "POLYLINE") {
+      polyline_ = Polyline{};
+      polyline_->hidden = true;
+    }
     return;
   }
   const DxfLook look = LookOf(record);
@@ -182,7 +185,8 @@ bool DxfEntityReader::ReadSurface(const DxfRecord& record, int look) {
 }
 
 void DxfEntityReader::BeginPolyline(const DxfRecord& record, int look) {
-  Polyline& polyline = polyline_.emplace();
+  polyline_ = Polyline{};
+  Polyline& polyline = *polyline_;
   polyline.place = record.place();
   polyline.look = look;
   polyline.flags = record.Integer(70, 0);

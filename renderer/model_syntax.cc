@@ -70,23 +70,44 @@ void CheckGlb(const fs::path& path) {
   throw InputError(path, LengthFault(size, head[2]));
 }
 
-// What the head of a PLY file says; nullopt without faces. Assimp searches for ever for the end of
-// a head that has none.
-std::optional<int64_t> PlyFaces(const fs::path& path) {
+struct PlyHead {
+  bool ascii = false;
+  int64_t elements = 0, faces = 0;
+};
+
+// Leaves `file` after the head. Assimp searches for ever for the end of a head that has none.
+PlyHead ReadPlyHead(const fs::path& path, std::ifstream* file) {
   constexpr int kMostLines = 10000;
-  std::ifstream file(path, std::ios::binary);
-  std::optional<int64_t> faces;
+  PlyHead head;
   std::string line, word, name;
   int lines = 0;
-  while (lines < kMostLines && std::getline(file, line)) {
+  while (lines < kMostLines && std::getline(*file, line)) {
     ++lines;
     std::istringstream words(line);
-    words >> word;
-    if (word == "end_header") return faces;
+    words >> word >> name;
+    if (word == "end_header") return head;
+    if (word == "format") head.ascii = name == "ascii";
     int64_t count = 0;
-    if (word == "element" && words >> name >> count && name == "face") faces = count;
+    if (word != "element" || !(words >> count)) continue;
+    head.elements += count;
+    if (name == "face") head.faces = count;
   }
   throw InputError(path, lines, "its head ends here, expected end_header");
+}
+
+// In text an element is a line. Assimp makes up what is missing.
+void CheckPly(const fs::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  const PlyHead head = ReadPlyHead(path, &file);
+  if (!head.ascii) return;
+  int64_t lines = 0;
+  for (std::string line; std::getline(file, line);) {
+    lines += line.find_first_not_of(" \t\r") != std::string::npos;
+  }
+  if (lines >= head.elements) return;
+  throw InputError(path,
+                   "holds " + std::to_string(lines) + " vertices, faces and so on, expected " +
+                       std::to_string(head.elements) + " as its head states: it is cut short");
 }
 
 }  // namespace
@@ -107,7 +128,7 @@ void CheckModelSyntax(const fs::path& path, ModelFormat format) {
     CheckIfcStatements(path);
   }
   if (format == ModelFormat::kStl) CheckStl(path);
-  if (format == ModelFormat::kPly) PlyFaces(path);
+  if (format == ModelFormat::kPly) CheckPly(path);
   if (format == ModelFormat::kGltf && IsGlb(path)) CheckGlb(path);
 }
 
@@ -115,10 +136,11 @@ void CheckModelWhole(const fs::path& path, ModelFormat format, const Model& mode
   if (format != ModelFormat::kPly) return;
   const auto found = model.entities.find("face");
   const int64_t faces = found == model.entities.end() ? 0 : found->second;
-  const std::optional<int64_t> stated = PlyFaces(path);
-  if (!stated || faces >= *stated) return;
+  std::ifstream file(path, std::ios::binary);
+  const int64_t stated = ReadPlyHead(path, &file).faces;
+  if (faces >= stated) return;
   throw InputError(path, "holds " + std::to_string(faces) + " faces, expected " +
-                             std::to_string(*stated) + " as its head states: it is cut short");
+                             std::to_string(stated) + " as its head states: it is cut short");
 }
 
 void ExplainFailure(const fs::path& path, ModelFormat format) {

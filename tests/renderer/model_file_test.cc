@@ -240,16 +240,16 @@ TEST_F(ModelFile, FaultyIfcStatements) {
 TEST_F(ModelFile, FilesThatWereCut) {
   const std::string ply = kPly, stl = kStl, gltf = kGltf, collada = kCollada;
   EXPECT_THAT(Complaint("a.ply", ply.substr(0, ply.size() - 8)),
-              HasSubstr("a.ply: holds 3 faces, expected 4"));
-  EXPECT_THAT(Complaint("a.ply", ply.substr(0, 140)), HasSubstr("a.ply:7: its head ends here"));
+              HasSubstr("a.ply: holds 7 vertices, faces and so on, expected 8"));
+  EXPECT_THAT(Complaint("a.ply", ply.substr(0, 140)), HasSubstr("a.ply:8: its head ends here"));
   EXPECT_THAT(Complaint("a.stl", stl.substr(0, stl.find("endsolid"))),
-              HasSubstr("a.stl:7: the file ends here, expected endsolid"));
+              HasSubstr("a.stl:8: the file ends here, expected endsolid"));
   EXPECT_THAT(
       Complaint("a.stl", std::string(80, ' ') + std::string("\2\0\0\0", 4) + std::string(50, '\0')),
       HasSubstr("a.stl: is 134 bytes long, expected 184"));
   EXPECT_THAT(Complaint("a.glb", std::string("glTF\2\0\0\0\0\1\0\0", 12)),
               HasSubstr("a.glb: is 12 bytes long, expected 256"));
-  EXPECT_THAT(Complaint("a.gltf", gltf.substr(0, 400)), HasSubstr("a.gltf:5: "));
+  EXPECT_THAT(Complaint("a.gltf", gltf.substr(0, 400)), HasSubstr("a.gltf:6: "));
   EXPECT_THAT(Complaint("a.dae", collada.substr(0, 700)), HasSubstr("a.dae:"));
 }
 
