@@ -77,6 +77,7 @@ class SceneReader {
   Model Read() {
     const ModelMesh& mesh = model_.mesh;
     AddNode(*scene_.mRootNode, ZUpFrom(format_), path_.stem().string(), 0);
+    AddImages();
     if (!has_uvs_) model_.mesh.corner_uvs.clear();
     if (!has_normals_) model_.mesh.corner_normals.clear();
     double largest = 0;
@@ -213,6 +214,16 @@ class SceneReader {
       names.texture_place = path_.string();
     }
     return names;
+  }
+
+  // Of height 0 are those in a file format of their own, of `mWidth` bytes.
+  void AddImages() {
+    for (unsigned i = 0; i < scene_.mNumTextures; ++i) {
+      const aiTexture& image = *scene_.mTextures[i];
+      if (image.mHeight != 0) continue;
+      model_.images["*" + std::to_string(i)] = {reinterpret_cast<const char*>(image.pcData),
+                                                image.mWidth};
+    }
   }
 
   void WarnOfPrecision(double largest) {

@@ -11,6 +11,7 @@
 #include "renderer/building_lights.h"
 #include "renderer/building_materials.h"
 #include "renderer/model_list.h"
+#include "renderer/model_textures.h"
 #include "renderer/overlaid_faces.h"
 #include "renderer/site_check.h"
 
@@ -144,15 +145,9 @@ void Converter::Add(const fs::path& path) {
   report.entities = model.entities;
   report.skipped = model.skipped;
   report.degenerate_faces = model.degenerate_faces;
+  LocateTextures(site_, path, &model);
   WarnOf(report, model);
   Place(site_, report.placement, unit, &model.mesh);
-  const fs::path folder = path.parent_path();
-  for (SurfaceNames& names : model.mesh.surfaces) {
-    if (!names.texture.empty() && !names.texture.starts_with('*')) {
-      std::ranges::replace(names.texture, '\\', '/');
-      names.texture = (folder / names.texture).lexically_normal().string();
-    }
-  }
   if (conversion_.models.empty()) {
     mesh_ = std::move(model.mesh);
   } else {
@@ -161,9 +156,8 @@ void Converter::Add(const fs::path& path) {
   conversion_.models.push_back(std::move(report));
 }
 
-// Embedded images ("*0") have no file.
 std::string Converter::TextureOf(const SurfaceNames& names) {
-  if (names.texture.empty() || names.texture.starts_with('*')) return "";
+  if (names.texture.empty()) return "";
   std::error_code none;
   if (!fs::is_regular_file(names.texture, none)) {
     throw InputError(names.texture_place, "names the texture " + names.texture +

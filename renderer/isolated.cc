@@ -124,6 +124,11 @@ void Send(const Model& model, Sender* out) {
     out->Text(what.second);
     out->Plain(count);
   }
+  out->Plain(model.images.size());
+  for (const auto& [name, image] : model.images) {
+    out->Text(name);
+    out->Text(image);
+  }
   out->Plain(model.degenerate_faces);
   out->Plain(model.warnings.size());
   for (const std::string& warning : model.warnings) out->Text(warning);
@@ -151,6 +156,10 @@ Model ReceiveModel(Receiver* in) {
     const std::string kind = in->Text();
     const std::string reason = in->Text();
     model.skipped[{kind, reason}] = in->Plain<int>();
+  }
+  for (size_t n = in->Plain<size_t>(); n > 0 && in->complete(); --n) {
+    const std::string name = in->Text();
+    model.images[name] = in->Text();
   }
   model.degenerate_faces = in->Plain<int>();
   for (size_t n = in->Plain<size_t>(); n > 0 && in->complete(); --n) {

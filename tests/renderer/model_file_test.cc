@@ -204,6 +204,27 @@ TEST_F(ModelFile, GltfIsTurnedUpright) {
   EXPECT_EQ(model.metres_per_unit, 1);
 }
 
+// As GLB and glTF mostly come: a red image inside the file.
+TEST_F(ModelFile, TexturesInsideTheModelBecomeFiles) {
+  std::string text = kGltf;
+  const auto replace = [&text](const std::string& what, const std::string& with) {
+    text.replace(text.find(what), what.size(), with);
+  };
+  replace("\"baseColorFactor\": [0.5, 0, 0, 1]", "\"baseColorTexture\": {\"index\": 0}");
+  replace("\"meshes\"", R"("textures": [{"source": 0}], "images": [{"mimeType": "image/png", "uri":
+      "data:image/png;base64,iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAIAAACQd1PeAAAADElEQVR4nGP4z8AAAAMBAQDJ/pLvAAAAAElFTkSuQmCC"
+      }], "meshes")");
+  folder_.Write("building/wall.gltf", text);
+  const SitePaths site{folder_.path()};
+  const SurfaceMaterial material = ConvertBuilding(site).environment.materials.at(0);
+  EXPECT_EQ(material.texture, "../work/building_textures/wall.gltf_0.png");
+  EXPECT_TRUE(std::filesystem::is_regular_file(site.building() / material.texture));
+  EXPECT_NEAR((material.diffuse_rgb - Vector3d(1, 0, 0)).norm(), 0, 1e-6);
+  replace("iVBORw0KGgo", "AAAAAAAAAAA");
+  folder_.Write("building/wall.gltf", text);
+  EXPECT_THAT(ConvertBuilding(site).warnings, Contains(HasSubstr("neither PNG nor JPEG")));
+}
+
 TEST_F(ModelFile, ColladaComesInMetres) {
   const Model model = Read("gate.dae", kCollada);
   ASSERT_EQ(model.mesh.triangles.size(), 1u);
@@ -286,6 +307,7 @@ TEST(Isolated, BringsTheWholeModel) {
   model.mesh.surface_of_triangle = {1};
   model.mesh.corner_uvs = {{0, 1}, {1, 1}, {1, 0}};
   model.entities = {{"mesh", 2}};
+  model.images = {{"*0", std::string("\x89PNG\0", 5)}};
   model.skipped = {{{"line", "no surface"}, 3}};
   model.warnings = {"careful"};
   model.metres_per_unit = 0.5;
@@ -296,6 +318,7 @@ TEST(Isolated, BringsTheWholeModel) {
   EXPECT_EQ(read->mesh.triangles, model.mesh.triangles);
   EXPECT_EQ(read->mesh.corner_uvs, model.mesh.corner_uvs);
   EXPECT_EQ(read->entities, model.entities);
+  EXPECT_EQ(read->images, model.images);
   EXPECT_EQ(read->skipped, model.skipped);
   EXPECT_EQ(read->warnings, model.warnings);
   EXPECT_EQ(read->metres_per_unit, 0.5);
