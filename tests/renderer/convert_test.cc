@@ -4,6 +4,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "calibration/error.h"
 #include "tests/calibration/scratch_folder.h"
 #include "tests/renderer/dxf_text.h"
@@ -143,6 +145,21 @@ TEST_F(Convert, ReportNamesSizeAndPlace) {
               testing::AllOf(HasSubstr("2 triangles, 0 lights\n"),
                              HasSubstr("from (0.000, 0.000, 0.000) to (1.000, 1.000, 0.000) m"),
                              HasSubstr("WALL: 2\n")));
+}
+
+// The windows stand before their wall, the report's box is the architect's.
+TEST_F(Convert, BoxIsThatOfTheModel) {
+  Write("a.dxf", DrawingText(UnitSquare("WALL") +
+                             "0 3DFACE\n8 GLASS\n10 0.2\n20 0.2\n30 0\n11 0.8\n21 0.2\n31 0\n"
+                             "12 0.8\n22 0.7\n32 0\n13 0.2\n23 0.7\n33 0\n"));
+  Write("materials.json", kMaterials);
+  const Conversion conversion = Converted();
+  EXPECT_THAT(conversion.warnings, ElementsAre(HasSubstr("2 faces are drawn on larger ones")));
+  EXPECT_EQ(conversion.box.sizes(), Eigen::Vector3d(1, 1, 0));
+  double highest = 0;
+  for (const Eigen::Vector3d& v : conversion.environment.vertices)
+    highest = std::max(highest, v.z());
+  EXPECT_EQ(highest, 0.002);
 }
 
 TEST_F(Convert, NeedsADrawingWithSurfaces) {
