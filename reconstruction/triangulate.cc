@@ -39,20 +39,50 @@ bool CrossesItself(const Outline& outline) {
   return false;
 }
 
-// Whether the corner at `ring[k]` can be cut off: it turns left by more than `slack`, and no other
-// vertex lies in or on the triangle. Vertices at the place of a corner (a hole reached by a double
-// edge) do not count.
-bool IsEar(const Outline& outline, const std::vector<int>& ring, size_t k, double slack) {
-  const size_t n = ring.size();
-  const Eigen::Vector2d &a = outline[ring[(k + n - 1) % n]], &b = outline[ring[k]],
-                        &c = outline[ring[(k + 1) % n]];
-  if (Turn(a, b, c) <= slack) return false;
-  return std::none_of(ring.begin(), ring.end(), [&](int index) {
-    const Eigen::Vector2d& p = outline[index];
-    if (p == a || p == b || p == c) return false;
-    return Turn(a, b, p) >= 0 && Turn(b, c, p) >= 0 && Turn(c, a, p) >= 0;
-  });
-}
+// Finds ears, and remembers of each corner which vertex stood in the way: while that one and the
+// neighbours stay, the corner is none. Else outlines of thousands of corners would take minutes.
+class Ears {
+ public:
+  Ears(const Outline& outline, double slack)
+      : outline_(outline),
+        slack_(slack),
+        obstacle_(outline.size(), kUnknown),
+        is_gone_(outline.size(), false) {}
+
+  // Whether the corner at `ring[k]` can be cut off: it turns left by more than `slack`, and no
+  // other vertex lies in or on the triangle. Vertices at the place of a corner (a hole reached by a
+  // double edge) do not count.
+  bool IsEar(const std::vector<int>& ring, size_t k) {
+    int& obstacle = obstacle_[ring[k]];
+    if (obstacle == kTurnsRight || (obstacle >= 0 && !is_gone_[obstacle])) return false;
+    const size_t n = ring.size();
+    const Eigen::Vector2d &a = outline_[ring[(k + n - 1) % n]], &b = outline_[ring[k]],
+                          &c = outline_[ring[(k + 1) % n]];
+    obstacle = kTurnsRight;
+    if (Turn(a, b, c) <= slack_) return false;
+    const auto found = std::find_if(ring.begin(), ring.end(), [&](int index) {
+      const Eigen::Vector2d& p = outline_[index];
+      if (p == a || p == b || p == c) return false;
+      return Turn(a, b, p) >= 0 && Turn(b, c, p) >= 0 && Turn(c, a, p) >= 0;
+    });
+    obstacle = found == ring.end() ? kUnknown : *found;
+    return found == ring.end();
+  }
+
+  // To be called before `ring[k]` is cut off.
+  void Forget(const std::vector<int>& ring, size_t k) {
+    const size_t n = ring.size();
+    is_gone_[ring[k]] = true;
+    obstacle_[ring[(k + n - 1) % n]] = obstacle_[ring[(k + 1) % n]] = kUnknown;
+  }
+
+ private:
+  static constexpr int kUnknown = -1, kTurnsRight = -2;
+  const Outline& outline_;
+  double slack_;
+  std::vector<int> obstacle_;  // by vertex
+  std::vector<bool> is_gone_;
+};
 
 // The vertex that makes the least bend, for removal without a triangle when only collinear ones
 // are left; nullopt if even that one bends by more than `slack`.
@@ -70,10 +100,11 @@ std::optional<size_t> CollinearVertex(const Outline& outline, const std::vector<
 std::optional<std::vector<Eigen::Vector3i>> ClipEars(const Outline& outline, std::vector<int> ring,
                                                      double slack) {
   std::vector<Eigen::Vector3i> triangles;
+  Ears ears(outline, slack);
   while (ring.size() >= 3) {
     const size_t n = ring.size();
     size_t k = 0;
-    while (k < n && !IsEar(outline, ring, k, slack)) ++k;
+    while (k < n && !ears.IsEar(ring, k)) ++k;
     if (k < n) {
       triangles.emplace_back(ring[(k + n - 1) % n], ring[k], ring[(k + 1) % n]);
     } else if (const std::optional<size_t> flat = CollinearVertex(outline, ring, slack)) {
@@ -81,6 +112,7 @@ std::optional<std::vector<Eigen::Vector3i>> ClipEars(const Outline& outline, std
     } else {
       return std::nullopt;
     }
+    ears.Forget(ring, k);
     ring.erase(ring.begin() + static_cast<std::ptrdiff_t>(k));
   }
   return triangles;

@@ -8,6 +8,7 @@
 #include <assimp/scene.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <assimp/Importer.hpp>
 #include <cmath>
 #include <cstdio>
@@ -19,8 +20,8 @@
 #include "calibration/error.h"
 #include "calibration/photograph.h"
 #include "renderer/face_triangles.h"
-#include "renderer/ifc_header.h"
 #include "renderer/isolated.h"
+#include "renderer/model_syntax.h"
 
 namespace insitu {
 namespace {
@@ -76,6 +77,7 @@ class SceneReader {
   Model Read() {
     const ModelMesh& mesh = model_.mesh;
     AddNode(*scene_.mRootNode, ZUpFrom(format_), path_.stem().string(), 0);
+    AddImages();
     if (!has_uvs_) model_.mesh.corner_uvs.clear();
     if (!has_normals_) model_.mesh.corner_normals.clear();
     double largest = 0;
@@ -141,6 +143,9 @@ class SceneReader {
     if (face.mNumIndices < 3) {
       ++model_.skipped[{"line or point", "no surface"}];
       return;
+    }
+    if (face.mNumIndices > kMostCorners) {
+      throw InputError(path_, "a face has over 10000 corners");
     }
     if (format_ != ModelFormat::kIfc) ++model_.entities["face"];
     std::vector<int> corners;
@@ -209,6 +214,16 @@ class SceneReader {
       names.texture_place = path_.string();
     }
     return names;
+  }
+
+  // Of height 0 are those in a file format of their own, of `mWidth` bytes.
+  void AddImages() {
+    for (unsigned i = 0; i < scene_.mNumTextures; ++i) {
+      const aiTexture& image = *scene_.mTextures[i];
+      if (image.mHeight != 0) continue;
+      model_.images["*" + std::to_string(i)] = {reinterpret_cast<const char*>(image.pcData),
+                                                image.mWidth};
+    }
   }
 
   void WarnOfPrecision(double largest) {
@@ -286,18 +301,27 @@ const char* NameOf(ModelFormat format) {
   }
 }
 
+// Three hundred times what FZK-Haus takes a byte: a small file that takes longer never ends.
+int SecondsFor(const fs::path& path) {
+  constexpr double kLeast = 8, kPerByte = 30e-6, kMost = 1e6;
+  return static_cast<int>(
+      std::min(kMost, kLeast + kPerByte * static_cast<double>(fs::file_size(path))));
+}
+
 }  // namespace
 
 Model ReadWithAssimp(const fs::path& path, ModelFormat format, int seconds) {
-  if (format == ModelFormat::kIfc) CheckIfcHeader(path);
-  IsolatedModel isolated =
-      ReadIsolated([&] { return ReadHere(path, format); }, {.seconds = seconds});
+  CheckModelSyntax(path, format);
+  const IsolationLimits limits{.seconds = std::min(seconds, SecondsFor(path))};
+  IsolatedModel isolated = ReadIsolated([&] { return ReadHere(path, format); }, limits);
   if (!isolated.model) {
+    ExplainFailure(path, format);
     const std::string prefix = path.string() + ": ";
     std::string failure = isolated.failure;
     if (failure.starts_with(prefix)) failure.erase(0, prefix.size());
     throw InputError(path, failure + " (" + NameOf(format) + ", read by Assimp)");
   }
+  CheckModelWhole(path, format, *isolated.model);
   isolated.model->format = NameOf(format);
   // IFC, glTF and COLLADA name their unit or define it; Assimp has turned it into metres.
   const bool has_unit = format != ModelFormat::kPly && format != ModelFormat::kStl;

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "calibration/json_file.h"
+#include "renderer/file_beside.h"
 #include "renderer/ies.h"
 #include "renderer/spectral_table.h"
 
@@ -27,15 +28,6 @@ double Positive(const JsonNode& node) {
 double NotNegative(const JsonNode& node) {
   if (node.Number() < 0) throw node.Error("is negative, expected 0 or more");
   return node.Number();
-}
-
-fs::path FileBeside(const JsonNode& node) {
-  const fs::path path = node.path().parent_path() / node.Text();
-  std::error_code none;
-  if (!fs::is_regular_file(path, none)) {
-    throw node.Error("names " + node.Text() + ", which is not there, expected a file beside it");
-  }
-  return path;
 }
 
 SpectralTable SpectrumOf(const JsonNode& light) {

@@ -10,6 +10,7 @@
 #include "calibration/json_file.h"
 #include "calibration/photograph.h"
 #include "renderer/dxf_drawing.h"
+#include "renderer/file_beside.h"
 #include "renderer/spectral_table.h"
 
 namespace insitu {
@@ -55,15 +56,6 @@ Vector3d AlbedoOfLab(const JsonNode& material, const JsonNode& node) {
   if (lab.x() < 0 || lab.x() > 100) throw node.Error("has no L from 0 to 100");
   // A colour outside Rec. 709 is brought to its border.
   return LinearFromLab(lab, name == "D50").cwiseMax(0).cwiseMin(1);
-}
-
-fs::path FileBeside(const JsonNode& node) {
-  const fs::path path = node.path().parent_path() / node.Text();
-  std::error_code none;
-  if (!fs::is_regular_file(path, none)) {
-    throw node.Error("names " + node.Text() + ", which is not there, expected a file beside it");
-  }
-  return path;
 }
 
 void CheckReflectance(const JsonNode& node, const SpectralTable& table) {

@@ -11,6 +11,7 @@
 #include "renderer/building_lights.h"
 #include "renderer/building_materials.h"
 #include "renderer/model_list.h"
+#include "renderer/model_textures.h"
 #include "renderer/overlaid_faces.h"
 #include "renderer/site_check.h"
 
@@ -144,15 +145,9 @@ void Converter::Add(const fs::path& path) {
   report.entities = model.entities;
   report.skipped = model.skipped;
   report.degenerate_faces = model.degenerate_faces;
+  LocateTextures(site_, path, &model);
   WarnOf(report, model);
   Place(site_, report.placement, unit, &model.mesh);
-  const fs::path folder = path.parent_path();
-  for (SurfaceNames& names : model.mesh.surfaces) {
-    if (!names.texture.empty() && !names.texture.starts_with('*')) {
-      std::ranges::replace(names.texture, '\\', '/');
-      names.texture = (folder / names.texture).lexically_normal().string();
-    }
-  }
   if (conversion_.models.empty()) {
     mesh_ = std::move(model.mesh);
   } else {
@@ -161,9 +156,8 @@ void Converter::Add(const fs::path& path) {
   conversion_.models.push_back(std::move(report));
 }
 
-// Embedded images ("*0") have no file.
 std::string Converter::TextureOf(const SurfaceNames& names) {
-  if (names.texture.empty() || names.texture.starts_with('*')) return "";
+  if (names.texture.empty()) return "";
   std::error_code none;
   if (!fs::is_regular_file(names.texture, none)) {
     throw InputError(names.texture_place, "names the texture " + names.texture +
@@ -262,7 +256,8 @@ void Converter::WarnOfMaterials() {
   }
   if (!hidden_.empty()) Warn(file_, "hidden: " + Listed(hidden_));
   for (const std::string& name : materials_.Unused()) {
-    Warn(file_, name + " is listed but carries nothing in the model");
+    Warn(file_,
+         name + " is listed but decides no face: materials go before blocks, those before layers");
   }
 }
 
@@ -284,19 +279,20 @@ Conversion Converter::Finish() {
   ResolveMaterials();
   WarnOfMaterials();
   WarnOfSolids();
+  DropUnused(&mesh_);
+  for (const Vector3d& vertex : mesh_.vertices) conversion_.box.extend(vertex);
   const int raised = RaiseOverlaidFaces(&mesh_);
   if (raised > 0) {
     Warn(site_.building(), std::to_string(raised) +
                                " faces are drawn on larger ones of another name: put 2 mm before "
                                "them");
   }
-  DropUnused(&mesh_);
   ArtificialEnvironment& environment = conversion_.environment;
   environment.vertices = std::move(mesh_.vertices);
   environment.triangles = std::move(mesh_.triangles);
   environment.corner_normals = std::move(mesh_.corner_normals);
   environment.corner_uvs = std::move(mesh_.corner_uvs);
-  for (const std::string& suspicion : SuspicionsOf(conversion_.Box(), SiteBox(site_))) {
+  for (const std::string& suspicion : SuspicionsOf(conversion_.box, SiteBox(site_))) {
     Warn(site_.building(), suspicion);
   }
   const fs::path lights = site_.building() / "lights.json";
@@ -321,6 +317,7 @@ Conversion ConvertBuilding(const SitePaths& site, const ConvertOptions& options)
   Converter converter(site, options);
   for (const fs::path& model : models.files) converter.Add(model);
   Conversion conversion = converter.Finish();
+  conversion.chord_tolerance = options.import.dxf.chord_tolerance;
   conversion.warnings.insert(conversion.warnings.begin(), models.warnings.begin(),
                              models.warnings.end());
   return conversion;
@@ -358,14 +355,7 @@ std::string MaterialsTemplate(const SitePaths& site, const ConvertOptions& optio
   return root.toStyledString();
 }
 
-Eigen::AlignedBox3d Conversion::Box() const {
-  Eigen::AlignedBox3d box;
-  for (const Vector3d& vertex : environment.vertices) box.extend(vertex);
-  return box;
-}
-
 std::string Conversion::BriefReport() const {
-  const Eigen::AlignedBox3d box = Box();
   std::string report = std::to_string(environment.triangles.size()) + " triangles, " +
                        std::to_string(environment.lights.size()) + " lights\n";
   if (!box.isEmpty()) {

@@ -39,14 +39,15 @@ struct ModelReport {
 struct Conversion {
   ArtificialEnvironment environment;
   std::vector<ModelReport> models;
+  Eigen::AlignedBox3d box;  // [m], world, as the models draw it; empty without a surface
   SolidsReport solids;
+  double chord_tolerance = 0;  // [m], of what the drawings' arcs became
   std::map<std::string, int> triangles_of_layer;
   std::map<std::string, int> triangles_of_material;
   // What materials.json does not list: label -> what the model itself says of its colour.
   std::map<std::string, std::optional<Eigen::Vector3d>> unlisted;
   std::vector<std::string> warnings;  // entities skipped, names without a material, ...
 
-  Eigen::AlignedBox3d Box() const;  // [m], world; empty without a surface
   std::string BriefReport() const;  // triangles, bounding box, layers, warnings
 };
 

@@ -150,6 +150,7 @@ std::string CountsTable(const std::string& title, const std::string& what,
 }
 
 std::string SkippedTable(const SkippedEntities& skipped) {
+  if (skipped.empty()) return "<section><h2>Left out</h2>Nothing.</section>\n";
   std::string table =
       "<section><h2>Left out</h2><table><tr><th>kind</th><th>count</th><th>reason</th></tr>\n";
   for (const auto& [what, count] : skipped) {
@@ -198,10 +199,15 @@ constexpr char kPageHead[] = R"(<!DOCTYPE html>
  body { font: 15px/1.45 system-ui, sans-serif; margin: 2rem auto; max-width: 72rem;
         padding: 0 1rem; color: #222; }
  img { max-width: 100%; height: auto; border: 1px solid #ddd; }
- main { display: grid; grid-template-columns: repeat(auto-fit, minmax(20rem, 1fr)); gap: 0 2rem; }
+ main { columns: 20rem; column-gap: 2rem; }
+ section { padding-bottom: .6rem; }
+ tr { break-inside: avoid; }
+ h2 { break-after: avoid; }
  table { border-collapse: collapse; width: 100%; }
  th, td { text-align: left; padding: .15rem .6rem .15rem 0; border-bottom: 1px solid #eee;
           vertical-align: top; overflow-wrap: anywhere; }
+ th { overflow-wrap: normal; }
+ section > h2 { margin-top: 0; }
  h2 { font-size: 1.05rem; margin-bottom: .3rem; }
  li { margin-bottom: .2rem; }
 </style></head><body>
@@ -213,7 +219,8 @@ std::string Page(const std::string& picture, const Conversion& conversion) {
   std::string page = kPageHead;
   page += "<p>" + std::to_string(conversion.environment.triangles.size()) + " triangles, " +
           std::to_string(conversion.environment.lights.size()) +
-          " lights. Seen from the south-west," + " z up; material colours.</p>\n";
+          " lights. Arcs of drawings are within " + Number(conversion.chord_tolerance) +
+          " m of their facets. Seen from the south-west, z up; material colours.</p>\n";
   page += "<img src=\"" + Escaped(picture) + "\" alt=\"three-quarter view of the building\">\n";
   if (!conversion.warnings.empty()) {
     page += "<h2>Warnings</h2><ul>\n";
@@ -222,7 +229,7 @@ std::string Page(const std::string& picture, const Conversion& conversion) {
     }
     page += "</ul>\n";
   }
-  page += "<main>\n" + BoxTable(conversion.Box()) + FilesTable(conversion) +
+  page += "<main>\n" + BoxTable(conversion.box) + FilesTable(conversion) +
           CountsTable("Triangles by layer", "layer", conversion.triangles_of_layer) +
           CountsTable("Triangles by material", "material", conversion.triangles_of_material) +
           CountsTable("Entities", "kind", sums.entities) + SkippedTable(sums.skipped);
@@ -240,8 +247,9 @@ void WriteConvertReport(const std::filesystem::path& path, const Conversion& con
   json["format"] = "insitu convert report";
   json["version"] = 1;
   json["triangles"] = Json::Value::Int64(conversion.environment.triangles.size());
+  json["chord_tolerance"] = conversion.chord_tolerance;
   json["lights"] = Json::Value::Int64(conversion.environment.lights.size());
-  AddBox(conversion.Box(), "", &json);
+  AddBox(conversion.box, "", &json);
   json["layers"] = CountsJson(conversion.triangles_of_layer);
   json["materials"] = CountsJson(conversion.triangles_of_material);
   json["entities"] = CountsJson(sums.entities);

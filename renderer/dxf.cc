@@ -76,7 +76,7 @@ std::optional<std::string> Assembly::WhyHidden(const std::string& layer) const {
   const std::string quoted = "layer \"" + layer + "\" is ";
   if (state.frozen) return quoted + "frozen";
   if (state.off) return quoted + "switched off";
-  if (state.no_plot) return quoted + "not to be plotted";
+  if (state.no_plot || DxfKey(layer) == "DEFPOINTS") return quoted + "not to be plotted";
   return std::nullopt;
 }
 

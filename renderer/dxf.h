@@ -17,8 +17,8 @@ struct DxfOptions {
 // POLYLINE as polyface, as polygon mesh and, with thickness or width, as a line; LWPOLYLINE, LINE,
 // CIRCLE and ARC with thickness or width; INSERT (nested, scaled, mirrored, rotated, in rows and
 // columns, extruded). Layer 0, BYLAYER and BYBLOCK take after the INSERT. What CAD programs do not
-// show or print is left out and counted: layers frozen, off or not to be plotted, invisible
-// entities, paper space.
+// show or print is left out and counted: layers frozen, off or not to be plotted (DEFPOINTS
+// never is), invisible entities, paper space.
 // Throws InputError at the line (of a binary file, the byte): cut in half (no EOF), a group code
 // that is no number, a face that names a vertex out of range, an unknown block, blocks that insert
 // themselves, coordinates that are not finite, an unknown unit.

@@ -57,17 +57,37 @@ DxfLook LookOf(const DxfRecord& record) {
   return look;
 }
 
-// Why a kind of entity is not read.
+// Why a kind of entity is not read. Only what is known to have no surface is called so: anything
+// else may be a roof.
 std::string ReasonFor(std::string_view kind) {
-  static const std::set<std::string_view> kAcis = {
-      "3DSOLID",       "BODY",         "REGION",          "SURFACE",      "EXTRUDEDSURFACE",
-      "LOFTEDSURFACE", "PLANESURFACE", "REVOLVEDSURFACE", "SWEPTSURFACE", "NURBSURFACE"};
-  static const std::set<std::string_view> kLines = {"ELLIPSE", "SPLINE", "HELIX", "MLINE",
-                                                    "XLINE",   "RAY",    "POINT"};
+  using Kinds = std::set<std::string_view>;
+  static const Kinds kAcis = {"3DSOLID",         "BODY",          "REGION",       "SURFACE",
+                              "EXTRUDEDSURFACE", "LOFTEDSURFACE", "PLANESURFACE", "REVOLVEDSURFACE",
+                              "SWEPTSURFACE",    "NURBSURFACE"};
+  static const Kinds kLines = {"ELLIPSE", "SPLINE", "HELIX", "MLINE",
+                               "XLINE",   "RAY",    "POINT", "3DLINE"};
+  static const Kinds kLettering = {
+      "TEXT",           "MTEXT",     "RTEXT",         "ATTDEF",
+      "ARCALIGNEDTEXT", "DIMENSION", "LEADER",        "TOLERANCE",
+      "MULTILEADER",    "MLEADER",   "ACAD_TABLE",    "HATCH",
+      "MPOLYGON",       "SHAPE",     "ARC_DIMENSION", "LARGE_RADIAL_DIMENSION"};
+  static const Kinds kAids = {"VIEWPORT",         "IMAGE",       "WIPEOUT",     "OLEFRAME",
+                              "OLE2FRAME",        "LIGHT",       "CAMERA",      "SUN",
+                              "SECTIONOBJECT",    "PDFUNDERLAY", "DWFUNDERLAY", "DGNUNDERLAY",
+                              "GEOPOSITIONMARKER"};
   if (kAcis.contains(kind)) {
     return "an ACIS solid, which no free library facets: save it as MESH, polyface or 3DFACE";
   }
-  return kLines.contains(kind) ? "a line or point, no surface" : "lettering or symbol, no surface";
+  if (kLines.contains(kind)) return "a line or point, no surface";
+  if (kLettering.contains(kind)) return "lettering, symbol or flat filling, no surface";
+  if (kAids.contains(kind)) return "a view, picture or lamp of the drawing, no surface";
+  return "is not known and may have a surface: explode it, or save it as MESH, polyface or 3DFACE";
+}
+
+// As it can be shown, whatever a damaged file holds.
+std::string NameOfKind(std::string_view kind) {
+  const std::string quoted = QuotedDxf(kind);
+  return quoted.substr(1, quoted.size() - 2);
 }
 
 bool HasThickness(const DxfRecord& record) { return record.Number(39, 0) != 0; }
@@ -100,7 +120,7 @@ int DxfEntityReader::LookIndex(const DxfLook& look) {
 }
 
 void DxfEntityReader::Skip(std::string_view kind, const std::string& reason) {
-  ++block_->skipped[{std::string(kind), reason}];
+  ++block_->skipped[{NameOfKind(kind), reason}];
 }
 
 void DxfEntityReader::Add(const DxfRecord& record) {
@@ -108,7 +128,7 @@ void DxfEntityReader::Add(const DxfRecord& record) {
   if (record.kind() == "SEQEND" || record.kind() == "VERTEX") return Finish();
   if (record.kind() == "ATTRIB") return;  // the lettering of an INSERT
   Finish();
-  ++block_->entities[std::string(record.kind())];
+  ++block_->entities[NameOfKind(record.kind())];
   Read(record);
 }
 
@@ -116,7 +136,10 @@ void DxfEntityReader::Read(const DxfRecord& record) {
   const bool invisible = record.Integer(60, 0) == 1, on_paper = record.Integer(67, 0) == 1;
   if (invisible || on_paper) {
     Skip(record.kind(), invisible ? "invisible" : "paper space");
-    if (record.kind() == "POLYLINE") polyline_.emplace().hidden = true;
+    if (record.kind() == "POLYLINE") {
+      polyline_ = Polyline{};
+      polyline_->hidden = true;
+    }
     return;
   }
   const DxfLook look = LookOf(record);
@@ -162,7 +185,8 @@ bool DxfEntityReader::ReadSurface(const DxfRecord& record, int look) {
 }
 
 void DxfEntityReader::BeginPolyline(const DxfRecord& record, int look) {
-  Polyline& polyline = polyline_.emplace();
+  polyline_ = Polyline{};
+  Polyline& polyline = *polyline_;
   polyline.place = record.place();
   polyline.look = look;
   polyline.flags = record.Integer(70, 0);

@@ -165,7 +165,7 @@ FacetedPath Facet(const DxfPath& path, double tolerance) {
   for (size_t i = 0; i < segments.size(); ++i) {
     const Segment& segment = segments[i];
     if (std::ranges::all_of(segment, [](const Station& s) { return s.half_width == 0; })) {
-      faces.AddWalls(segment);
+      if (path.thickness != 0) faces.AddWalls(segment);  // else a mere line
     } else {
       const bool open = !path.closed;
       faces.AddWide(segment, open && i == 0, open && i + 1 == segments.size());

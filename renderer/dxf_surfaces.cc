@@ -74,6 +74,9 @@ std::vector<int> MeshFace(const DxfRecord& entity, int vertices, TagWalk* walk) 
   const DxfTag count_tag = walk->Next(90);
   const int count = entity.IntegerOf(count_tag);
   if (count < 3) throw entity.ErrorAt(count_tag, "a face of a MESH has at least 3 corners");
+  if (count > static_cast<int>(kMostCorners)) {
+    throw entity.ErrorAt(count_tag, "a face of a MESH has over 10000 corners");
+  }
   std::vector<int> corners;
   for (int i = 0; i < count; ++i) {
     const DxfTag& tag = walk->Next(90);

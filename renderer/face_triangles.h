@@ -3,9 +3,13 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstddef>
 #include <vector>
 
 namespace insitu {
+
+// Of a face. Importers refuse more: time grows with their square.
+constexpr size_t kMostCorners = 10000;
 
 // Whether three points span no area: they lie on a line to 1e-9 of the longest side.
 bool IsDegenerate(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c);

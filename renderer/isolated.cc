@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "renderer/isolated.h"
 
+#include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -123,6 +124,11 @@ void Send(const Model& model, Sender* out) {
     out->Text(what.second);
     out->Plain(count);
   }
+  out->Plain(model.images.size());
+  for (const auto& [name, image] : model.images) {
+    out->Text(name);
+    out->Text(image);
+  }
   out->Plain(model.degenerate_faces);
   out->Plain(model.warnings.size());
   for (const std::string& warning : model.warnings) out->Text(warning);
@@ -150,6 +156,10 @@ Model ReceiveModel(Receiver* in) {
     const std::string kind = in->Text();
     const std::string reason = in->Text();
     model.skipped[{kind, reason}] = in->Plain<int>();
+  }
+  for (size_t n = in->Plain<size_t>(); n > 0 && in->complete(); --n) {
+    const std::string name = in->Text();
+    model.images[name] = in->Text();
   }
   model.degenerate_faces = in->Plain<int>();
   for (size_t n = in->Plain<size_t>(); n > 0 && in->complete(); --n) {
@@ -192,6 +202,7 @@ int64_t AddressSpace() {
 }
 
 void Limit(const IsolationLimits& limits) {
+  prctl(PR_SET_PDEATHSIG, SIGKILL);  // nobody waits for it then
   const auto seconds = static_cast<rlim_t>(limits.seconds);
   const rlimit cpu{seconds, seconds + 1};
   setrlimit(RLIMIT_CPU, &cpu);

@@ -44,8 +44,9 @@ struct Model {
   std::optional<double> metres_per_unit;  // nullopt: the file names no unit; taken as metres
   std::map<std::string, int> entities;    // kind -> count, each as often as the file holds it
   SkippedEntities skipped;                // what carries no surface, is hidden, or cannot be read
-  int degenerate_faces = 0;               // dropped: no area, or an outline that crosses itself
-  std::vector<std::string> warnings;      // anything else a user must know
+  std::map<std::string, std::string> images;  // held by the file: "*0" as texture -> PNG, JPEG, ...
+  int degenerate_faces = 0;                   // dropped: no area, or an outline that crosses itself
+  std::vector<std::string> warnings;          // anything else a user must know
 };
 
 // Finds or adds surfaces of a mesh in constant time.

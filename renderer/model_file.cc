@@ -3,14 +3,13 @@
 
 #include <algorithm>
 #include <cctype>
-#include <cstdint>
-#include <cstring>
 #include <fstream>
 #include <set>
 #include <string_view>
 
 #include "calibration/error.h"
 #include "renderer/assimp_model.h"
+#include "renderer/model_syntax.h"
 #include "renderer/obj_model.h"
 
 namespace insitu {
@@ -51,14 +50,6 @@ bool IsDxf(std::string_view head) {
     code = TakeLine(&head);
   }
   return code == "0" && (TakeLine(&head) == "SECTION" || head.empty());
-}
-
-bool IsBinaryStl(std::string_view head, uint64_t size) {
-  constexpr size_t kHeader = 80, kFacet = 50;
-  if (head.size() < kHeader + 4) return false;
-  uint32_t count = 0;
-  std::memcpy(&count, head.data() + kHeader, sizeof(count));
-  return size == kHeader + 4 + kFacet * uint64_t{count};
 }
 
 bool IsObj(std::string_view head) {
@@ -107,7 +98,7 @@ std::optional<ModelFormat> DetectModelFormat(const fs::path& path) {
   if (text.starts_with("<") && head.find("<COLLADA") != head.npos) return ModelFormat::kCollada;
   if (head.starts_with("ply\n") || head.starts_with("ply\r")) return ModelFormat::kPly;
   if (IsDxf(head)) return ModelFormat::kDxf;
-  if (IsBinaryStl(head, fs::file_size(path))) return ModelFormat::kStl;
+  if (BinaryStlSize(path) == fs::file_size(path)) return ModelFormat::kStl;
   if (text.starts_with("solid") && head.find("facet") != head.npos) return ModelFormat::kStl;
   if (IsObj(head)) return ModelFormat::kObj;
   return std::nullopt;
@@ -122,7 +113,9 @@ bool IsNamedLikeAModel(const fs::path& path) {
 
 Model ReadModel(const fs::path& path, const ImportOptions& options) {
   std::optional<ModelFormat> format = DetectModelFormat(path);
-  if (!format && LowerEnding(path) == ".dxf") format = ModelFormat::kDxf;  // for its message
+  // For their messages.
+  if (!format && LowerEnding(path) == ".dxf") format = ModelFormat::kDxf;
+  if (!format && LowerEnding(path) == ".stl") format = ModelFormat::kStl;
   if (!format) {
     throw InputError(path, "is " + NameOfUnread(HeadOf(path)) +
                                ", expected DXF, IFC 2x3, OBJ, glTF, COLLADA, PLY or STL");

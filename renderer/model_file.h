@@ -21,7 +21,7 @@ bool IsNamedLikeAModel(const std::filesystem::path& path);
 
 struct ImportOptions {
   DxfOptions dxf;
-  int seconds = 600;  // a library that takes longer for a file is stopped
+  int seconds = 600;  // a library that takes longer is stopped; of a small file, sooner
 };
 
 // Throws InputError: unreadable, a format that is not read (DWG, SketchUp, Rhino, ... are named),

@@ -233,6 +233,7 @@ class ObjReader {
     std::vector<Corner> corners;
     while (const auto word = words.Next()) corners.push_back(CornerOf(words, *word));
     if (corners.size() < 3) throw words.Error("a face has at least 3 corners");
+    if (corners.size() > kMostCorners) throw words.Error("a face has over 10000 corners");
     ++model_.entities["f"];
     std::vector<int> vertices;
     for (const Corner& corner : corners) vertices.push_back(corner.vertex);

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """cad_figures.py SHARED PROGRAM FOLDER: converts every file of SHARED/data/cad and the gallery's
 building, and prints a line "ok: ..." or "FAIL: ..." for each figure of their SOURCE.txt."""
+import collections
 import json
 import pathlib
 import subprocess
@@ -28,20 +29,52 @@ class Converted:
         self.status, self.message = run.returncode, run.stderr.strip()
         self.report = json.loads(report.read_text()) if report.exists() else None
         if self.status == 0:
-            mesh = json.loads((site / 'work/building.json').read_text())['mesh']
+            self.description = json.loads((site / 'work/building.json').read_text())
+            mesh = self.description['mesh']
             data = (site / 'work/building.bin').read_bytes()
             n, m = mesh['vertices'], mesh['triangles']
             self.vertices = np.frombuffer(data, '<f8', 3 * n).reshape(n, 3)
             self.triangles = np.frombuffer(data, '<i4', 3 * m, 24 * n).reshape(m, 3)
+            self.materials = np.frombuffer(data, '<i4', m, 24 * n + 12 * m)
 
     def box(self, key=''):
         source = self.report['files'][0] if key else self.report
         return np.array([source['bbox_min' + key], source['bbox_max' + key]])
 
-    def corners(self):
-        """Centres of gravity of all triangles, in order."""
-        centres = self.vertices[self.triangles].mean(axis=1)
-        return centres[np.lexsort(np.round(centres, 3).T)]
+    def areas(self):
+        a, b, c = (self.vertices[self.triangles[:, i]] for i in range(3))
+        return np.linalg.norm(np.cross(b - a, c - a), axis=1) / 2
+
+
+def records(path):
+    """The records of an ASCII DXF in sections ENTITIES and BLOCKS, each a list of (code, value)."""
+    lines = [line.strip() for line in path.read_bytes().decode('latin1').split('\n')]
+    found, section, kept = [], None, None
+    for code, value in zip(lines[::2], lines[1::2]):
+        if code == '0':
+            kept = [] if section in ('ENTITIES', 'BLOCKS') else None
+            if kept is not None:
+                found.append(kept)
+            section = None if value == 'SECTION' else section
+        elif code == '2' and section is None:
+            section = value
+        if kept is not None:
+            kept.append((code, value))
+    return found
+
+
+def counted(path):
+    """Entities by kind as they stand in the file, blocks included."""
+    parts = {'VERTEX', 'SEQEND', 'ATTRIB', 'BLOCK', 'ENDBLK', 'ENDSEC', 'SECTION', 'EOF'}
+    return dict(collections.Counter(r[0][1] for r in records(path) if r[0][1] not in parts))
+
+
+def face_box(path):
+    """The box of all 3DFACE of a drawing, in its units."""
+    values = [dict(r) for r in records(path) if r[0][1] == '3DFACE']
+    corners = np.array([[[float(v[f'{axis}{corner}']) for axis in (1, 2, 3)] for corner in range(4)]
+                        for v in values]).reshape(-1, 3)
+    return corners.min(axis=0), corners.max(axis=0)
 
 
 def entities(name, converted, **counts):
@@ -52,6 +85,19 @@ def entities(name, converted, **counts):
 def box(name, converted, low, high, tolerance):
     found = converted.box('_in_units')
     check(np.abs(found - [low, high]).max() <= tolerance, f'{name}: box {found.tolist()}')
+
+
+def all_files():
+    """Every drawing in text holds what a plain count of its records finds."""
+    for path in sorted(p for p in cad.glob('*/*') if p.suffix.lower() == '.dxf'):
+        if path.read_bytes().startswith(b'AutoCAD Binary') or path.name == 'recover01.dxf':
+            continue
+        one, expected = Converted(path), counted(path)
+        keys = {'triangles', 'bbox_min', 'bbox_max', 'layers', 'entities', 'skipped'}
+        check(one.report and keys <= one.report.keys() and one.report['entities'] == expected,
+              f'{path.name}: {sum(expected.values())} entities of {len(expected)} kinds')
+        told = one.status == 0 or 'has no surface to show' in one.message
+        check(told, f'{path.name}: ' + (one.message or f'{one.report["triangles"]} triangles'))
 
 
 def acadsharp():
@@ -78,6 +124,7 @@ def assimp():
     entities('issue_2229', basin, POLYLINE=4)
     egg = Converted(cad / 'assimp/PinkEggFromLW.dxf')
     entities('PinkEgg', egg, _3DFACE=288)
+    box('PinkEgg', egg, *face_box(cad / 'assimp/PinkEggFromLW.dxf'), 1e-9)
     check(egg.report['solids']['open_edges'] == 0, 'PinkEgg is closed')
 
 
@@ -95,10 +142,36 @@ def ezdxf():
         check(len(acis) == 1 and 'ACIS' in acis[0]['reason'], f'{name}: {acis}')
 
 
+def window_area():
+    path = cad / 'doe_medium_office/RefBldgMediumOfficeNew2004_Chicago.epJSON'
+    model = json.loads(path.read_text())
+    area = 0
+    for window in model['FenestrationSurface:Detailed'].values():
+        corners = np.array([[window[f'vertex_{i}_{axis}_coordinate'] for axis in 'xyz']
+                            for i in range(1, 5)])
+        diagonals = corners[2] - corners[0], corners[3] - corners[1]
+        area += np.linalg.norm(np.cross(*diagonals)) / 2
+    return area
+
+
 def office():
     one = Converted(cad / 'doe_medium_office/RefBldgMediumOffice_from_epJSON.dxf')
     entities('DOE office', one, _3DFACE=140)
-    box('DOE office', one, (0, 0, 0), (49.911, 33.2738, 11.8872), 0.006)
+    path = cad / 'doe_medium_office/RefBldgMediumOffice_from_epJSON.dxf'
+    box('DOE office', one, *face_box(path), 1e-9)
+    size = one.box()[1] - one.box()[0]
+    check(np.abs(size - [49.91, 33.27, 11.89]).max() < 0.005, f'DOE office: {size.tolist()} m')
+    # Walls, floors, ceilings and roofs, windows each have a colour of their own.
+    colours = [tuple(m['diffuse_rgb']) for m in one.description['materials']]
+    areas = collections.defaultdict(list)
+    for material, area in zip(one.materials, one.areas()):
+        areas[colours[material]].append(area)
+    groups = sorted(areas.values(), key=len)
+    counts = [len(group) for group in groups]
+    check(counts == [24, 52, 60, 144], f'DOE office: triangles by colour {counts}')
+    found, stated = sum(groups[0]), window_area()
+    check(abs(found - stated) < 0.001 * stated,
+          f'DOE office: {found:.2f} m2 of windows, {stated:.2f} in the epJSON')
     found = [entry for entry in one.report['warnings'] if 'drawn on' in entry]
     check(bool(found), f'DOE office: {found}')
 
@@ -109,12 +182,13 @@ def house():
     for kind, count in (('IfcWindow_', 11), ('IfcDoor_', 5)):
         found = [name for name in layers if name.startswith(kind) and layers[name] > 0]
         check(len(found) == count, f'FZK-Haus: {len(found)} {kind.strip("_")}')
-    data = json.loads((folder / 'AC14-FZK-Haus.ifc/work/building.json').read_text())
-    check('Glas' in [m['name'] for m in data['materials']], 'FZK-Haus: its glass is there')
+    names = [m['name'] for m in one.description['materials']]
+    check('Glas' in names, 'FZK-Haus: its glass is there')
     # The walls of the ground floor: 12 m x 10 m.
     low = one.vertices[(one.vertices[:, 2] > 0.5) & (one.vertices[:, 2] < 2.0)]
     size = low.max(axis=0) - low.min(axis=0)
-    check(np.abs(size[:2] - [12, 10]).max() < 0.35, f'FZK-Haus: walls {size[:2].round(3).tolist()} m')
+    walls = np.abs(size[:2] - [12, 10]).max()
+    check(walls < 0.01, f'FZK-Haus: walls {size[:2].round(3).tolist()} m')
 
 
 def gallery():
@@ -124,6 +198,8 @@ def gallery():
     check(same, f'gallery: {len(dxf.triangles)} triangles as DXF, {len(obj.triangles)} as OBJ')
     off = max(distances(dxf.vertices, obj.vertices), distances(obj.vertices, dxf.vertices))
     check(off <= 2e-5, f'gallery: vertices of DXF and OBJ are {off:.1e} m apart')
+    area = abs(dxf.areas().sum() / obj.areas().sum() - 1)
+    check(area < 1e-5, f'gallery: areas of DXF and OBJ differ by {area:.1e}')
 
 
 def distances(these, those):
@@ -135,5 +211,5 @@ def distances(these, those):
     return worst
 
 
-for part in (acadsharp, assimp, ezdxf, office, house, gallery):
+for part in (all_files, acadsharp, assimp, ezdxf, office, house, gallery):
     part()

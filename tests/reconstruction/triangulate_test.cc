@@ -48,6 +48,14 @@ TEST(Triangulate, ReachesAHoleThroughADoubleEdge) {
   EXPECT_NEAR(Area(ring, kUp), 12, 1e-12);
 }
 
+// A comb: its ears are behind thousands of corners that are none.
+TEST(Triangulate, OutlinesOfThousandsOfCornersTakeNoMinutes) {
+  std::vector<Vector3d> comb;
+  for (int i = 0; i < 3000; ++i) comb.emplace_back(0.001 * i, i % 2, 0);
+  for (int i = 2999; i >= 0; --i) comb.emplace_back(0.001 * i, i % 2 + 0.1, 0);
+  EXPECT_NEAR(Area(comb, kUp), 0.2999, 1e-9);
+}
+
 TEST(Triangulate, RefusesAnOutlineThatCrossesItself) {
   EXPECT_FALSE(Triangulate({{0, 0, 0}, {4, 4, 0}, {4, 0, 0}, {0, 3, 0}}, kUp));
 }

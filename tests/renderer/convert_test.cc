@@ -4,6 +4,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "calibration/error.h"
 #include "tests/calibration/scratch_folder.h"
 #include "tests/renderer/dxf_text.h"
@@ -79,14 +81,16 @@ TEST_F(Convert, LayersGetTheirMaterials) {
 }
 
 TEST_F(Convert, DrawingsJoinInOrderOfTheirNames) {
-  Write("b.DXF", DrawingText(UnitSquare("WALL")));
+  Write("b.DXF", DrawingText(UnitSquare("WALL", "1") + UnitSquare("WALL")));
   Write("a.dxf", DrawingText(UnitSquare("GLASS") + UnitSquare("WALL")));
   Write("a.txt", "not a drawing");
   Write("materials.json", kMaterials);
-  const ArtificialEnvironment building = Converted().environment;
+  const Conversion conversion = Converted();
+  const ArtificialEnvironment& building = conversion.environment;
   EXPECT_THAT(building.material_of_triangle, ElementsAre(0, 0, 1, 1, 1, 1));
-  EXPECT_EQ(building.vertices.size(), 12u);
-  EXPECT_EQ(building.triangles[4].minCoeff(), 8);
+  EXPECT_EQ(conversion.solids.duplicate_faces, 2);  // the wall that is in both
+  EXPECT_EQ(building.vertices.size(), 8u);
+  EXPECT_EQ(building.triangles[4].minCoeff(), 4);
 }
 
 TEST_F(Convert, BareMirrorHasNoIndex) {
@@ -141,6 +145,21 @@ TEST_F(Convert, ReportNamesSizeAndPlace) {
               testing::AllOf(HasSubstr("2 triangles, 0 lights\n"),
                              HasSubstr("from (0.000, 0.000, 0.000) to (1.000, 1.000, 0.000) m"),
                              HasSubstr("WALL: 2\n")));
+}
+
+// The windows stand before their wall, the report's box is the architect's.
+TEST_F(Convert, BoxIsThatOfTheModel) {
+  Write("a.dxf", DrawingText(UnitSquare("WALL") +
+                             "0 3DFACE\n8 GLASS\n10 0.2\n20 0.2\n30 0\n11 0.8\n21 0.2\n31 0\n"
+                             "12 0.8\n22 0.7\n32 0\n13 0.2\n23 0.7\n33 0\n"));
+  Write("materials.json", kMaterials);
+  const Conversion conversion = Converted();
+  EXPECT_THAT(conversion.warnings, ElementsAre(HasSubstr("2 faces are drawn on larger ones")));
+  EXPECT_EQ(conversion.box.sizes(), Eigen::Vector3d(1, 1, 0));
+  double highest = 0;
+  for (const Eigen::Vector3d& v : conversion.environment.vertices)
+    highest = std::max(highest, v.z());
+  EXPECT_EQ(highest, 0.002);
 }
 
 TEST_F(Convert, NeedsADrawingWithSurfaces) {

@@ -48,6 +48,14 @@ TEST(DxfPath, ThicknessGoesAlongTheExtrusion) {
   EXPECT_NEAR((box.max() - Vector3d(2, 4, 0)).norm(), 0, 1e-12);
 }
 
+// Where it has neither width nor thickness it is a mere line, no face of no area.
+TEST(DxfPath, WidthOfOneSegmentOnly) {
+  const Model model = ReadEntities(
+      "0 LWPOLYLINE\n90 3\n70 0\n10 0\n20 0\n40 0.5\n41 0.5\n10 4\n20 0\n40 0\n41 0\n10 4\n20 9\n");
+  EXPECT_NEAR(AreaOf(model.mesh), 2, 1e-12);
+  EXPECT_EQ(model.degenerate_faces, 0);
+}
+
 TEST(DxfPath, CircleIsAClosedCylinderWithinTheTolerance) {
   for (const double tolerance : {0.1, 0.001}) {
     DxfOptions options;

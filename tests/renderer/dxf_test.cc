@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+#include <map>
 #include <numbers>
 #include <set>
 
@@ -11,6 +12,7 @@
 #include "renderer/face_triangles.h"
 #include "tests/calibration/scratch_folder.h"
 #include "tests/renderer/dxf_text.h"
+#include "tests/renderer/mesh_measures.h"
 
 namespace insitu {
 namespace {
@@ -24,24 +26,6 @@ Model ReadText(const std::string& text) {
 
 Model ReadEntities(const std::string& entities, const std::string& blocks = "") {
   return ReadText(DrawingText(entities, blocks));
-}
-
-double Area(const ModelMesh& mesh) {
-  double area = 0;
-  for (const auto& t : mesh.triangles) {
-    const Vector3d &a = mesh.vertices[t[0]], &b = mesh.vertices[t[1]], &c = mesh.vertices[t[2]];
-    area += (b - a).cross(c - a).norm() / 2;
-  }
-  return area;
-}
-
-// By Gauss's theorem; positive if the faces of a closed body are wound counter-clockwise outside.
-double Volume(const ModelMesh& mesh) {
-  double volume = 0;
-  for (const auto& t : mesh.triangles) {
-    volume += mesh.vertices[t[0]].dot(mesh.vertices[t[1]].cross(mesh.vertices[t[2]])) / 6;
-  }
-  return volume;
 }
 
 std::vector<std::string> LayersOf(const ModelMesh& mesh) {
@@ -157,15 +141,15 @@ TEST_P(DxfBox, HasItsAreaAndVolume) {
   const Model model = ReadEntities(GetParam());
   EXPECT_EQ(model.mesh.triangles.size(), 12u);
   EXPECT_EQ(LayersOf(model.mesh), std::vector<std::string>{"BOX"});
-  EXPECT_NEAR(Area(model.mesh), 52, 1e-12);
-  EXPECT_NEAR(Volume(model.mesh), 24, 1e-12);
+  EXPECT_NEAR(AreaOf(model.mesh), 52, 1e-12);
+  EXPECT_NEAR(VolumeOf(model.mesh), 24, 1e-12);
 }
 
 // A mirrored, rotated, scaled copy stays a body whose faces look outwards.
 TEST_P(DxfBox, KeepsItsOutsideWhenMirrored) {
   const Model model = ReadEntities("0 INSERT\n2 B\n10 5\n20 6\n30 7\n41 -2\n50 30\n",
                                    "0 BLOCK\n2 B\n" + GetParam() + "0 ENDBLK\n");
-  EXPECT_NEAR(Volume(model.mesh), 48, 1e-11);
+  EXPECT_NEAR(VolumeOf(model.mesh), 48, 1e-11);
 }
 
 INSTANTIATE_TEST_SUITE_P(Entities, DxfBox,
@@ -196,7 +180,7 @@ TEST(Dxf, OpenPolygonMeshHasOneFaceLessThanVerticesEachWay) {
   }
   const Model model = ReadEntities(sheet + "0 SEQEND\n");
   EXPECT_EQ(model.mesh.triangles.size(), 4u);
-  EXPECT_NEAR(Area(model.mesh), 2, 1e-15);
+  EXPECT_NEAR(AreaOf(model.mesh), 2, 1e-15);
 }
 
 TEST(Dxf, ConcaveMeshFaceCoversItsOutlineOnly) {
@@ -206,7 +190,7 @@ TEST(Dxf, ConcaveMeshFaceCoversItsOutlineOnly) {
   text += "93 7\n90 6\n90 0\n90 1\n90 2\n90 3\n90 4\n90 5\n";
   const Model model = ReadEntities(text);
   EXPECT_EQ(model.mesh.triangles.size(), 4u);
-  EXPECT_NEAR(Area(model.mesh), 6 * std::sqrt(5.0), 1e-12);  // slope 2
+  EXPECT_NEAR(AreaOf(model.mesh), 6 * std::sqrt(5.0), 1e-12);  // slope 2
 }
 
 TEST(Dxf, InsertScalesThenTurnsThenMoves) {
@@ -225,7 +209,7 @@ TEST(Dxf, InsertScalesThenTurnsThenMoves) {
 TEST(Dxf, InsertInRowsAndColumns) {
   const Model model = ReadEntities("0 INSERT\n2 B\n10 0\n20 0\n70 3\n71 2\n44 10\n45 20\n50 90\n",
                                    "0 BLOCK\n2 B\n" + UnitSquare("W") + "0 ENDBLK\n");
-  EXPECT_NEAR(Area(model.mesh), 6, 1e-12);
+  EXPECT_NEAR(AreaOf(model.mesh), 6, 1e-12);
   EXPECT_TRUE(Has(model.mesh, {0, 0, 0}));
   EXPECT_TRUE(Has(model.mesh, {-20, 20, 0}));  // last row and column, turned by 90 degrees
   EXPECT_EQ(model.entities.at("3DFACE"), 1);   // as often as the file holds it
@@ -276,8 +260,9 @@ TEST(Dxf, WhatCadDoesNotShowIsLeftOut) {
                   "0 INSERT\n2 B\n8 FROZEN\n 0 INSERT\n2 B\n8 OFF\n 0 LINE\n 0 POLYLINE\n70 1\n" +
                   "0 VERTEX\n10 1\n20 1\n0 SEQEND\n") +
               "0 EOF"));
-  EXPECT_NEAR(Area(model.mesh), 2, 1e-15);  // one square, and one in the block on OFF
-  EXPECT_EQ(LayersOf(model.mesh), std::vector<std::string>{"SHOWN"});
+  EXPECT_NEAR(AreaOf(model.mesh), 2, 1e-15);  // one square, and one in the block on OFF
+  EXPECT_EQ(LayersOf(model.mesh), (std::vector<std::string>{"SHOWN", "SHOWN"}));
+  EXPECT_EQ(model.mesh.surfaces[1].block, "B");
   EXPECT_EQ(model.skipped,
             (SkippedEntities{{{"3DFACE", "invisible"}, 1},
                              {{"3DFACE", "layer \"OFF\" is switched off"}, 1},
@@ -286,6 +271,40 @@ TEST(Dxf, WhatCadDoesNotShowIsLeftOut) {
                              {{"INSERT", "layer \"FROZEN\" is frozen"}, 1},
                              {{"LINE", "without thickness or width, no surface"}, 1},
                              {{"POLYLINE", "without thickness or width, no surface"}, 1}}));
+}
+
+// What is not known is not said to have no surface: it may be a roof.
+TEST(Dxf, EntitiesThatAreNotReadHaveTheirReason) {
+  const Model model = ReadEntities(
+      "0 TEXT\n0 SPLINE\n0 REGION\n0 LIGHT\n0 AEC_ROOF\n0 R\xFF\x01\n" + UnitSquare("W"));
+  std::map<std::string, std::string> reasons;
+  for (const auto& [what, count] : model.skipped) reasons[what.first] = what.second.substr(0, 12);
+  EXPECT_EQ(reasons, (std::map<std::string, std::string>{{"TEXT", "lettering, s"},
+                                                         {"SPLINE", "a line or po"},
+                                                         {"REGION", "an ACIS soli"},
+                                                         {"LIGHT", "a view, pict"},
+                                                         {"AEC_ROOF", "is not known"},
+                                                         {"R??", "is not known"}}));
+  EXPECT_EQ(model.entities.at("R??"), 1);
+}
+
+// A hole is reached by an edge that is gone along twice.
+TEST(Dxf, MeshFaceWithAHole) {
+  std::string text = "0 MESH\n100 AcDbSubDMesh\n92 8\n";
+  for (const auto& p :
+       {Vector3d(0, 0, 0), Vector3d(4, 0, 0), Vector3d(4, 4, 0), Vector3d(0, 4, 0),
+        Vector3d(1, 1, 0), Vector3d(1, 3, 0), Vector3d(3, 3, 0), Vector3d(3, 1, 0)}) {
+    text += Point(10, p);
+  }
+  text += "93 11\n90 10\n";
+  for (const int corner : {0, 1, 2, 3, 0, 4, 5, 6, 7, 4})
+    text += "90 " + std::to_string(corner) + "\n";
+  const ModelMesh mesh = ReadEntities(text).mesh;
+  EXPECT_NEAR(AreaOf(mesh), 12, 1e-12);
+  for (const auto& t : mesh.triangles) {
+    const Vector3d middle = (mesh.vertices[t[0]] + mesh.vertices[t[1]] + mesh.vertices[t[2]]) / 3;
+    EXPECT_GT((middle - Vector3d(2, 2, 0)).cwiseAbs().maxCoeff(), 1);
+  }
 }
 
 TEST(Dxf, FacesWithoutAreaAreCounted) {
@@ -300,16 +319,17 @@ TEST(Dxf, LinesMayEndInCarriageReturnsAndCarryComments) {
   std::string text = DrawingText("999 drawn by hand\n" + UnitSquare("W"));
   for (size_t i = 0; (i = text.find('\n', i)) != std::string::npos; i += 2)
     text.replace(i, 1, "\r\n");
-  EXPECT_NEAR(Area(ReadText("\xEF\xBB\xBF" + text).mesh), 1, 1e-15);
+  EXPECT_NEAR(AreaOf(ReadText("\xEF\xBB\xBF" + text).mesh), 1, 1e-15);
 }
 
 TEST(Dxf, LayersNotToBePlottedAreLeftOut) {
-  const Model model =
-      ReadText(DxfText("0 SECTION\n2 TABLES\n0 LAYER\n2 HELP\n70 0\n62 7\n290 0\n0 ENDSEC\n" +
-                       EntitiesSection(UnitSquare("HELP") + UnitSquare("W")) + "0 EOF"));
+  const Model model = ReadText(DxfText(
+      "0 SECTION\n2 TABLES\n0 LAYER\n2 HELP\n70 0\n62 7\n290 0\n0 ENDSEC\n" +
+      EntitiesSection(UnitSquare("HELP") + UnitSquare("W") + UnitSquare("Defpoints")) + "0 EOF"));
   EXPECT_EQ(LayersOf(model.mesh), std::vector<std::string>{"W"});
   EXPECT_EQ(model.skipped,
-            (SkippedEntities{{{"3DFACE", "layer \"HELP\" is not to be plotted"}, 1}}));
+            (SkippedEntities{{{"3DFACE", "layer \"Defpoints\" is not to be plotted"}, 1},
+                             {{"3DFACE", "layer \"HELP\" is not to be plotted"}, 1}}));
 }
 
 TEST(Dxf, ColorsComeFromEntityLayerOrInsert) {
@@ -361,7 +381,7 @@ TEST(FaceTriangles, DartStaysInsideItsOutline) {
   ModelMesh mesh;
   mesh.vertices = dart;
   mesh.triangles = FaceTriangles(dart, {0, 1, 2, 3});
-  EXPECT_NEAR(Area(mesh), 9, 1e-14);
+  EXPECT_NEAR(AreaOf(mesh), 9, 1e-14);
   for (const auto& t : mesh.triangles) EXPECT_TRUE((t.array() == 1).any());
 }
 

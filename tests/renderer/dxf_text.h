@@ -34,10 +34,14 @@ inline std::string DrawingText(const std::string& entities, const std::string& b
                  "0 EOF\n");
 }
 
-// A unit square in z = 0 as a 3DFACE on the given layer.
-inline std::string UnitSquare(const std::string& layer) {
-  return "0 3DFACE\n 8 " + layer +
-         "\n10 0\n20 0\n30 0\n 11 1\n21 0\n31 0\n 12 1\n22 1\n32 0\n 13 0\n23 1\n33 0\n";
+// A unit square at this height as a 3DFACE on the given layer.
+inline std::string UnitSquare(const std::string& layer, const std::string& z = "0") {
+  const auto corner = [&z](int number, const std::string& x, const std::string& y) {
+    const std::string n = std::to_string(number);
+    return "1" + n + " " + x + "\n2" + n + " " + y + "\n3" + n + " " + z + "\n";
+  };
+  return "0 3DFACE\n 8 " + layer + "\n" + corner(0, "0", "0") + corner(1, "1", "0") +
+         corner(2, "1", "1") + corner(3, "0", "1");
 }
 
 }  // namespace insitu

@@ -21,6 +21,7 @@ namespace {
 using Eigen::Vector3d;
 using testing::Contains;
 using testing::HasSubstr;
+using testing::Not;
 
 const char kObj[] = R"(# a house on a national grid
 mtllib house.mtl
@@ -85,6 +86,9 @@ TEST_F(ModelFile, FaultyObj) {
   EXPECT_THAT(complaint("f 1 2 -4"), HasSubstr("names vertex -4"));
   EXPECT_THAT(complaint("f 1 2 0"), HasSubstr("names vertex 0"));
   EXPECT_THAT(complaint("f 1 2"), HasSubstr("at least 3 corners"));
+  std::string long_face = "f";
+  for (int i = 0; i < 5001; ++i) long_face += " 1 2";
+  EXPECT_THAT(complaint(long_face), HasSubstr("a.obj:4: a face has over 10000 corners"));
   EXPECT_THAT(complaint("f 1/1 2/1 3/1"), HasSubstr("texture coordinate 1"));
   EXPECT_THAT(complaint("f 1 2 x"), HasSubstr("a.obj:4: \"x\""));
   EXPECT_THAT(complaint("v 1e300 0 0"), HasSubstr("at most 1e12"));
@@ -200,6 +204,27 @@ TEST_F(ModelFile, GltfIsTurnedUpright) {
   EXPECT_EQ(model.metres_per_unit, 1);
 }
 
+// As GLB and glTF mostly come: a red image inside the file.
+TEST_F(ModelFile, TexturesInsideTheModelBecomeFiles) {
+  std::string text = kGltf;
+  const auto replace = [&text](const std::string& what, const std::string& with) {
+    text.replace(text.find(what), what.size(), with);
+  };
+  replace("\"baseColorFactor\": [0.5, 0, 0, 1]", "\"baseColorTexture\": {\"index\": 0}");
+  replace("\"meshes\"", R"("textures": [{"source": 0}], "images": [{"mimeType": "image/png", "uri":
+      "data:image/png;base64,iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAIAAACQd1PeAAAADElEQVR4nGP4z8AAAAMBAQDJ/pLvAAAAAElFTkSuQmCC"
+      }], "meshes")");
+  folder_.Write("building/wall.gltf", text);
+  const SitePaths site{folder_.path()};
+  const SurfaceMaterial material = ConvertBuilding(site).environment.materials.at(0);
+  EXPECT_EQ(material.texture, "../work/building_textures/wall.gltf_0.png");
+  EXPECT_TRUE(std::filesystem::is_regular_file(site.building() / material.texture));
+  EXPECT_NEAR((material.diffuse_rgb - Vector3d(1, 0, 0)).norm(), 0, 1e-6);
+  replace("iVBORw0KGgo", "AAAAAAAAAAA");
+  folder_.Write("building/wall.gltf", text);
+  EXPECT_THAT(ConvertBuilding(site).warnings, Contains(HasSubstr("neither PNG nor JPEG")));
+}
+
 TEST_F(ModelFile, ColladaComesInMetres) {
   const Model model = Read("gate.dae", kCollada);
   ASSERT_EQ(model.mesh.triangles.size(), 1u);
@@ -217,6 +242,36 @@ TEST_F(ModelFile, IfcOfAnotherSchemaOrCutShort) {
   old.replace(old.find("IFC4"), 4, "IFC2X3");
   EXPECT_THAT(Complaint("a.ifc", old), HasSubstr("a.ifc:4: the file ends here"));
   EXPECT_THAT(Complaint("a.ifc", "ISO-10303-21;\nENDSEC;\n"), HasSubstr("no FILE_SCHEMA"));
+}
+
+// A statement that is none would be passed over, and with it what it describes.
+TEST_F(ModelFile, FaultyIfcStatements) {
+  const auto complaint = [this](const std::string& statement) {
+    return Complaint("a.ifc", "ISO-10303-21;\nHEADER;\nFILE_SCHEMA(('IFC2X3'));\nENDSEC;\nDATA;\n" +
+                                  statement + "\nENDSEC;\nEND-ISO-10303-21;\n");
+  };
+  EXPECT_THAT(complaint("#1=IFCWALL('a;b',(1,2));\n#garbage\n#2=IFCWALL();"),
+              HasSubstr("a.ifc:7: \"#garbage#2=IFCWALL()\", expected an instance"));
+  EXPECT_THAT(complaint("#1=IFCWALL((1,2);"), HasSubstr("a.ifc:6: "));
+  EXPECT_THAT(complaint("#=IFCWALL();"), HasSubstr("a.ifc:6: "));
+  EXPECT_THAT(complaint("/* #1 */ #1 =\n IFCWALL ('it''s', *, $);\n#2=(IFCA()IFCB());"),
+              Not(HasSubstr("expected an instance")));
+}
+
+TEST_F(ModelFile, FilesThatWereCut) {
+  const std::string ply = kPly, stl = kStl, gltf = kGltf, collada = kCollada;
+  EXPECT_THAT(Complaint("a.ply", ply.substr(0, ply.size() - 8)),
+              HasSubstr("a.ply: holds 7 vertices, faces and so on, expected 8"));
+  EXPECT_THAT(Complaint("a.ply", ply.substr(0, 140)), HasSubstr("a.ply:8: its head ends here"));
+  EXPECT_THAT(Complaint("a.stl", stl.substr(0, stl.find("endsolid"))),
+              HasSubstr("a.stl:8: the file ends here, expected endsolid"));
+  EXPECT_THAT(
+      Complaint("a.stl", std::string(80, ' ') + std::string("\2\0\0\0", 4) + std::string(50, '\0')),
+      HasSubstr("a.stl: is 134 bytes long, expected 184"));
+  EXPECT_THAT(Complaint("a.glb", std::string("glTF\2\0\0\0\0\1\0\0", 12)),
+              HasSubstr("a.glb: is 12 bytes long, expected 256"));
+  EXPECT_THAT(Complaint("a.gltf", gltf.substr(0, 400)), HasSubstr("a.gltf:6: "));
+  EXPECT_THAT(Complaint("a.dae", collada.substr(0, 700)), HasSubstr("a.dae:"));
 }
 
 TEST_F(ModelFile, DamagedFilesAreRefusedOrRead) {
@@ -252,6 +307,7 @@ TEST(Isolated, BringsTheWholeModel) {
   model.mesh.surface_of_triangle = {1};
   model.mesh.corner_uvs = {{0, 1}, {1, 1}, {1, 0}};
   model.entities = {{"mesh", 2}};
+  model.images = {{"*0", std::string("\x89PNG\0", 5)}};
   model.skipped = {{{"line", "no surface"}, 3}};
   model.warnings = {"careful"};
   model.metres_per_unit = 0.5;
@@ -262,6 +318,7 @@ TEST(Isolated, BringsTheWholeModel) {
   EXPECT_EQ(read->mesh.triangles, model.mesh.triangles);
   EXPECT_EQ(read->mesh.corner_uvs, model.mesh.corner_uvs);
   EXPECT_EQ(read->entities, model.entities);
+  EXPECT_EQ(read->images, model.images);
   EXPECT_EQ(read->skipped, model.skipped);
   EXPECT_EQ(read->warnings, model.warnings);
   EXPECT_EQ(read->metres_per_unit, 0.5);
