@@ -180,7 +180,6 @@ void WarnOfMisnamedControl(const Survey& survey, Adjustment* adjustment) {
 
 void AddStatistics(const NetworkSolution& solution, const AdjustmentOptions& options,
                    Adjustment* adjustment) {
-  adjustment->is_converged = solution.is_converged;
   adjustment->iterations = solution.iterations;
   adjustment->is_converged = solution.is_converged;
   adjustment->observations = solution.observations;

@@ -154,7 +154,22 @@ TEST_F(BadInput, APlaneThroughPointsOnOneLineIsARankDefectWithAName) {
   network_.survey.control_points.push_back(between);
   network_.survey.polygons.push_back(
       {"row", {"g0", "between", "g1", "g2"}, std::nullopt, "stone", {}, {"polygons.json", 99}});
-  ExpectError("polygons.json", 99, "plane of polygon 'row'");
+  ExpectError("polygons.json", 99, "plane of polygon row normal");
+}
+
+TEST_F(BadInput, AnEdgeMarkedOutsideItsPhotograph) {
+  network_.survey.edges.push_back({"P1", "g0", "g1", {-40, 10}, 1, {"edges.csv", 7}});
+  ExpectError("edges.csv", 7, "edge 'g0' to 'g1' is marked outside photo 'P1'");
+}
+
+TEST_F(BadInput, ADistanceBetweenPointsInOnePlace) {
+  ControlPoint twin = network_.survey.control_points.front();
+  const std::string name = twin.name;
+  twin.name = "twin";
+  network_.survey.control_points.push_back(twin);
+  network_.survey.constraints.push_back(
+      {GeometricConstraint::Kind::kDistance, {}, {name, "twin"}, 1, 0.01, {"constraints.json", 5}});
+  ExpectError("constraints.json", 5, "lie in the same place");
 }
 
 TEST_F(BadInput, AZenithPairUpsideDown) {

@@ -64,6 +64,7 @@ AdjustedPlane Plane(const Eigen::Vector3d& normal, double tangent_sigma) {
   plane.normal = normal.normalized();
   plane.normal_covariance = tangent_sigma * tangent_sigma *
                             (Eigen::Matrix3d::Identity() - plane.normal * plane.normal.transpose());
+  plane.tilt_covariance = plane.normal_covariance;  // the zenith is exact
   return plane;
 }
 

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "tests/reconstruction/network_statistics.h"
@@ -107,6 +108,61 @@ TEST(SolveNetwork, OneFixedPointLeavesRotationsAndScale) {
   network.heights.clear();
   const NetworkSolution solution = SolveNetwork(&network);
   EXPECT_EQ(solution.datum.defect(), 4);
+}
+
+// A network of marks, planes and sun alone, its zenith fixed.
+Network FreeUnderAFixedZenith() {
+  Network network = WithNoise(MakeRandomNetwork(9), 1);
+  network.control.clear();
+  network.centers.clear();
+  network.distances.clear();
+  network.heights.clear();
+  network.angles.clear();
+  std::erase_if(network.along_directions, [](const auto& pair) { return pair.direction == 1; });
+  network.directions[1].is_fixed = true;
+  return network;
+}
+
+TEST(SolveNetwork, AFixedZenithHoldsOnlyWhatIsObservedAgainstIt) {
+  const Network free = FreeUnderAFixedZenith();
+  Network nothing = free;
+  EXPECT_EQ(SolveNetwork(&nothing).datum.defect(), 7);
+  Network wall = free;  // its normal may still turn about the zenith and about itself
+  wall.angles.push_back({PlaneNormal{1}, DirectionUnit{1}, false, 0.002});
+  EXPECT_EQ(SolveNetwork(&wall).datum.defect(), 6);
+  Network level = free;
+  level.heights.push_back({1, 0, 1, 0, 0.005});
+  EXPECT_EQ(SolveNetwork(&level).datum.defect(), 6);
+  Network plumb = free;
+  const auto tower = MakeRandomNetwork(9).along_directions;
+  plumb.along_directions.push_back(
+      *std::find_if(tower.begin(), tower.end(), [](const auto& pair) { return pair.direction; }));
+  EXPECT_EQ(SolveNetwork(&plumb).datum.defect(), 5);
+}
+
+TEST(SolveNetwork, NamesAMarkWhosePointLiesBehindTheCamera) {
+  Network network = MakeRandomNetwork(7);
+  const NetworkPhoto& photo = network.photos[network.marks[10].photo];
+  const Eigen::Vector3d forward = photo.cam_from_local.conjugate() * Eigen::Vector3d::UnitZ();
+  network.points[network.marks[10].point].position = photo.center - forward;
+  try {
+    SolveNetwork(&network);
+    FAIL() << "expected no solution";
+  } catch (const NoSolution& failure) {
+    ASSERT_TRUE(failure.row);
+    EXPECT_EQ(failure.row->kind, ObservationKind::kMark);
+    EXPECT_EQ(network.marks[failure.row->index].point, network.marks[10].point);
+  }
+}
+
+TEST(SolveNetwork, CovariancesOfFunctionsAreThoseOfTheirUnknowns) {
+  Network network = WithNoise(MakeRandomNetwork(8), 1);
+  const NetworkSolution solution = SolveNetwork(&network);
+  const int column = *solution.columns.point[3];
+  Eigen::MatrixXd by_unknowns = Eigen::MatrixXd::Zero(3, solution.columns.count);
+  by_unknowns.middleCols<3>(column).setIdentity();
+  const Eigen::MatrixXd direct = Covariance(network, solution, column, 3, column, 3);
+  EXPECT_LT((CovarianceOf(network, solution, by_unknowns) - direct).norm(), 1e-9 * direct.norm());
 }
 
 TEST(SolveNetwork, NamesWhatNothingDetermines) {

@@ -82,9 +82,33 @@ TEST_F(Verdict, FailsOnASurelyWrongMarkButNotOnAWrongMatch) {
   adjustment.residuals[0].w = 8;
   EXPECT_EQ(Find(Judge(adjustment), "the suspect is")->severity, Severity::kFail);
   adjustment.residuals[0].is_tie_point = true;
-  EXPECT_EQ(Find(Judge(adjustment), "the suspect is tie point")->severity, Severity::kReview);
-  adjustment.residuals[0].w = 3;
   EXPECT_FALSE(Find(Judge(adjustment), "the suspect is"));
+  EXPECT_EQ(Suspect(adjustment)->w, 8);
+  adjustment.residuals[1].w = 4;  // what the surveyor measured goes before any tie point
+  EXPECT_EQ(Suspect(adjustment)->w, 4);
+}
+
+TEST_F(Verdict, ReviewsTiePointsWhenMoreAreWrongThanChanceExplains) {
+  Adjustment adjustment = Adjusted();
+  ObservationResidual tie = adjustment.residuals[0];
+  tie.is_tie_point = true;
+  const auto with_flagged = [&](int flagged) {
+    Adjustment more = adjustment;
+    for (int i = 0; i < 10000; ++i) {
+      tie.w = i < flagged ? 5 : 0.5;
+      more.residuals.push_back(tie);
+    }
+    return Judge(more);
+  };
+  EXPECT_FALSE(Find(with_flagged(12), "coordinates of tie points"));
+  EXPECT_EQ(Find(with_flagged(60), "60 of 10000 coordinates of tie points")->severity,
+            Severity::kReview);
+}
+
+TEST_F(Verdict, FailsWithoutConvergence) {
+  Adjustment adjustment = Adjusted();
+  adjustment.is_converged = false;
+  EXPECT_EQ(Find(Judge(adjustment), "has not converged")->severity, Severity::kFail);
 }
 
 TEST_F(Verdict, FailsWhenCheckPointsAreFarOff) {
