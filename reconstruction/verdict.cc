@@ -8,8 +8,9 @@
 namespace insitu {
 namespace {
 
-constexpr double kInseparable = 0.99;  // correlation of two unknowns of a photo or camera
-constexpr double kCheckLimit = 1.5;    // root mean square over combined sigma; twice that fails
+constexpr double kInseparable = 0.99;     // correlation of two unknowns of a photo or camera
+constexpr double kCheckLimit = 1.5;       // root mean square over combined sigma; twice that fails
+constexpr double kLikelyByChance = 0.05;  // that so large a test value is somewhere among so many
 // A sigma0 so near to 1 is no fault: with tens of thousands of tie points any test would find it.
 constexpr double kSigma0Band = 0.05;
 
@@ -54,14 +55,19 @@ FlagCount CountFlagged(const Adjustment& adjustment, bool of_tie_points) {
 void JudgeObservations(const Adjustment& adjustment, std::vector<Objection>* objections) {
   const std::optional<ObservationResidual> suspect = Suspect(adjustment);
   if (!suspect || suspect->is_tie_point) return;
-  const int flagged = CountFlagged(adjustment, false).flagged;
-  const bool is_surely_wrong = std::abs(*suspect->w) > 2 * adjustment.critical_w;
-  objections->push_back(
-      {is_surely_wrong ? Severity::kFail : Severity::kReview,
-       std::to_string(flagged) + (flagged == 1 ? " observation has" : " observations have") +
-           " a test value over " + Number("%.2f", adjustment.critical_w) + "; the suspect is " +
-           Describe(*suspect) + ", w " + Number("%.1f", *suspect->w),
-       Advice(*suspect) + "; then adjust again before judging the next one"});
+  const double w = std::abs(*suspect->w);
+  const auto [flagged, tested] = CountFlagged(adjustment, false);
+  const bool is_by_chance = tested * std::erfc(w / std::sqrt(2.0)) > kLikelyByChance;
+  const std::string reason =
+      std::to_string(flagged) + (flagged == 1 ? " observation has" : " observations have") +
+      " a test value over " + Number("%.2f", adjustment.critical_w) + "; the suspect is " +
+      Describe(*suspect) + ", w " + Number("%.1f", *suspect->w) +
+      (is_by_chance ? ", which good observations reach where there are so many" : "");
+  objections->push_back({w > 2 * adjustment.critical_w ? Severity::kFail
+                         : is_by_chance                ? Severity::kNote
+                                                       : Severity::kReview,
+                         reason,
+                         Advice(*suspect) + "; then adjust again before judging the next one"});
 }
 
 // Tie points were chosen by a program out of thousands; only their share counts.

@@ -81,6 +81,11 @@ TEST_F(Verdict, FailsOnASurelyWrongMarkButNotOnAWrongMatch) {
   Adjustment adjustment = Adjusted();
   adjustment.residuals[0].w = 8;
   EXPECT_EQ(Find(Judge(adjustment), "the suspect is")->severity, Severity::kFail);
+  adjustment.residuals[0].w = 4.5;
+  EXPECT_EQ(Find(Judge(adjustment), "the suspect is")->severity, Severity::kReview);
+  adjustment.residuals[0].w = 3.4;  // one in 1500; there are hundreds
+  EXPECT_EQ(Find(Judge(adjustment), "the suspect is")->severity, Severity::kNote);
+  adjustment.residuals[0].w = 8;
   adjustment.residuals[0].is_tie_point = true;
   EXPECT_FALSE(Find(Judge(adjustment), "the suspect is"));
   EXPECT_EQ(Suspect(adjustment)->w, 8);
