@@ -36,6 +36,7 @@ Json::Value CalibrationFacts(const Json::Value& calibration) {
                           "outliers", "rms_px", "worst_px", "uncertainty", "splined_uncertainty"}) {
     json[key] = calibration.get(key, Json::Value());
   }
+  json["verdict"] = calibration["verdict"].get("status", Json::Value());
   return json;
 }
 

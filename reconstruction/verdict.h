@@ -8,12 +8,11 @@
 #include <string>
 #include <vector>
 
+#include "calibration/calibration_verdict.h"
 #include "reconstruction/image_marks.h"
 #include "reconstruction/residual_report.h"
 
 namespace insitu {
-
-enum class Severity { kNote, kReview, kFail };
 
 // Redundancy numbers below this say that an error would hardly show in the residual.
 inline constexpr double kWeaklyControlled = 0.1;

@@ -40,7 +40,8 @@ function showCalibration(node, camera) {
   element(node, "p", (isKnown(c.rms_px) ? `Calibrated from ${boards}, ${count(c.points, "corner")}, ` +
     `${count(c.outliers, "outlier")}: RMS ${fixed(c.rms_px, 3)} px, worst ${fixed(c.worst_px, 2)} px.` :
     kSources[c.source] ?? "Where the calibration comes from was not stated.") +
-    (camera.model_file ? ` Model: ${camera.model_file}, its SHA-256 under Identity.` : ""));
+    (camera.model_file ? ` Model: ${camera.model_file}, its SHA-256 under Identity.` : "") +
+    (c.verdict ? ` The calibration's own verdict: ${c.verdict}.` : ""));
   const maps = [["this lens model", c.uncertainty], ["the splined model", c.splined_uncertainty]]
     .filter(([, uncertainty]) => uncertainty?.sigma_px);
   if (maps.length === 0) return;

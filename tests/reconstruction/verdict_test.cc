@@ -13,6 +13,9 @@ class Verdict : public testing::Test {
   Adjustment Adjusted() const {
     AdjustmentOptions options;
     options.plane_sigma = options.zenith_sigma = options.sun_sigma = 1e-4;
+    const size_t count = network_.cameras[0].intrinsics().size();
+    const Eigen::VectorXd sigma = Eigen::VectorXd::Constant(count, 1e-6);
+    options.lenses.assign(network_.photos.size(), {"camera", sigma.cwiseAbs2().asDiagonal()});
     return Adjust(survey_, network_.photos, network_.cameras, options);
   }
   // "single" is a vertex that one photo shows; surveyed, nothing is weak any more.
@@ -157,6 +160,22 @@ TEST_F(Verdict, PassesOnWhatTheCalibrationObjectsTo) {
   EXPECT_EQ(objection->remedy, "Photograph a chessboard.");
   adjustment.cameras[0].parameters[0].is_adjusted = true;
   EXPECT_EQ(Find(Judge(adjustment, context), "NOT CALIBRATED")->severity, Severity::kNote);
+}
+
+TEST_F(Verdict, ReviewsALensThatCountsAsExact) {
+  SurveyThePointOfOneRay();
+  Adjustment adjustment = Adjusted();
+  EXPECT_FALSE(Find(Judge(adjustment), "counts as exact"));
+  adjustment.cameras[0].is_considered = false;
+  EXPECT_EQ(Status(Judge(adjustment)), "review");
+  const auto objections = Judge(adjustment);
+  ASSERT_TRUE(Find(objections, "counts as exact"));
+  EXPECT_NE(Find(objections, "counts as exact")->remedy.find("--self-calibrate"),
+            std::string::npos);
+  adjustment.cameras[0].lens_model = "LENSMODEL_SPLINED_STEREOGRAPHIC_order=3_Nx=12_Ny=9";
+  EXPECT_TRUE(Find(Judge(adjustment), "a splined model brings no covariance"));
+  adjustment.cameras[0].parameters[0].is_adjusted = true;
+  EXPECT_FALSE(Find(Judge(adjustment), "counts as exact"));
 }
 
 TEST(Advice, TellsWhatToDoForEveryKindOfObservation) {
