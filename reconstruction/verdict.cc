@@ -188,8 +188,9 @@ void JudgeCalibration(const AdjustedCamera& camera, const Json::Value& calibrati
     return;
   }
   for (const Json::Value& reason : calibration["verdict"]["reasons"]) {
-    Severity severity = reason["severity"] == "fail" ? Severity::kFail : Severity::kReview;
-    if (is_adjusted) severity = Severity::kNote;
+    Severity severity = Severity::kReview;
+    if (reason["severity"] == Word(Severity::kFail)) severity = Severity::kFail;
+    if (is_adjusted || reason["severity"] == Word(Severity::kNote)) severity = Severity::kNote;
     objections->push_back(
         {severity, name + reason["reason"].asString(), reason["remedy"].asString()});
   }
@@ -200,18 +201,6 @@ void PassOnWarnings(const Adjustment& adjustment, std::vector<Objection>* object
     const bool is_said = warning == "the datum is " + adjustment.datum;
     if (!is_said) objections->push_back({Severity::kReview, warning, ""});
   }
-}
-
-const char* Word(Severity severity) {
-  switch (severity) {
-    case Severity::kNote:
-      return "note";
-    case Severity::kReview:
-      return "review";
-    case Severity::kFail:
-      break;
-  }
-  return "fail";
 }
 
 }  // namespace

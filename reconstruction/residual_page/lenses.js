@@ -52,8 +52,8 @@ function showCalibration(node, camera) {
 // Expected standard deviation of a projection over the frame, cell by cell.
 function uncertaintyPlot(parent, what, rows, frame) {
   const cells = rows.flatMap((row, i) => row.map((sigma, k) => ({sigma,
-    x1: k / row.length * frame.width, x2: (k + 1) / row.length * frame.width,
-    y1: i / rows.length * frame.height, y2: (i + 1) / rows.length * frame.height})));
+    x1: k / row.length * frame.width - 0.5, x2: (k + 1) / row.length * frame.width - 0.5,
+    y1: i / rows.length * frame.height - 0.5, y2: (i + 1) / rows.length * frame.height - 0.5})));
   const known = cells.filter(cell => isKnown(cell.sigma));
   const dark = d3.max(known, cell => cell.sigma) * 0.6;
   framePlot(parent, `expected σ of a projection [px], by ${what}`, frame, [
