@@ -21,7 +21,6 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr int kFewestBoards = 3;
-constexpr char kPython[] = "/usr/bin/python3";  // Debian's own, which has mrcal
 const std::string kRunSeeded = INSITU_CALIBRATION_FOLDER "/run_seeded.py";
 constexpr char kPhotos[] = "photos/";
 

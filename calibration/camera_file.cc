@@ -7,15 +7,12 @@
 
 #include "calibration/camera_file_formats.h"
 #include "calibration/invert_plane.h"
+#include "calibration/photograph.h"
 #include "calibration/whole_file.h"
 
 namespace insitu {
 namespace fs = std::filesystem;
 namespace {
-
-std::string SizeText(int width, int height) {
-  return std::to_string(width) + "x" + std::to_string(height) + " px";
-}
 
 void CheckSize(const fs::path& path, int line, int width, int height) {
   if (width > 0 && height > 0 && width < 1000000 && height < 1000000) return;

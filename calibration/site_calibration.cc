@@ -248,10 +248,6 @@ CameraCalibration FromExif(const SitePaths& site, const std::vector<fs::path>& p
 
 // ---- the site ------------------------------------------------------------------------------
 
-std::string SizeText(int width, int height) {
-  return std::to_string(width) + "x" + std::to_string(height) + " px";
-}
-
 // The photographs of each camera.
 std::map<std::string, std::vector<fs::path>> PhotosByCamera(const SitePaths& site,
                                                             const std::vector<fs::path>& photos) {

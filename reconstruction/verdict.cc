@@ -3,7 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
+
+#include "reconstruction/advice.h"
+#include "reconstruction/geometry_verdict.h"
+#include "reconstruction/wording.h"
 
 namespace insitu {
 namespace {
@@ -204,19 +207,6 @@ void PassOnWarnings(const Adjustment& adjustment, std::vector<Objection>* object
 }
 
 }  // namespace
-
-std::string Number(const char* format, double value) {
-  char text[64];
-  std::snprintf(text, sizeof text, format, value);
-  return text;
-}
-
-std::string Listing(const std::string& what, const std::vector<std::string>& names, size_t shown) {
-  std::string text = what + " (" + std::to_string(names.size()) + "): ";
-  for (size_t i = 0; i < std::min(names.size(), shown); ++i) text += (i ? ", " : "") + names[i];
-  if (names.size() > shown) text += " and " + std::to_string(names.size() - shown) + " more";
-  return text;
-}
 
 std::optional<ObservationResidual> Suspect(const Adjustment& adjustment) {
   const ObservationResidual* suspect = nullptr;

@@ -35,22 +35,4 @@ Json::Value VerdictReport(std::vector<Objection> objections);
 // time, since a gross error spoils the residuals around it. [Baarda 1968]
 std::optional<ObservationResidual> Suspect(const Adjustment& adjustment);
 
-// What the surveyor should do about an observation that was flagged.
-std::string Advice(const ObservationResidual& row);
-
-// "mark 'a3' on photo 'left' (x)": which observation a row is, in words.
-std::string Describe(const ObservationResidual& row);
-
-// The geometry of the network, whatever its residuals: rays, angles, base, control, calibrated
-// region, coverage. Appended to `objections`.
-void JudgeGeometry(const Adjustment& adjustment, const ReportContext& context,
-                   std::vector<Objection>* objections);
-
-// "what (n): a, b, c and m more", at most `shown` names.
-std::string Listing(const std::string& what, const std::vector<std::string>& names,
-                    size_t shown = 8);
-
-// printf's way with one number.
-std::string Number(const char* format, double value);
-
 }  // namespace insitu

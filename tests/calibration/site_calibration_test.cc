@@ -176,7 +176,7 @@ TEST_F(Site, PhotographOfAnotherSizeStopsBeforeAnyIsWritten) {
   AddPhoto("b.png", 480, 640);
   EXPECT_EQ(InputErrorOf([&] { UndistortSite(site_); }),
             (site_.photos() / "b.png").string() +
-                ": is 480x640 px, expected 640x480 px as the camera was calibrated");
+                ": is 480x640 px, expected 640x480 px as its camera was calibrated");
   EXPECT_FALSE(fs::exists(site_.input_image("a")));
 }
 

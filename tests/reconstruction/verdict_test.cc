@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "reconstruction/advice.h"
 #include "tests/reconstruction/synthetic_network.h"
 
 namespace insitu {
@@ -178,6 +179,17 @@ TEST_F(Verdict, ReviewsALensThatCountsAsExact) {
   EXPECT_FALSE(Find(Judge(adjustment), "counts as exact"));
 }
 
+// Names of tie points are others at the next run, and no option leaves one out.
+TEST(Advice, OfATiePointIsWhatCanBeDone) {
+  ObservationResidual row;
+  row.group = "image x";
+  row.subject = "tie_000123";
+  row.photo = "P";
+  row.is_tie_point = true;
+  EXPECT_NE(Advice(row).find("--points"), std::string::npos);
+  EXPECT_EQ(Advice(row).find("tie_000123"), std::string::npos);
+}
+
 TEST(Advice, TellsWhatToDoForEveryKindOfObservation) {
   for (const char* group : {"image x", "edge", "control y", "camera z", "lens", "plane", "sun",
                             "zenith", "distance", "height", "angle"}) {
@@ -188,15 +200,6 @@ TEST(Advice, TellsWhatToDoForEveryKindOfObservation) {
     EXPECT_NE(Advice(row), "") << group;
     EXPECT_NE(Describe(row), "") << group;
   }
-}
-
-TEST(IsInside, TellsAConcaveOutlinesInside) {
-  const std::vector<Eigen::Vector2d> notched = {{0, 0}, {10, 0}, {10, 10}, {5, 5}, {0, 10}};
-  EXPECT_TRUE(IsInside({5, 2}, notched));
-  EXPECT_TRUE(IsInside({1, 8}, notched));
-  EXPECT_FALSE(IsInside({5, 8}, notched));
-  EXPECT_FALSE(IsInside({11, 5}, notched));
-  EXPECT_FALSE(IsInside({1, 1}, {}));
 }
 
 }  // namespace
