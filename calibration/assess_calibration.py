@@ -9,9 +9,9 @@ was made from, gives the boards their photographs' names.
 
 Residuals are projected minus found, in pixels of the photographs (mrcal's weights removed),
 outliers left out; weighted_rms_px keeps the weights, as mrcal's own programs do. Grids of COLUMNS x
-ROWS go row by row: counts and mean residuals over equal cells of the frame, the uncertainty at nodes
-that span it. The uncertainty is the standard deviation in the worst direction of a point at
-infinity, at the nodes and at the centre.
+ROWS go row by row: counts and mean residuals over equal cells of the frame, the uncertainty at the
+cells' centres. The uncertainty is the standard deviation in the worst direction of a point at
+infinity, there and at the frame's centre.
 
 intrinsics_covariance is mrcal's: of the estimated intrinsics (in mrcal's order, unpacked) when the
 corners scatter as their residuals do. The solution's regularisation terms hold the estimate but add
@@ -52,7 +52,8 @@ class Solution:
 
 def uncertainty_px(model, columns, rows):
     width, height = model.imagersize()
-    grid = np.meshgrid(np.linspace(0, width - 1, columns), np.linspace(0, height - 1, rows))
+    grid = np.meshgrid((np.arange(columns) + 0.5) * width / columns - 0.5,
+                       (np.arange(rows) + 0.5) * height / rows - 0.5)
     pixels = np.vstack((np.stack(grid, axis=-1).reshape(-1, 2),
                         [[(width - 1) / 2, (height - 1) / 2]]))
     directions = mrcal.unproject(pixels, *model.intrinsics(), normalize=True)

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <map>
 #include <numbers>
 #include <set>
 #include <sstream>
@@ -20,7 +21,6 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr int kFewestBoards = 3;
-constexpr char kPython[] = "/usr/bin/python3";  // Debian's own, which has mrcal
 const std::string kRunSeeded = INSITU_CALIBRATION_FOLDER "/run_seeded.py";
 constexpr char kPhotos[] = "photos/";
 
@@ -46,13 +46,32 @@ double StartFocal(const fs::path& photo) {
   return exif.size.x() / 2.0 / std::tan(25 * std::numbers::pi / 180);
 }
 
+// What a photo is called within boards/: a corner table is split at blanks, and names have some.
+std::string LinkName(const std::vector<fs::path>& photos, size_t i) {
+  char number[16];
+  std::snprintf(number, sizeof(number), "%06zu", i + 1);
+  return number + photos[i].extension().string();
+}
+
 // Links to the photos in one new folder, so that one pattern names them all and what mrcal stores
 // names no folder of ours.
 void LinkPhotos(const std::vector<fs::path>& photos, const fs::path& folder) {
   fs::remove_all(folder);
   fs::create_directories(folder / kPhotos);
-  for (const fs::path& photo : photos) {
-    fs::create_symlink(fs::absolute(photo), folder / kPhotos / photo.filename());
+  for (size_t i = 0; i < photos.size(); ++i) {
+    fs::create_symlink(fs::absolute(photos[i]), folder / kPhotos / LinkName(photos, i));
+  }
+}
+
+// The photos' own names for those of their links.
+void NamePhotos(const std::vector<fs::path>& photos, LensAssessment* lens) {
+  std::map<std::string, std::string> name_of_link;
+  for (size_t i = 0; i < photos.size(); ++i) {
+    name_of_link[LinkName(photos, i)] = photos[i].filename().string();
+  }
+  for (BoardView& board : lens->boards) {
+    const auto name = name_of_link.find(board.photo);
+    if (name != name_of_link.end()) board.photo = name->second;
   }
 }
 
@@ -83,9 +102,9 @@ void CountBoards(const std::vector<fs::path>& photos, const Board& board, const 
   const std::set<std::string> found(names.begin(), names.end());
   result->board_photos = static_cast<int>(photos.size());
   result->boards_found = static_cast<int>(found.size());
-  for (const fs::path& photo : photos) {
-    const std::string name = photo.filename().string();
-    if (!found.contains(kPhotos + name)) result->not_found.push_back(name);
+  for (size_t i = 0; i < photos.size(); ++i) {
+    if (found.contains(kPhotos + LinkName(photos, i))) continue;
+    result->not_found.push_back(photos[i].filename().string());
   }
   if (result->boards_found >= kFewestBoards) return;
   throw InputError(photos.front().parent_path(),
@@ -215,6 +234,8 @@ BoardCalibration CalibrateFromBoards(const std::vector<fs::path>& board_photos, 
 
   result.lens = AssessLens(lean, solver.folder, corners);
   result.splined = AssessLens(splined, solver.folder, corners);
+  NamePhotos(board_photos, &result.lens);
+  NamePhotos(board_photos, &result.splined);
   result.splined_difference = Difference(lean, splined, result.splined.uncertainty);
   result.halves = CrossValidate(solver, result, corners);
   result.model = output_model;

@@ -33,8 +33,9 @@ struct BoardCalibration {
 
 // Calibrates from `board_photos` with mrgingham or OpenCV's finder (FindBoardCorners) and
 // mrcal-calibrate-cameras. The model is written to `output_model`; corners, logs and the other
-// models stay in the folder boards/ beside it. Throws InputError: fewer than three boards found,
-// photos of unequal size or unreadable, mrcal's programs missing or failing.
+// models stay in the folder boards/ beside it, where photos go by their number. Throws InputError:
+// fewer than three boards found, photos of unequal size or unreadable, mrcal's programs missing or
+// failing.
 BoardCalibration CalibrateFromBoards(const std::vector<std::filesystem::path>& board_photos,
                                      const Board& board, const std::filesystem::path& output_model,
                                      const BoardCalibrationOptions& options = {});

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "calibration/calibration_report.h"
 
+#include <algorithm>
+
 #include "calibration/calibration_page_script.h"
 #include "calibration/json_file.h"
 #include "calibration/report_page.h"
@@ -120,17 +122,17 @@ Json::Value JsonOf(const FilmScan& scan) {
 
 Json::Value VerdictOf(const std::vector<CalibrationFinding>& findings) {
   Json::Value verdict;
-  verdict["status"] = findings.empty() ? "pass" : "review";
+  Severity worst = Severity::kNote;
   verdict["reasons"] = Array();
   for (const CalibrationFinding& finding : findings) {
-    const bool is_fail = finding.severity == Severity::kFail;
-    if (is_fail) verdict["status"] = "fail";
+    worst = std::max(worst, finding.severity);
     Json::Value reason;
-    reason["severity"] = is_fail ? "fail" : "review";
+    reason["severity"] = Word(finding.severity);
     reason["reason"] = finding.reason;
     reason["remedy"] = finding.remedy;
     verdict["reasons"].append(reason);
   }
+  verdict["status"] = worst == Severity::kNote ? "pass" : Word(worst);
   return verdict;
 }
 

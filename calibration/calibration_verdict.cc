@@ -58,11 +58,13 @@ void JudgeViews(const std::vector<BoardView>& boards, std::vector<CalibrationFin
     return board.tilt_deg > kTilted_deg;
   });
   if (tilted < kFewTilted) {
-    findings->push_back({tilted == 0 ? Severity::kFail : Severity::kReview,
-                         Text("Only %.0f boards are tilted by more than %.0f degrees.",
-                              static_cast<double>(tilted), kTilted_deg),
-                         "Photograph the board tilted by 30 to 45 degrees to all sides: boards "
-                         "seen straight on cannot tell the focal length from the distance."});
+    findings->push_back(
+        {tilted == 0 ? Severity::kFail : Severity::kReview,
+         Text(tilted == 1 ? "Only %.0f board is tilted by more than %.0f degrees."
+                          : "Only %.0f boards are tilted by more than %.0f degrees.",
+              static_cast<double>(tilted), kTilted_deg),
+         "Photograph the board tilted by 30 to 45 degrees to all sides: boards "
+         "seen straight on cannot tell the focal length from the distance."});
   }
   const auto [near, far] = std::minmax_element(
       boards.begin(), boards.end(),
@@ -93,10 +95,10 @@ void JudgeResiduals(const LensAssessment& lens, const Eigen::Vector2i& size,
   }
 }
 
-// Where a board was seen, nodes whose difference is larger than chance and half a pixel; and the
+// Cells where a board was seen whose difference is larger than chance and half a pixel; and the
 // largest difference among them.
 struct Disagreement {
-  int nodes = 0, of = 0;
+  int cells = 0, of = 0;
   double largest_px = 0;
 };
 
@@ -110,9 +112,16 @@ Disagreement Disagree(const ProjectionDifference& difference, const LensAssessme
     ++result.of;
     result.largest_px = std::max(result.largest_px, *difference.px[i]);
     const double limit = std::max(kDisagreement_px, kDisagreement_sigmas * sigmas * *sigma);
-    result.nodes += *difference.px[i] > limit;
+    result.cells += *difference.px[i] > limit;
   }
   return result;
+}
+
+// That nothing contradicts is no agreement.
+CalibrationFinding Incomparable(const std::string& lenses) {
+  return {Severity::kReview,
+          lenses + " cannot be compared: nowhere in the frame were boards seen and both known.",
+          "Photograph more boards, evenly over the frame."};
 }
 
 void JudgeHalves(const BoardCalibration& calibration, std::vector<CalibrationFinding>* findings) {
@@ -123,24 +132,32 @@ void JudgeHalves(const BoardCalibration& calibration, std::vector<CalibrationFin
   }
   // Half of the boards knows the lens 1.4 times less, and two halves differ by 1.4 times that.
   const Disagreement halves = Disagree(*calibration.halves, calibration.splined, 2);
-  if (halves.nodes * 10 <= halves.of) return;
+  if (halves.of == 0) {
+    findings->push_back(Incomparable("The lenses of two halves of the boards"));
+    return;
+  }
+  if (halves.cells * 10 <= halves.of) return;
   findings->push_back({Severity::kReview,
                        Text("Two halves of the boards give different lenses: up to %.2f px apart "
                             "where boards were seen, at %.0f %% of the places more than chance "
                             "explains.",
-                            halves.largest_px, 100.0 * halves.nodes / halves.of),
+                            halves.largest_px, 100.0 * halves.cells / halves.of),
                        "Did zoom, focus or the board change in between? Else photograph more "
                        "boards, evenly over the frame."});
 }
 
 void JudgeModel(const BoardCalibration& calibration, std::vector<CalibrationFinding>* findings) {
   const Disagreement model = Disagree(calibration.splined_difference, calibration.splined, 1);
-  if (model.nodes * 10 <= model.of) return;
+  if (model.of == 0) {
+    findings->push_back(Incomparable("The lens model and the splined one"));
+    return;
+  }
+  if (model.cells * 10 <= model.of) return;
   findings->push_back({Severity::kReview,
                        Text("The lens model does not describe this lens: up to %.2f px from the "
                             "splined model where boards were seen, at %.0f %% of the places more "
                             "than chance explains.",
-                            model.largest_px, 100.0 * model.nodes / model.of),
+                            model.largest_px, 100.0 * model.cells / model.of),
                        "Calibrate with --lens-model " + calibration.splined_lens_model + "."});
 }
 
@@ -152,6 +169,12 @@ void JudgeUncertainty(const LensAssessment& lens, std::vector<CalibrationFinding
     ++seen;
     uncertain += !sigma || *sigma > kUncertain_px;
   }
+  if (seen == 0) {
+    findings->push_back({Severity::kFail,
+                         "How uncertain the projection is, is not known: no corners were used.",
+                         "Photograph the board again, sharp and wholly visible."});
+    return;
+  }
   if (uncertain * 10 <= seen) return;
   findings->push_back({uncertain * 2 > seen ? Severity::kFail : Severity::kReview,
                        Text("The projection is uncertain by more than %.0f px at %.0f %% of the "
@@ -162,11 +185,24 @@ void JudgeUncertainty(const LensAssessment& lens, std::vector<CalibrationFinding
 
 }  // namespace
 
+const char* Word(Severity severity) {
+  switch (severity) {
+    case Severity::kNote:
+      return "note";
+    case Severity::kReview:
+      return "review";
+    case Severity::kFail:
+      break;
+  }
+  return "fail";
+}
+
 std::vector<CalibrationFinding> JudgeLens(const LensAssessment& lens, const Eigen::Vector2i& size) {
   std::vector<CalibrationFinding> findings;
   if (lens.boards.size() < kFewBoards) {
     findings.push_back({Severity::kReview,
-                        Text("Only %.0f boards.", static_cast<double>(lens.boards.size())),
+                        Text(lens.boards.size() == 1 ? "Only %.0f board." : "Only %.0f boards.",
+                             static_cast<double>(lens.boards.size())),
                         "Photograph twenty boards or more."});
   }
   JudgeSpread(lens.cells, &findings);

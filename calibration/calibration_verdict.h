@@ -10,7 +10,11 @@
 
 namespace insitu {
 
-enum class Severity { kReview, kFail };
+// How much an objection counts, here and in the residual report; notes leave a verdict a pass.
+enum class Severity { kNote, kReview, kFail };
+
+// "note", "review" or "fail".
+const char* Word(Severity severity);
 
 struct CalibrationFinding {
   Severity severity = Severity::kReview;

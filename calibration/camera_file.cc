@@ -1,19 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "calibration/camera_file.h"
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
 #include "calibration/camera_file_formats.h"
 #include "calibration/invert_plane.h"
+#include "calibration/photograph.h"
+#include "calibration/whole_file.h"
 
 namespace insitu {
 namespace fs = std::filesystem;
 namespace {
-
-std::string SizeText(int width, int height) {
-  return std::to_string(width) + "x" + std::to_string(height) + " px";
-}
 
 void CheckSize(const fs::path& path, int line, int width, int height) {
   if (width > 0 && height > 0 && width < 1000000 && height < 1000000) return;
@@ -107,6 +106,23 @@ bool IsCameraFile(const fs::path& path) {
   if (name.starts_with('.') || name == "film.json") return false;
   return ending == ".cameramodel" || ending == ".yml" || ending == ".yaml" || ending == ".xml" ||
          ending == ".ior" || ending == ".json" || name == "cameras.txt";
+}
+
+bool SpeaksOfCamera(const fs::path& path) {
+  const std::string ending = path.extension().string();
+  std::vector<const char*> words;  // that a camera of this format cannot do without
+  if (ending == ".json") {
+    words = {"\"metric\"", "\"projection_type\""};
+  } else if (ending == ".xml") {
+    words = {"<camera"};
+  } else if (ending == ".yml" || ending == ".yaml") {
+    words = {"camera_matrix", "Camera_Matrix", "cameraMatrix", "\nK:", "M1:", "pinhole"};
+  } else {
+    return true;
+  }
+  const std::string text = "\n" + ReadWhole(path);
+  return std::any_of(words.begin(), words.end(),
+                     [&](const char* word) { return text.find(word) != std::string::npos; });
 }
 
 CameraFile ReadCameraFile(const fs::path& path, const CameraFileOptions& options) {

@@ -8,6 +8,8 @@
 
 namespace insitu {
 
+inline constexpr char kPython[] = "/usr/bin/python3";  // Debian's own, which has mrcal
+
 struct ExternalProgram {
   std::vector<std::string> command;  // program (looked up in PATH) and its arguments
   std::string package;               // the Debian package that holds it, for messages

@@ -11,6 +11,9 @@
 
 namespace insitu {
 
+// 80 degrees off the axis: what a plane image shows beyond is of no use.
+inline constexpr double kLargestTangent = 5.7;
+
 // Where a lens looks: direction of sight (of any length > 0, camera frame) of a pixel; nullopt
 // where it is undefined.
 using SightOfPixel = std::function<std::optional<Eigen::Vector3d>(const Eigen::Vector2d& pixel)>;

@@ -11,7 +11,6 @@ namespace insitu {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr char kPython[] = "/usr/bin/python3";  // Debian's own, which has mrcal
 const std::string kAssess = INSITU_CALIBRATION_FOLDER "/assess_calibration.py";
 
 std::vector<std::optional<double>> NumbersOrNull(const JsonNode& node) {

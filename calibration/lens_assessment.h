@@ -16,7 +16,8 @@ constexpr int kFrameColumns = 13, kFrameRows = 9;
 
 struct ProjectionUncertainty {
   int columns = 0, rows = 0;
-  // At nodes that span the frame, at infinity, worst direction; nullopt beyond a splined model.
+  // At the centres of the same cells as FrameCells', at infinity, worst direction; nullopt beyond a
+  // splined model.
   std::vector<std::optional<double>> sigma_px;
   double center_px = 0;  // at the image centre
 };
@@ -46,8 +47,9 @@ struct LensAssessment {
   ProjectionUncertainty uncertainty;
   FrameCells cells;
   std::vector<BoardView> boards;
-  // Of the intrinsics in mrcal's order, regularisation included; nullopt for splined models. In
-  // correlation with the boards' poses: what a photograph with a free pose needs.
+  // Of the intrinsics in mrcal's order; regularisation holds the estimate but adds no noise;
+  // nullopt for splined models. In correlation with the boards' poses: what a photograph with a
+  // free pose needs.
   std::optional<Eigen::MatrixXd> intrinsics_covariance;
 };
 

@@ -192,6 +192,17 @@ Eigen::Vector2i ReadPhotographSize(const fs::path& path) {
   return {input->spec().width, input->spec().height};
 }
 
+std::string SizeText(int width, int height) {
+  return std::to_string(width) + "x" + std::to_string(height) + " px";
+}
+
+void RequirePhotographSize(const fs::path& path, int width, int height) {
+  const Eigen::Vector2i size = ReadPhotographSize(path);
+  if (size == Eigen::Vector2i(width, height)) return;
+  throw InputError(path, "is " + SizeText(size.x(), size.y()) + ", expected " +
+                             SizeText(width, height) + " as its camera was calibrated");
+}
+
 bool IsClipped(const Photograph& photo, int x, int y) {
   return photo.encoding != Encoding::kLinear && photo.linear.Rgb(x, y).maxCoeff() >= 1;
 }

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <string>
 
 #include "calibration/raster.h"
 
@@ -28,6 +29,12 @@ Photograph ReadPhotograph(const std::filesystem::path& path);
 
 // (width, height) [px] from the file's header alone. Throws InputError: missing, not an image.
 Eigen::Vector2i ReadPhotographSize(const std::filesystem::path& path);
+
+// "640x480 px"
+std::string SizeText(int width, int height);
+
+// Throws InputError if a photograph is of another size than its camera's [px].
+void RequirePhotographSize(const std::filesystem::path& path, int width, int height);
 
 // Whether the sensor clipped here: a channel at its highest code (never for linear files).
 bool IsClipped(const Photograph& photo, int x, int y);

@@ -38,15 +38,16 @@ bool Improve(const Camera& b, const std::vector<Node>& nodes, Eigen::Quaterniond
 
 }  // namespace
 
-std::vector<Eigen::Vector2d> FrameNodes(int width, int height, int columns, int rows) {
-  INSITU_CHECK(columns > 1 && rows > 1);
-  std::vector<Eigen::Vector2d> nodes;
+std::vector<Eigen::Vector2d> FrameCenters(int width, int height, int columns, int rows) {
+  INSITU_CHECK(columns > 0 && rows > 0);
+  std::vector<Eigen::Vector2d> centers;
   for (int row = 0; row < rows; ++row) {
     for (int column = 0; column < columns; ++column) {
-      nodes.emplace_back((width - 1.0) * column / (columns - 1), (height - 1.0) * row / (rows - 1));
+      centers.emplace_back(width * (column + 0.5) / columns - 0.5,
+                           height * (row + 0.5) / rows - 0.5);
     }
   }
-  return nodes;
+  return centers;
 }
 
 ProjectionDifference CompareLenses(const Camera& a, const Camera& b, int columns, int rows,
@@ -54,7 +55,7 @@ ProjectionDifference CompareLenses(const Camera& a, const Camera& b, int columns
   INSITU_CHECK(a.width() == b.width() && a.height() == b.height());
   ProjectionDifference difference{.columns = columns, .rows = rows};
   std::vector<Node> nodes;
-  for (const Eigen::Vector2d& pixel : FrameNodes(a.width(), a.height(), columns, rows)) {
+  for (const Eigen::Vector2d& pixel : FrameCenters(a.width(), a.height(), columns, rows)) {
     nodes.push_back({pixel, a.Unproject(pixel), weights.empty() ? 1 : weights[nodes.size()]});
   }
   constexpr int kMostSteps = 20;

@@ -73,6 +73,15 @@ CameraCalibration FromBoards(const SitePaths& site, const CameraFolder& folder,
 
 // ---- camera files --------------------------------------------------------------------------
 
+void NoteUnusedBoards(const CameraFolder& folder, CameraCalibration* camera) {
+  if (folder.board_photos.empty()) return;
+  const std::string file = folder.file.filename().string();
+  camera->findings.push_back(
+      {Severity::kNote,
+       "The board photographs beside " + file + " are not used: a finished camera goes first.",
+       "Take " + file + " out of the folder to calibrate from the boards."});
+}
+
 CameraCalibration FromFile(const SitePaths& site, const CameraFolder& folder,
                            const std::vector<fs::path>& photos) {
   CameraFileOptions options{.photo_size = std::nullopt, .camera = folder.name};
@@ -80,6 +89,7 @@ CameraCalibration FromFile(const SitePaths& site, const CameraFolder& folder,
   const CameraFile file = ReadCameraFile(folder.file, options);
   CameraCalibration camera{.name = folder.name, .camera = file.camera};
   camera.file = file;
+  NoteUnusedBoards(folder, &camera);
   JudgeDeviation(file.largest_deviation_px, &camera);
   const fs::path model = site.camera(folder.name);
   if (file.format != "mrcal") {
@@ -90,7 +100,10 @@ CameraCalibration FromFile(const SitePaths& site, const CameraFolder& folder,
   WriteWhole(model, ReadWhole(folder.file));
   if (!HoldsSolution(model)) return camera;
   camera.lens = AssessLens(model, model.parent_path() / "boards");
-  camera.findings = JudgeLens(*camera.lens, {file.camera.width(), file.camera.height()});
+  for (const CalibrationFinding& finding :
+       JudgeLens(*camera.lens, {file.camera.width(), file.camera.height()})) {
+    camera.findings.push_back(finding);
+  }
   return camera;
 }
 
@@ -149,7 +162,8 @@ void JudgeScan(const FilmScan& scan, const Eigen::Vector2i& size, CameraCalibrat
   for (const Eigen::Vector2d& corner :
        {Eigen::Vector2d(0, 0), Eigen::Vector2d(size.x(), 0), Eigen::Vector2d(0, size.y()),
         Eigen::Vector2d(size.x(), size.y())}) {
-    const Eigen::Vector2d image = (image_from_bitmap * corner.homogeneous()).hnormalized();
+    const Eigen::Vector2d pixel = corner.array() - 0.5;
+    const Eigen::Vector2d image = (image_from_bitmap * pixel.homogeneous()).hnormalized();
     farthest = std::max(farthest, (image - scan.film.principal_point_mm).norm());
   }
   if (farthest <= 1.02 * scan.film.distortion.back().x()) return;
@@ -214,8 +228,11 @@ CameraCalibration FromExif(const SitePaths& site, const std::vector<fs::path>& p
   }
   CameraCalibration camera{
       .name = "",
-      .camera = Camera::Pinhole(*focal, *focal, (exif.size.x() - 1) / 2.0,
-                                (exif.size.y() - 1) / 2.0, exif.size.x(), exif.size.y())};
+      // Distortion of nothing, so that a self-calibrating adjustment has what to find.
+      .camera =
+          Camera("LENSMODEL_OPENCV4",
+                 {*focal, *focal, (exif.size.x() - 1) / 2.0, (exif.size.y() - 1) / 2.0, 0, 0, 0, 0},
+                 exif.size.x(), exif.size.y())};
   camera.exif_focal_px = *focal;
   camera.findings.push_back(
       {Severity::kFail,
@@ -223,16 +240,13 @@ CameraCalibration FromExif(const SitePaths& site, const std::vector<fs::path>& p
             "principal point.",
             *focal),
        "Photograph a chessboard with this camera and this focal length, or let the adjustment "
-       "calibrate the camera; until then nothing is better than some per cent."});
+       "calibrate the camera (insitu-reconstruct --self-calibrate); until then nothing is better "
+       "than some per cent."});
   WritePosedCamera(site.camera(), {"", camera.camera, Rigid3()}, "not calibrated: EXIF");
   return camera;
 }
 
 // ---- the site ------------------------------------------------------------------------------
-
-std::string SizeText(int width, int height) {
-  return std::to_string(width) + "x" + std::to_string(height) + " px";
-}
 
 // The photographs of each camera.
 std::map<std::string, std::vector<fs::path>> PhotosByCamera(const SitePaths& site,
@@ -277,6 +291,7 @@ SiteCalibration CalibrateSite(const SitePaths& site, const BoardCalibrationOptio
       camera.photos.push_back(photo.stem().string());
     }
     WriteReport(site, camera);
+    calibration.outdated_lenses += fs::remove(site.adjusted_camera(camera.name)) ? 1 : 0;
   }
   return calibration;
 }
@@ -322,6 +337,11 @@ std::string SiteCalibration::BriefReport() const {
   for (const CameraCalibration& camera : cameras) {
     if (!text.empty()) text += "\n";
     text += camera.BriefReport();
+  }
+  if (outdated_lenses > 0) {
+    text +=
+        "\nThe lens that an earlier insitu-reconstruct --self-calibrate found is removed, "
+        "since it started from another calibration: run insitu-reconstruct again.";
   }
   return text;
 }

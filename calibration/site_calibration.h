@@ -40,13 +40,14 @@ struct CameraCalibration {
 
 struct SiteCalibration {
   std::vector<CameraCalibration> cameras;  // sorted by name
+  int outdated_lenses = 0;                 // that adjustments from earlier calibrations found
   std::string BriefReport() const;
 };
 
 // Calibrates each of ListCameraFolders(site): takes a camera file, else solves from board_* photos
 // and board.txt, or ties scans to their film. Without any of these the focal length of EXIF is
 // taken, and said to be no calibration. Writes site.camera(), calibration_report() and
-// calibration_page() of each. Throws InputError.
+// calibration_page() of each, and removes its site.adjusted_camera(). Throws InputError.
 SiteCalibration CalibrateSite(const SitePaths& site, const BoardCalibrationOptions& options = {});
 
 // Covariance of a calibrated camera's intrinsics, in the order of Camera::intrinsics(), from its

@@ -31,49 +31,52 @@ std::vector<fs::path> SortedFiles(const fs::path& folder) {
   return files;
 }
 
-// The camera file among a folder's files.
-std::optional<fs::path> FindCameraFile(const std::vector<fs::path>& files) {
-  std::optional<fs::path> found;
+// The camera file among a folder's files: by its name where nothing else in the folder could be
+// meant, else by its content.
+std::optional<fs::path> FindCameraFile(const std::vector<fs::path>& files, bool is_alone) {
+  std::vector<fs::path> named, speaking;
   for (const fs::path& file : files) {
     if (file.filename() == "camera.cameramodel") return file;
-  }
-  for (const fs::path& file : files) {
     if (!IsCameraFile(file)) continue;
-    if (found) {
-      throw InputError(file, "is a second camera file beside " + found->filename().string() +
-                                 ", expected one a folder");
-    }
-    found = file;
+    named.push_back(file);
+    if (SpeaksOfCamera(file)) speaking.push_back(file);
   }
-  return found;
+  const std::vector<fs::path>& found = speaking.empty() && is_alone ? named : speaking;
+  if (found.size() > 1) {
+    throw InputError(found[1], "is a second camera file beside " + found[0].filename().string() +
+                                   ", expected one a folder");
+  }
+  return found.empty() ? std::nullopt : std::optional(found.front());
+}
+
+void RequireBothOfFilm(const fs::path& folder) {
+  for (const char* needed : {"film.json", "fiducials.csv"}) {
+    if (fs::exists(folder / needed)) continue;
+    throw InputError(folder / needed,
+                     "no such file, expected film.json and fiducials.csv together for scanned "
+                     "film");
+  }
 }
 
 std::optional<CameraFolder> ReadCameraFolder(const std::string& name, const fs::path& folder) {
-  CameraFolder camera{name, folder, CameraSource::kFile, {}, {}};
+  CameraFolder camera{name, folder, CameraSource::kBoards, {}, {}};
   const std::vector<fs::path> files = SortedFiles(folder);
-  if (const auto file = FindCameraFile(files)) {
-    camera.file = *file;
-    return camera;
-  }
-  if (fs::exists(folder / "film.json") || fs::exists(folder / "fiducials.csv")) {
-    for (const char* needed : {"film.json", "fiducials.csv"}) {
-      if (!fs::exists(folder / needed)) {
-        throw InputError(folder / needed,
-                         "no such file, expected film.json and fiducials.csv "
-                         "together for scanned film");
-      }
-    }
-    camera.source = CameraSource::kFilm;
-    camera.file = folder / "film.json";
-    return camera;
-  }
   for (const fs::path& file : files) {
     if (file.filename().string().starts_with("board_") && IsPhotograph(file)) {
       camera.board_photos.push_back(file);
     }
   }
-  camera.source = CameraSource::kBoards;
-  if (camera.board_photos.empty()) return std::nullopt;
+  const bool is_film = fs::exists(folder / "film.json") || fs::exists(folder / "fiducials.csv");
+  if (const auto file = FindCameraFile(files, camera.board_photos.empty() && !is_film)) {
+    camera.source = CameraSource::kFile;
+    camera.file = *file;
+  } else if (is_film) {
+    RequireBothOfFilm(folder);
+    camera.source = CameraSource::kFilm;
+    camera.file = folder / "film.json";
+  } else if (camera.board_photos.empty()) {
+    return std::nullopt;
+  }
   return camera;
 }
 

@@ -21,12 +21,13 @@ struct CameraFolder {
   std::string name;  // "": calibration/ itself
   std::filesystem::path folder;
   CameraSource source = CameraSource::kBoards;
-  std::vector<std::filesystem::path> board_photos;  // sorted; of kBoards
+  std::vector<std::filesystem::path> board_photos;  // sorted; beside a camera file they go unused
   std::filesystem::path file;                       // the camera file, or film.json
 };
 
 // Sorted by name; empty: nothing of a camera is there. A finished camera goes before board photos,
-// camera.cameramodel before other files. Throws InputError: two camera files side by side, a camera
+// camera.cameramodel before other files; beside boards or film a file counts if it speaks of a
+// camera. Throws InputError: two camera files side by side, a camera
 // in calibration/ itself and others in folders, film.json without fiducials.csv.
 std::vector<CameraFolder> ListCameraFolders(const SitePaths& site);
 

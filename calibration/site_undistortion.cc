@@ -34,18 +34,6 @@ std::map<std::string, Lens> ReadLenses(const SitePaths& site,
   return lenses;
 }
 
-std::string SizeText(int width, int height) {
-  return std::to_string(width) + "x" + std::to_string(height) + " px";
-}
-
-void CheckPhotoSize(const fs::path& photo, const Camera& camera) {
-  const Eigen::Vector2i size = ReadPhotographSize(photo);
-  if (size == Eigen::Vector2i(camera.width(), camera.height())) return;
-  throw InputError(photo, "is " + SizeText(size.x(), size.y()) + ", expected " +
-                              SizeText(camera.width(), camera.height()) +
-                              " as the camera was calibrated");
-}
-
 // Before any image, so that where all images are there, their pinholes are too.
 std::vector<Camera> WritePinholes(const SitePaths& site,
                                   const std::map<std::string, Lens>& lenses) {
@@ -65,7 +53,8 @@ SiteUndistortion UndistortSite(const SitePaths& site) {
   const std::vector<std::string> cameras = CamerasOfPhotos(site, photos);
   const std::map<std::string, Lens> lenses = ReadLenses(site, cameras);
   for (size_t i = 0; i < photos.size(); ++i) {
-    CheckPhotoSize(photos[i], lenses.at(cameras[i]).camera);
+    const Camera& camera = lenses.at(cameras[i]).camera;
+    RequirePhotographSize(photos[i], camera.width(), camera.height());
   }
   const SiteUndistortion result{WritePinholes(site, lenses), static_cast<int>(photos.size())};
   Progress progress("undistorting", result.photos);

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Observations in words: which one it is, and what to do when it was flagged.
-#include "reconstruction/verdict.h"
+#include "reconstruction/advice.h"
 
 namespace insitu {
 namespace {
@@ -29,7 +28,11 @@ std::string Describe(const ObservationResidual& row) {
 
 std::string Advice(const ObservationResidual& row) {
   const std::string subject = Quoted(row.subject), photo = Quoted(row.photo);
-  if (row.is_tie_point) return "a wrong match: leave tie point " + subject + " out";
+  if (row.is_tie_point) {
+    return "image matching took two places for one: run insitu-tie-points with a smaller --points, "
+           "which keeps those of most rays, or mark some points by hand on photo " +
+           photo;
+  }
   if (row.group.starts_with("image")) {
     return "measure mark " + subject + " on photo " + photo +
            " again; if it was right, make sure that the other photos' marks of " + subject +
@@ -50,8 +53,7 @@ std::string Advice(const ObservationResidual& row) {
   if (row.group == "plane") {
     return "make sure that the vertex of " + subject +
            " (polygon and vertex) lies in that plane; a wall that bulges needs a larger plane "
-           "sigma "
-           "or two polygons";
+           "sigma or two polygons";
   }
   if (row.group == "sun") {
     return "make sure that " + subject + " are a shadow and the point that casts it";

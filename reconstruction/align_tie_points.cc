@@ -3,11 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <set>
 
 #include "calibration/error.h"
 #include "reconstruction/intersection.h"
+#include "reconstruction/wording.h"
 
 namespace insitu {
 namespace {
@@ -73,20 +73,13 @@ Similarity3 AsFarAsKnown(const std::vector<SimilarityPair>& pairs) {
   return world_from_model;
 }
 
-std::string Number(const char* format, double value) {
-  char text[64];
-  std::snprintf(text, sizeof(text), format, value);
-  return text;
-}
-
 // What stays arbitrary without a fit.
 std::string DatumWarning(const ModelControl& control) {
   const size_t pairs = control.pairs.size();
   if (pairs == 0) {
     return "no control: position, orientation and scale are arbitrary, a unit is image matching's "
            "own and no metre; mark three surveyed points on two photos each, or survey three "
-           "camera "
-           "positions";
+           "camera positions";
   }
   if (pairs == 1) {
     return "only " + control.names[0] +

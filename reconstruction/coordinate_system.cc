@@ -61,15 +61,45 @@ struct Axis {
   double factor = 1;  // [m or rad] per unit
 };
 
-Axis FirstAxis(PJ_CONTEXT* context, const PJ* system) {
+Axis AxisOf(PJ_CONTEXT* context, const PJ* system, int index) {
   const Object axes(proj_crs_get_coordinate_system(context, system));
   const char* direction = nullptr;
   Axis axis;
-  if (axes && proj_cs_get_axis_info(context, axes.get(), 0, nullptr, nullptr, &direction,
+  if (axes && proj_cs_get_axis_info(context, axes.get(), index, nullptr, nullptr, &direction,
                                     &axis.factor, nullptr, nullptr, nullptr)) {
     axis.direction = direction;
   }
   return axis;
+}
+
+// Without what ties a system to another one.
+Object Unbound(PJ_CONTEXT* context, Object system) {
+  if (!system || proj_get_type(system.get()) != PJ_TYPE_BOUND_CRS) return system;
+  return Object(proj_get_source_crs(context, system.get()));
+}
+
+struct Parts {
+  Object horizontal;  // or three-dimensional
+  std::optional<Axis> height;
+};
+
+Parts PartsOf(PJ_CONTEXT* context, Object system) {
+  system = Unbound(context, std::move(system));
+  if (!system) return {};
+  if (proj_get_type(system.get()) == PJ_TYPE_COMPOUND_CRS) {
+    const auto part = [&](int index) {
+      return Unbound(context, Object(proj_crs_get_sub_crs(context, system.get(), index)));
+    };
+    const Object vertical = part(1);
+    if (!vertical) return {part(0), std::nullopt};
+    return {part(0), AxisOf(context, vertical.get(), 0)};
+  }
+  const Object axes(proj_crs_get_coordinate_system(context, system.get()));
+  std::optional<Axis> height;
+  if (axes && proj_cs_get_axis_count(context, axes.get()) == 3) {
+    height = AxisOf(context, system.get(), 2);
+  }
+  return {std::move(system), height};
 }
 
 }  // namespace
@@ -79,6 +109,7 @@ struct CoordinateSystem::Definition {
   Object object;
   PJ_TYPE type = PJ_TYPE_UNKNOWN;
   Axis first_axis;
+  std::optional<Axis> height;
 };
 
 CoordinateSystem::CoordinateSystem(std::shared_ptr<const Definition> definition)
@@ -90,20 +121,16 @@ std::optional<CoordinateSystem> CoordinateSystem::FromText(const std::string& te
   const std::string for_proj = ForProj(text);
   Object object(proj_create(context, for_proj.c_str()));
   if (!object || IsAccident(for_proj, object.get())) return std::nullopt;
-  if (proj_get_type(object.get()) == PJ_TYPE_BOUND_CRS) {
-    object.reset(proj_get_source_crs(context, object.get()));
-  }
-  if (object && proj_get_type(object.get()) == PJ_TYPE_COMPOUND_CRS) {
-    object.reset(proj_crs_get_sub_crs(context, object.get(), 0));
-  }
-  if (!object) return std::nullopt;
-  definition->type = proj_get_type(object.get());
+  auto [horizontal, height] = PartsOf(context, std::move(object));
+  if (!horizontal) return std::nullopt;
+  definition->type = proj_get_type(horizontal.get());
   const bool is_known = IsGeographic(definition->type) ||
                         definition->type == PJ_TYPE_PROJECTED_CRS ||
                         definition->type == PJ_TYPE_ENGINEERING_CRS;
   if (!is_known) return std::nullopt;
-  definition->first_axis = FirstAxis(context, object.get());
-  definition->object = std::move(object);
+  definition->first_axis = AxisOf(context, horizontal.get(), 0);
+  definition->height = height;
+  definition->object = std::move(horizontal);
   return CoordinateSystem(std::move(definition));
 }
 
@@ -134,6 +161,12 @@ double CoordinateSystem::metres_per_unit() const {
   return is_geographic() ? 1 : definition_->first_axis.factor;
 }
 
+double CoordinateSystem::metres_per_height() const {
+  const std::optional<Axis>& height = definition_->height;
+  if (!height) return 1;
+  return height->direction == "down" ? -height->factor : height->factor;
+}
+
 bool CoordinateSystem::has_north_first() const {
   return definition_->first_axis.direction == "north";
 }
@@ -143,18 +176,28 @@ bool CoordinateSystem::operator==(const CoordinateSystem& other) const {
                                PJ_COMP_EQUIVALENT_EXCEPT_AXIS_ORDER_GEOGCRS) != 0;
 }
 
-std::optional<Eigen::Vector2d> CoordinateSystem::Convert(const CoordinateSystem& source,
-                                                         const CoordinateSystem& target,
-                                                         const Eigen::Vector2d& xy) {
-  const Context context = MakeContext();
-  const Object as_defined(
-      proj_create_crs_to_crs_from_pj(context.get(), source.definition_->object.get(),
-                                     target.definition_->object.get(), nullptr, nullptr));
-  if (!as_defined) return std::nullopt;
-  const Object east_first(proj_normalize_for_visualization(context.get(), as_defined.get()));
-  if (!east_first) return std::nullopt;
+struct CoordinateConversion::Pipeline {
+  Context context = MakeContext();
+  Object object;  // null: PROJ knows no conversion
+};
+
+CoordinateConversion::CoordinateConversion(const CoordinateSystem& source,
+                                           const CoordinateSystem& target) {
+  auto pipeline = std::make_shared<Pipeline>();
+  PJ_CONTEXT* context = pipeline->context.get();
+  const Object as_defined(proj_create_crs_to_crs_from_pj(context, source.definition_->object.get(),
+                                                         target.definition_->object.get(), nullptr,
+                                                         nullptr));
+  if (as_defined) {
+    pipeline->object.reset(proj_normalize_for_visualization(context, as_defined.get()));
+  }
+  pipeline_ = std::move(pipeline);
+}
+
+std::optional<Eigen::Vector2d> CoordinateConversion::operator()(const Eigen::Vector2d& xy) const {
+  if (!pipeline_->object) return std::nullopt;
   const PJ_COORD result =
-      proj_trans(east_first.get(), PJ_FWD, proj_coord(xy.x(), xy.y(), 0, HUGE_VAL));
+      proj_trans(pipeline_->object.get(), PJ_FWD, proj_coord(xy.x(), xy.y(), 0, HUGE_VAL));
   if (!std::isfinite(result.xy.x) || !std::isfinite(result.xy.y)) return std::nullopt;
   return Eigen::Vector2d(result.xy.x, result.xy.y);
 }

@@ -12,33 +12,43 @@ namespace insitu {
 class CoordinateSystem {
  public:
   // "EPSG:2056", a PROJ string, WKT, "WGS84" or "WGS84 UTM 32N" as OpenDroneMap writes them. Of a
-  // compound system the horizontal one: heights are never converted here. nullopt: PROJ does not
-  // know it, or it is neither geographic, projected nor local (geocentric, vertical).
+  // compound system the horizontal one and the unit of its heights: these are never converted here.
+  // nullopt: PROJ does not know it, or it is neither geographic, projected nor local (geocentric,
+  // vertical).
   static std::optional<CoordinateSystem> FromText(const std::string& text);
 
   // The WGS 84 / UTM zone of a place [deg].
   static CoordinateSystem UtmZone(double longitude_deg, double latitude_deg);
 
   const std::string& name() const { return name_; }  // "WGS 84 / UTM zone 32N"
-  std::string Code() const;        // "EPSG:32632", or its PROJ string, or its name
-  bool is_geographic() const;      // degrees
-  bool is_local() const;           // a site's own axes: cannot be converted
-  double metres_per_unit() const;  // 1 of a geographic system
-  bool has_north_first() const;    // its definition puts latitude or northing first
+  std::string Code() const;          // "EPSG:32632", or its PROJ string, or its name
+  bool is_geographic() const;        // degrees
+  bool is_local() const;             // a site's own axes: cannot be converted
+  double metres_per_unit() const;    // 1 of a geographic system
+  double metres_per_height() const;  // negative: depths; 1 of a system without heights
+  bool has_north_first() const;      // its definition puts latitude or northing first
 
   bool operator==(const CoordinateSystem& other) const;  // the same but for names and axis order
 
-  // (x east or longitude, y north or latitude) of `source` in `target`, each in its own unit, x
-  // first whatever the definitions say. nullopt: PROJ has no conversion for this place.
-  static std::optional<Eigen::Vector2d> Convert(const CoordinateSystem& source,
-                                                const CoordinateSystem& target,
-                                                const Eigen::Vector2d& xy);
-
  private:
+  friend class CoordinateConversion;
   struct Definition;  // PROJ's
   explicit CoordinateSystem(std::shared_ptr<const Definition> definition);
   std::shared_ptr<const Definition> definition_;
   std::string name_;
+};
+
+class CoordinateConversion {
+ public:
+  CoordinateConversion(const CoordinateSystem& source, const CoordinateSystem& target);
+
+  // (x east or longitude, y north or latitude) of the source in the target, each in its own unit, x
+  // first whatever the definitions say. nullopt: PROJ has no conversion for this place.
+  std::optional<Eigen::Vector2d> operator()(const Eigen::Vector2d& xy) const;
+
+ private:
+  struct Pipeline;  // PROJ's
+  std::shared_ptr<const Pipeline> pipeline_;
 };
 
 }  // namespace insitu

@@ -23,7 +23,7 @@ struct Unit {
   double factor;
   const char* name;
 };
-constexpr Unit kUnits[] = {{1000, "millimetres"}, {1 / 0.3048, "feet"}, {0.001, "kilometres"}};
+constexpr Unit kUnits[] = {{1000, "millimetres"}, {1 / 0.3048, "feet"}};
 
 const Unit* UnitOfRatio(double ratio, double tolerance) {
   for (const Unit& unit : kUnits) {
@@ -67,7 +67,8 @@ std::string Told(const Distance& distance) {
          Short(distance.surveyed) + " m apart";
 }
 
-// Measured distances against coordinates: all by the same factor, or one alone.
+// Measured distances against coordinates: all by the same factor, or one alone. Millimetres and
+// feet are common, kilometres are not: what is longer is at fault.
 std::vector<Diagnosis> AgainstDistances(const Survey& survey) {
   const std::vector<Distance> distances = DistancesOf(survey);
   std::vector<double> ratios;
@@ -89,7 +90,6 @@ std::vector<Diagnosis> AgainstDistances(const Survey& survey) {
   for (size_t i = 0; i < distances.size(); ++i) {
     const Distance& distance = distances[i];
     if (std::abs(distance.surveyed - distance.constraint->value) < 10 * distance.sigma) continue;
-    // Millimetres and feet are common, kilometres are not: the longer one is at fault.
     const Unit* points = ratios[i] > 1 ? UnitOfRatio(ratios[i], 0.02) : nullptr;
     const Unit* value = ratios[i] < 1 ? UnitOfRatio(1 / ratios[i], 0.02) : nullptr;
     const std::string question =

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "calibration/error.h"
+#include "calibration/fit_camera.h"
 #include "reconstruction/lens_residual.h"
 
 namespace insitu {
@@ -13,7 +14,6 @@ namespace {
 
 constexpr int kGrid = 24;  // places along either side of the frame
 constexpr int kFree = 9;   // all parameters but the skew, which is the last
-constexpr double kLargestTangent = 5.7;
 
 struct Place {
   Eigen::Vector2d pixel;

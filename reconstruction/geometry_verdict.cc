@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "reconstruction/geometry_verdict.h"
+
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <set>
 
-#include "reconstruction/verdict.h"
+#include "reconstruction/plane.h"
+#include "reconstruction/wording.h"
 
 namespace insitu {
 namespace {
@@ -98,7 +101,7 @@ void JudgeFrames(const Adjustment& adjustment, const std::vector<ImageMark>& mar
     const AdjustedPose& pose = adjustment.poses[mark.photo];
     const CameraContext& camera = context.OfCamera(pose.camera);
     if (mark.is_tie_point || camera.calibrated_region.empty()) continue;
-    if (IsInside(mark.pixel, camera.calibrated_region)) continue;
+    if (IsInside(camera.calibrated_region, mark.pixel)) continue;
     outside.push_back(mark.point + " on " + pose.photo);
     is_mapped &= camera.calibration.isObject() && camera.calibration["uncertainty"];
   }

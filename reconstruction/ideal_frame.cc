@@ -6,12 +6,12 @@
 #include <cmath>
 
 #include "calibration/error.h"
+#include "calibration/fit_camera.h"
 
 namespace insitu {
 namespace {
 
-constexpr double kLargestTangent = 5.7;  // 80 degrees
-constexpr int kSteps = 64;               // along each side of the photograph
+constexpr int kSteps = 64;  // along each side of the photograph
 
 // (x / z, y / z) of a pixel's sight.
 Eigen::Vector2d Tangents(const Camera& camera, const Eigen::Vector2d& pixel) {

@@ -59,15 +59,4 @@ std::map<std::string, double> LargestRayAngles(const Adjustment& adjustment,
   return angles;
 }
 
-bool IsInside(const Eigen::Vector2d& pixel, const std::vector<Eigen::Vector2d>& outline) {
-  bool is_inside = false;
-  for (size_t i = 0, j = outline.size() - 1; i < outline.size(); j = i++) {
-    const Eigen::Vector2d &a = outline[i], &b = outline[j];
-    if ((a.y() > pixel.y()) == (b.y() > pixel.y())) continue;
-    const double x = a.x() + (pixel.y() - a.y()) / (b.y() - a.y()) * (b.x() - a.x());
-    if (pixel.x() < x) is_inside = !is_inside;
-  }
-  return is_inside;
-}
-
 }  // namespace insitu

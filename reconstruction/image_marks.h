@@ -28,7 +28,4 @@ std::vector<ImageMark> ImageMarks(const Adjustment& adjustment);
 std::map<std::string, double> LargestRayAngles(const Adjustment& adjustment,
                                                const std::vector<ImageMark>& marks);
 
-// Whether a pixel lies inside a closed outline [px], by the parity of crossings.
-bool IsInside(const Eigen::Vector2d& pixel, const std::vector<Eigen::Vector2d>& outline);
-
 }  // namespace insitu

@@ -4,6 +4,7 @@
 #include <ceres/jet.h>
 
 #include "calibration/error.h"
+#include "calibration/metric_polynomials.h"
 
 namespace insitu {
 namespace {
@@ -12,30 +13,6 @@ constexpr int kMetricParameters = 10;
 
 template <typename T>
 using Vector2 = Eigen::Matrix<T, 2, 1>;
-
-// See MetricModel::kBackwardBrown. Millimetres, about the principal point.
-template <typename T>
-Vector2<T> Corrected(const T* p, const Eigen::Vector2d& measured_mm) {
-  const T y = measured_mm.y() - p[2];
-  const T x = (1.0 + p[8]) * (measured_mm.x() - p[1]) + p[9] * y;
-  const T r2 = x * x + y * y;
-  const T radial = r2 * (p[3] + r2 * (p[4] + r2 * p[5]));
-  return {x + x * radial + p[6] * (r2 + 2.0 * x * x) + 2.0 * p[7] * x * y,
-          y + y * radial + 2.0 * p[6] * x * y + p[7] * (r2 + 2.0 * y * y)};
-}
-
-// See MetricModel::kBalancedRadial. Millimetres, as measured.
-template <typename T>
-Vector2<T> Distorted(const T* p, double balanced_radius_mm, const Vector2<T>& ideal_mm) {
-  const T x = ideal_mm.x(), y = ideal_mm.y();
-  const T r2 = x * x + y * y;
-  const double b2 = balanced_radius_mm * balanced_radius_mm;
-  const T radial =
-      p[3] * (r2 - b2) + p[4] * (r2 * r2 - b2 * b2) + p[5] * (r2 * r2 * r2 - b2 * b2 * b2);
-  return {
-      x + p[1] + x * radial + p[6] * (r2 + 2.0 * x * x) + 2.0 * p[7] * x * y + p[8] * x + p[9] * y,
-      y + p[2] + y * radial + p[7] * (r2 + 2.0 * y * y) + 2.0 * p[6] * x * y};
-}
 
 template <typename T>
 Vector2<T> MetricResidual(const MetricCamera& camera, const T* parameters,
@@ -46,8 +23,8 @@ Vector2<T> MetricResidual(const MetricCamera& camera, const T* parameters,
   const Vector2<T> ideal_mm(scale * point.x(), -scale * point.y());
   const Vector2<T> residual_mm =
       camera.model == MetricModel::kBackwardBrown
-          ? Vector2<T>(ideal_mm - Corrected(parameters, measured_mm))
-          : Vector2<T>(Distorted(parameters, camera.balanced_radius_mm, ideal_mm) -
+          ? Vector2<T>(ideal_mm - CorrectBackwardBrown(parameters, measured_mm))
+          : Vector2<T>(DistortBalancedRadial(parameters, camera.balanced_radius_mm, ideal_mm) -
                        measured_mm.cast<T>());
   return {residual_mm.x() / camera.pixel_mm.x(), -residual_mm.y() / camera.pixel_mm.y()};
 }

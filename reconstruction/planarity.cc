@@ -42,12 +42,14 @@ void RequirePlanar(const PolygonOutline& polygon, const std::vector<StartPoint>&
   const auto worst =
       std::max_element(positions.begin(), positions.end(),
                        [&](const auto& a, const auto& b) { return distance(a) < distance(b); });
-  if (distance(*worst) <= tolerance + kUncertainties * uncertainty) return;
+  const double limit = tolerance + kUncertainties * uncertainty;
+  if (distance(*worst) <= limit) return;
   throw InputError(polygon.place.path, polygon.place.line,
                    "polygon '" + polygon.name + "' is far from planar: vertex '" +
                        names[static_cast<size_t>(worst - positions.begin())] + "' is " +
                        Metres(distance(*worst)) + " off the best plane, expected at most " +
-                       Metres(tolerance));
+                       Metres(limit) + " (" + Metres(tolerance) + " and ten sigma of " +
+                       Metres(uncertainty) + ", its least certain vertex's)");
 }
 
 void RequireSimple(const PolygonOutline& polygon, const std::vector<StartPoint>& vertices) {

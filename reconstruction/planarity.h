@@ -9,8 +9,8 @@
 
 namespace insitu {
 
-// Throws InputError at a polygon with a vertex further from the best-fit plane than
-// max(20 plane_sigma, 0.1 m) and ten sigma of its least certain vertex. Vertices of infinite sigma
+// Throws InputError at a polygon with a vertex further from the best-fit plane than the larger of
+// 20 plane_sigma and 0.1 m, plus ten sigma of its least certain vertex. Vertices of infinite sigma
 // are not judged.
 void RequirePlanar(const Survey& survey, const std::map<std::string, StartPoint>& points,
                    double plane_sigma);

@@ -28,7 +28,8 @@ std::vector<Eigen::Vector2d> ProjectOutline(const std::vector<Eigen::Vector3d>& 
                                             const Eigen::Vector3d& normal,
                                             const Eigen::Vector3d& origin);
 
-// Even-odd rule.
+// Whether a point lies inside a closed outline, by the parity of crossings; in an empty one nothing
+// does.
 bool IsInside(const std::vector<Eigen::Vector2d>& outline, const Eigen::Vector2d& point);
 
 }  // namespace insitu

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "reconstruction/polygon_measures.h"
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
@@ -74,7 +75,10 @@ UncertainValue OffLevel(const AdjustedPlane& plane, const Eigen::Vector3d& zenit
   // Towards the zenith, or where that has no direction the largest sigma of any.
   const Eigen::Matrix3d& covariance = plane.tilt_covariance;
   const Eigen::Vector3d towards = plane.normal.cross(across).normalized();
-  const double variance = sine > 1e-9 ? towards.dot(covariance * towards) : covariance.trace();
+  const double variance = sine > 1e-9 ? towards.dot(covariance * towards)
+                                      : Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(
+                                            covariance, Eigen::EigenvaluesOnly)
+                                            .eigenvalues()[2];
   return {std::atan2(sine, cosine), std::sqrt(std::max(0.0, variance))};
 }
 

@@ -101,6 +101,7 @@ Adjustment ReconstructSite(const SitePaths& site, AdjustmentOptions options,
                            const std::filesystem::path& start_poses, const std::string& command) {
   const SitePhotos site_photos = ReadSitePhotos(site);
   const std::vector<std::string>& photos = site_photos.names;
+  RequireSizes(site_photos.paths, site_photos.cameras);
   RequireDistinctPhotographs(site_photos.paths);
   options.lenses = site_photos.lenses;
   const auto tie_points = TiePointsOf(site, photos);
@@ -111,6 +112,9 @@ Adjustment ReconstructSite(const SitePaths& site, AdjustmentOptions options,
   Adjustment adjustment = Adjust(survey, photos, site_photos.cameras, options);
   ReportContext context = SiteContext(site, site_photos, options, adjustment, tie_points);
   context.command = command;
+  if (!start_poses.empty()) {
+    context.inputs.push_back({"--start " + start_poses.filename().string(), Sha256(start_poses)});
+  }
   const Json::Value report = ResidualReport(adjustment, survey, context);
   const std::string page = ResidualPage(report);
   WriteSceneGeometry(site, adjustment.scene);

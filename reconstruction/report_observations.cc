@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "reconstruction/advice.h"
 #include "reconstruction/report_sections.h"
 #include "reconstruction/verdict.h"
 

@@ -3,12 +3,12 @@
 #include <cmath>
 
 #include "calibration/json_file.h"
+#include "reconstruction/plane.h"
 #include "reconstruction/report_sections.h"
 
 namespace insitu {
 namespace {
 
-constexpr double kDegree = M_PI / 180;
 constexpr int kCellsOfTiePoints = 24;  // per longer side of a photo
 
 Json::Value Parameters(const AdjustedCamera& camera) {
@@ -36,6 +36,7 @@ Json::Value CalibrationFacts(const Json::Value& calibration) {
                           "outliers", "rms_px", "worst_px", "uncertainty", "splined_uncertainty"}) {
     json[key] = calibration.get(key, Json::Value());
   }
+  json["verdict"] = calibration["verdict"].get("status", Json::Value());
   return json;
 }
 
@@ -100,7 +101,7 @@ Json::Value OutsideRegion(const std::vector<ImageMark>& marks, const CameraConte
   if (context.calibrated_region.empty()) return Json::Value();
   Json::Value names(Json::arrayValue);
   for (const ImageMark& mark : marks) {
-    if (!mark.is_tie_point && !IsInside(mark.pixel, context.calibrated_region)) {
+    if (!mark.is_tie_point && !IsInside(context.calibrated_region, mark.pixel)) {
       names.append(mark.point);
     }
   }

@@ -9,7 +9,6 @@
 namespace insitu {
 namespace {
 
-constexpr double kDegree = M_PI / 180;
 constexpr size_t kTiePointsShown = 2000;
 
 double AzimuthDeg(const Eigen::Vector3d& axis) { return std::atan2(axis.x(), axis.y()) / kDegree; }

@@ -12,7 +12,6 @@
 namespace insitu {
 namespace {
 
-constexpr double kDegree = M_PI / 180;
 constexpr double kNearlySquare = 10 * kDegree, kNearlyLevel = 22.5 * kDegree;
 
 // mm/m of a small angle and of its sigma.

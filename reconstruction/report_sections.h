@@ -5,10 +5,14 @@
 
 #include <json/value.h>
 
+#include <cmath>
+
 #include "reconstruction/image_marks.h"
 #include "reconstruction/residual_report.h"
 
 namespace insitu {
+
+inline constexpr double kDegree = M_PI / 180;
 
 // report_summary.cc
 Json::Value IdentitySection(const Adjustment& adjustment, const ReportContext& context);

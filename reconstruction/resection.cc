@@ -13,6 +13,7 @@
 #include <opencv2/calib3d.hpp>
 #include <opencv2/core/eigen.hpp>
 
+#include "calibration/fit_camera.h"
 #include "reconstruction/observation_costs.h"
 
 namespace insitu {
@@ -24,7 +25,6 @@ struct Candidate {
 };
 
 // The solvers see directions as (x/z, y/z), useless near 90 degrees off the axis.
-constexpr double kLargestTangent = 5.7;  // 80 degrees
 
 std::vector<Rigid3> StartPoses(const Camera& camera, const std::vector<ResectionPoint>& points,
                                const Eigen::Vector3d& origin) {

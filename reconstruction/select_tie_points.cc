@@ -122,9 +122,11 @@ class Cells {
  private:
   int& CountOf(const TiePointMark& mark) {
     const Camera& camera = cameras_.at(mark.photo);
-    const int column =
-        static_cast<int>((mark.pixel.x() + 0.5) / camera.width() * selection_.columns);
-    const int row = static_cast<int>((mark.pixel.y() + 0.5) / camera.height() * selection_.rows);
+    const auto cell = [](double x, int size, int cells) {  // the frame's far edge is the last one's
+      return std::min(static_cast<int>((x + 0.5) / size * cells), cells - 1);
+    };
+    const int column = cell(mark.pixel.x(), camera.width(), selection_.columns);
+    const int row = cell(mark.pixel.y(), camera.height(), selection_.rows);
     return in_cell_[{mark.photo, row * selection_.columns + column}];
   }
 

@@ -174,21 +174,23 @@ std::optional<std::vector<size_t>> Consensus(const std::vector<SimilarityPair>& 
   return best;
 }
 
-// Whether points that fill space fit ten times better with their source mirrored.
-bool IsMirrored(std::vector<SimilarityPair> pairs) {
-  std::vector<size_t> all;
-  for (size_t i = 0; i < pairs.size(); ++i) all.push_back(i);
-  const auto squares = [&]() -> std::optional<double> {
-    const auto start = Umeyama(pairs, all);
-    if (!start) return std::nullopt;
-    return WeightedSquares(pairs, all, LeastSquares(pairs, all, *start));
+// Whether the pairs agree far better with their source mirrored: more of them agree at all, and to
+// these the best fit as given is ten times as far off, and by more than noise.
+bool IsMirrored(const std::vector<SimilarityPair>& pairs, size_t inliers,
+                const SimilarityOptions& options) {
+  std::vector<SimilarityPair> mirrored = pairs;
+  for (SimilarityPair& pair : mirrored) pair.source.z() = -pair.source.z();
+  const auto agreeing = Consensus(mirrored, options);
+  if (!agreeing || agreeing->size() < 4 || agreeing->size() <= inliers) return false;
+  const auto squares = [&](const std::vector<SimilarityPair>& any) {
+    const auto start = Umeyama(any, *agreeing);
+    return start ? std::optional(
+                       WeightedSquares(any, *agreeing, LeastSquares(any, *agreeing, *start)))
+                 : std::nullopt;
   };
-  const auto as_given = squares();
-  for (SimilarityPair& pair : pairs) pair.source.z() = -pair.source.z();
-  const auto mirrored = squares();
-  const double noise = 9.0 * static_cast<double>(pairs.size());  // 3 sigma on each axis at most
-  return pairs.size() >= 4 && as_given && mirrored && *as_given > 10 * noise &&
-         *as_given > 100 * *mirrored;
+  const auto as_given = squares(pairs), as_mirrored = squares(mirrored);
+  const double noise = 9.0 * static_cast<double>(agreeing->size());  // 3 sigma on each axis at most
+  return as_given && as_mirrored && *as_given > 10 * noise && *as_given > 100 * *as_mirrored;
 }
 
 }  // namespace
@@ -238,7 +240,7 @@ std::optional<SimilarityFit> FitSimilarity(const std::vector<SimilarityPair>& pa
   if (redundancy > 0) {
     result.sigma0 = std::sqrt(WeightedSquares(centered.pairs, *inliers, fit) / redundancy);
   }
-  result.is_mirrored = IsMirrored(centered.pairs);
+  result.is_mirrored = IsMirrored(centered.pairs, inliers->size(), options);
   return result;
 }
 

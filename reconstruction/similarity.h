@@ -51,7 +51,7 @@ struct SimilarityFit {
   int inliers = 0;
   double rms = 0;     // sqrt(sum |residual|^2 / inliers), of the inliers
   double sigma0 = 1;  // a posteriori, a priori 1; 1 without redundancy
-  // A mirror image would fit far better: an axis is swapped or reversed in one of the frames.
+  // More pairs fit a mirror image, and far better: axes are swapped or one is reversed in a frame.
   bool is_mirrored = false;
 };
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "reconstruction/site_photos.h"
 
+#include "calibration/error.h"
+#include "calibration/photograph.h"
 #include "calibration/site_calibration.h"
 #include "calibration/site_cameras.h"
 
@@ -22,6 +24,14 @@ SitePhotos ReadSitePhotos(const SitePaths& site) {
     photos.site_cameras.push_back(camera);
   }
   return photos;
+}
+
+void RequireSizes(const std::vector<std::filesystem::path>& photos,
+                  const std::vector<Camera>& cameras) {
+  INSITU_CHECK(photos.size() == cameras.size());
+  for (size_t i = 0; i < photos.size(); ++i) {
+    RequirePhotographSize(photos[i], cameras[i].width(), cameras[i].height());
+  }
 }
 
 }  // namespace insitu

@@ -24,4 +24,8 @@ struct SitePhotos {
 // Throws InputError: no photographs, a photo whose camera is unknown or not calibrated yet.
 SitePhotos ReadSitePhotos(const SitePaths& site);
 
+// Throws InputError: a photograph of another size than its camera's, or that cannot be read.
+void RequireSizes(const std::vector<std::filesystem::path>& photos,
+                  const std::vector<Camera>& cameras);
+
 }  // namespace insitu

@@ -39,6 +39,7 @@ Survey ReadSurvey(const SitePaths& site, const std::vector<std::string>& photos,
     survey.constraints = ReadConstraints(folder / "constraints.json", survey.polygons);
   }
   RequireKnownPoints(survey);
+  RequireNoNamesOfTiePoints(survey);
   return survey;
 }
 

@@ -32,6 +32,13 @@ CoordinateSystem Known(const std::filesystem::path& path, const std::string& tex
     throw InputError(path, "the coordinate system " + system->name() +
                                " is not in metres; convert the file first, heights and all");
   }
+  if (std::abs(system->metres_per_height() - 1) > 1e-12) {
+    throw InputError(path,
+                     "the coordinate system \"" + text + "\" has " +
+                         (system->metres_per_height() < 0 ? "depths" : "heights in another unit") +
+                         ", expected heights in metres; convert them first and name the "
+                         "system without its heights");
+  }
   return *system;
 }
 
@@ -49,6 +56,12 @@ std::optional<CoordinateSystem> CommonSystem(const std::vector<SurveyFile*>& fil
     }
     std::optional<CoordinateSystem> system;
     if (named) system = Known(file->path, *named);
+    if (system && file->has_degrees && !system->is_geographic()) {
+      throw InputError(file->path, "has longitudes and latitudes by its header, but " +
+                                       system->name() +
+                                       " is no system of degrees; name theirs, for example "
+                                       "EPSG:4326, and that of the result with --crs");
+    }
     if (first && (common.has_value() != system.has_value() || (common && !(*common == *system)))) {
       const auto name = [](const auto& any) { return any ? any->name() : "no named system"; };
       throw InputError(file->path, "is in " + name(system) + ", but " + first->path.string() +
@@ -83,9 +96,10 @@ void CheckDegrees(const SurveyedPoint& point) {
 
 void Convert(const CoordinateSystem& source, const CoordinateSystem& target,
              const std::vector<SurveyFile*>& files) {
+  const CoordinateConversion convert(source, target);
   for (SurveyFile* file : files) {
     for (SurveyedPoint* point : Positions(file)) {
-      const auto xy = CoordinateSystem::Convert(source, target, point->position.head<2>());
+      const auto xy = convert(point->position.head<2>());
       if (!xy) throw ErrorAt(*point, "cannot be converted to " + target.name());
       point->position.head<2>() = *xy;
     }

@@ -24,13 +24,15 @@ struct Diagnosis {
 
 // Faults first, then misfits, then questions; the best explanation first; none for a survey that
 // fits. `cameras` go with `photos`. Told are
-//   control: x and y exchanged, an axis counted backwards (left-handed), heights or plan in another
-//     unit, two coordinate systems, two rows exchanged, one point far off, the same coordinates
-//     twice, coordinates or sigmas in millimetres, degrees instead of metres;
-//   marks: x and y exchanged, y counted from the bottom, named as another point, exchanged, far
-//   off,
-//     the same marks on two photos, two photos of one exterior orientation;
-//   camera positions and distances in another unit or system than the control, or exchanged.
+//
+// - control: x and y exchanged, an axis counted backwards (left-handed), heights or plan in another
+//   unit, two coordinate systems, two rows exchanged, one point far off, the same coordinates
+//   twice, coordinates or sigmas in millimetres, degrees instead of metres;
+// - marks: x and y exchanged, y counted from the bottom, named as another point, exchanged, far
+// off,
+//   the same marks on two photos, two photos of one exterior orientation;
+// - camera positions and distances in another unit or system than the control, or exchanged.
+//
 // Photos with fewer than four control points (five, to find single faults) are not judged.
 std::vector<Diagnosis> Diagnose(const Survey& survey, const std::vector<std::string>& photos,
                                 const std::vector<Camera>& cameras);

@@ -15,8 +15,12 @@ std::optional<std::string> FaultOfPhoto(const std::string& photo,
                                         const std::vector<std::string>& photos);
 
 // Marks must be of points that another file names, that an edge or a constraint joins, or that two
-// photos show; the ends
-// of pairs, edges and constraints must be surveyed, marked or vertices. Throws InputError.
+// photos show; the ends of pairs, edges and constraints must be surveyed, marked or vertices.
+// Throws InputError.
 void RequireKnownPoints(const Survey& survey);
+
+// Throws InputError at the first place of a point that is named "tie_" and six digits or more, as
+// points of image matching are.
+void RequireNoNamesOfTiePoints(const Survey& survey);
 
 }  // namespace insitu

@@ -2,6 +2,7 @@
 #include "reconstruction/survey_shapes.h"
 
 #include <algorithm>
+#include <array>
 #include <numbers>
 #include <set>
 #include <utility>
@@ -29,7 +30,20 @@ std::vector<std::string> Texts(const JsonNode& list) {
   return texts;
 }
 
+// A key that is misspelt would be left out without a word. Every object may hold a comment.
+void RequireKnownKeys(const JsonNode& node, const std::string& what,
+                      std::vector<std::string> keys) {
+  keys.push_back("comment");
+  for (const auto& [key, member] : node.Members()) {
+    if (std::find(keys.begin(), keys.end(), key) != keys.end()) continue;
+    std::string expected;
+    for (const std::string& known : keys) expected += (expected.empty() ? "" : ", ") + known;
+    throw member.Error("is not a key of " + what + ", expected " + expected);
+  }
+}
+
 PolygonOutline ReadPolygon(const JsonNode& node, const std::vector<std::string>& photos) {
+  RequireKnownKeys(node, "a polygon", {"name", "vertices", "photo", "material", "mask"});
   PolygonOutline polygon;
   polygon.name = node.At("name").Text();
   polygon.place = {node.path(), node.line()};
@@ -56,6 +70,7 @@ std::vector<DirectionPair> ReadPairs(const JsonNode& root, const std::string& ke
   const auto list = root.Find(key);
   if (!list) return pairs;
   for (const JsonNode& node : list->Items()) {
+    RequireKnownKeys(node, "a " + key + " pair", {from, to});
     pairs.push_back({node.At(from).Text(), node.At(to).Text(), {node.path(), node.line()}});
     if (pairs.back().from == pairs.back().to) {
       throw node.Error("the pair names point '" + pairs.back().to + "' twice, expected two points");
@@ -93,20 +108,13 @@ const KindOfConstraint& ReadKind(const JsonNode& node) {
   throw node.Error("kind is '" + name + "', expected one of " + expected);
 }
 
-void RequireKnownKeys(const JsonNode& node, const KindOfConstraint& kind) {
-  std::vector<std::string> keys = {"kind", "comment", "points"};
+std::vector<std::string> KeysOf(const KindOfConstraint& kind) {
+  std::vector<std::string> keys = {"kind", "points"};
   if (kind.polygons > 0) keys.push_back("polygons");
-  if (kind.has_value) {
-    keys.insert(keys.end(), {"value_m", "sigma_m"});
-  } else {
-    keys.insert(keys.end(), {"sigma_deg", "sigma_mm_per_m"});
-  }
-  for (const auto& [key, member] : node.Members()) {
-    if (std::find(keys.begin(), keys.end(), key) != keys.end()) continue;
-    std::string expected;
-    for (const std::string& known : keys) expected += (expected.empty() ? "" : ", ") + known;
-    throw member.Error("is not a key of a " + kind.name + " constraint, expected " + expected);
-  }
+  const auto values =
+      kind.has_value ? std::array{"value_m", "sigma_m"} : std::array{"sigma_deg", "sigma_mm_per_m"};
+  keys.insert(keys.end(), values.begin(), values.end());
+  return keys;
 }
 
 // "two points (an edge)" and so on, of which the file must name exactly one kind.
@@ -162,7 +170,7 @@ GeometricConstraint ReadConstraint(const JsonNode& node, const std::set<std::str
   GeometricConstraint constraint;
   constraint.kind = kind.kind;
   constraint.place = {node.path(), node.line()};
-  RequireKnownKeys(node, kind);
+  RequireKnownKeys(node, "a " + kind.name + " constraint", KeysOf(kind));
   ReadSubjects(node, kind, &constraint);
   for (const std::string& polygon : constraint.polygons) {
     if (polygons.contains(polygon)) continue;
@@ -185,7 +193,9 @@ std::vector<PolygonOutline> ReadPolygons(const std::filesystem::path& path,
                                          const std::vector<std::string>& photos) {
   std::vector<PolygonOutline> polygons;
   std::set<std::string> names;
-  for (const JsonNode& node : JsonNode::Load(path).At("polygons").Items()) {
+  const JsonNode root = JsonNode::Load(path);
+  RequireKnownKeys(root, "the file", {"polygons", "format", "version"});
+  for (const JsonNode& node : root.At("polygons").Items()) {
     polygons.push_back(ReadPolygon(node, photos));
     if (!names.insert(polygons.back().name).second) {
       throw node.Error("polygon '" + polygons.back().name + "' occurs twice");
@@ -196,6 +206,7 @@ std::vector<PolygonOutline> ReadPolygons(const std::filesystem::path& path,
 
 DirectionPairs ReadDirections(const std::filesystem::path& path) {
   const JsonNode root = JsonNode::Load(path);
+  RequireKnownKeys(root, "the file", {"sun", "zenith", "format", "version"});
   return {ReadPairs(root, "sun", "shadow", "object"), ReadPairs(root, "zenith", "bottom", "top")};
 }
 
@@ -204,7 +215,9 @@ std::vector<GeometricConstraint> ReadConstraints(const std::filesystem::path& pa
   std::set<std::string> names;
   for (const PolygonOutline& polygon : polygons) names.insert(polygon.name);
   std::vector<GeometricConstraint> constraints;
-  for (const JsonNode& node : JsonNode::Load(path).At("constraints").Items()) {
+  const JsonNode root = JsonNode::Load(path);
+  RequireKnownKeys(root, "the file", {"constraints", "format", "version"});
+  for (const JsonNode& node : root.At("constraints").Items()) {
     constraints.push_back(ReadConstraint(node, names));
   }
   return constraints;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "reconstruction/tie_points.h"
 
+#include <cmath>
 #include <filesystem>
 #include <set>
 
@@ -73,10 +74,12 @@ TiePoint PointOf(const JsonNode& node, const std::vector<std::string>& photos) {
   TiePoint point{{row[0], row[1], row[2]}, {}};
   std::set<size_t> seen;
   for (size_t i = 3; i < row.size(); i += 3) {
-    const auto photo = static_cast<size_t>(row[i]);
-    const bool is_new = row[i] >= 0 && photo < photos.size() && seen.insert(photo).second;
-    if (!is_new) throw node.Error("expected marks on two or more placed photos, one on each");
-    point.marks.push_back({photos[photo], {row[i + 1], row[i + 2]}});
+    const bool is_place =
+        row[i] >= 0 && row[i] < static_cast<double>(photos.size()) && row[i] == std::floor(row[i]);
+    if (!is_place || !seen.insert(static_cast<size_t>(row[i])).second) {
+      throw node.Error("expected marks on two or more placed photos, one on each");
+    }
+    point.marks.push_back({photos[static_cast<size_t>(row[i])], {row[i + 1], row[i + 2]}});
   }
   return point;
 }

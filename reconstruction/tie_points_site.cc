@@ -16,20 +16,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string SizeText(int width, int height) {
-  return std::to_string(width) + "x" + std::to_string(height) + " px";
-}
-
-void RequireSizes(const std::vector<fs::path>& photos, const std::vector<Camera>& cameras) {
-  for (size_t i = 0; i < photos.size(); ++i) {
-    const Eigen::Vector2i size = ReadPhotographSize(photos[i]);
-    if (size == Eigen::Vector2i(cameras[i].width(), cameras[i].height())) continue;
-    throw InputError(photos[i], "is " + SizeText(size.x(), size.y()) + ", expected " +
-                                    SizeText(cameras[i].width(), cameras[i].height()) +
-                                    " as its camera was calibrated");
-  }
-}
-
 std::map<std::string, Camera> CamerasByPhoto(const std::vector<fs::path>& photos,
                                              const std::vector<Camera>& cameras) {
   std::map<std::string, Camera> by_photo;

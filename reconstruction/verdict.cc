@@ -3,7 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
+
+#include "reconstruction/advice.h"
+#include "reconstruction/geometry_verdict.h"
+#include "reconstruction/wording.h"
 
 namespace insitu {
 namespace {
@@ -191,12 +194,31 @@ void JudgePlanes(const PlaneEffect& effect, double critical_w, std::vector<Objec
        "polygons that are not flat, or state a larger --plane-sigma"});
 }
 
+bool IsAdjusted(const AdjustedCamera& camera) {
+  return std::any_of(camera.parameters.begin(), camera.parameters.end(),
+                     [](const AdjustedCamera::Parameter& each) { return each.is_adjusted; });
+}
+
+// Sigmas without the lens's part are too small, and smaller than those of an honest calibration.
+void JudgeExactLens(const AdjustedCamera& camera, std::vector<Objection>* objections) {
+  if (camera.is_considered || IsAdjusted(camera)) return;
+  const bool is_splined = camera.lens_model.starts_with("LENSMODEL_SPLINED");
+  objections->push_back(
+      {Severity::kReview,
+       "the lens of camera '" + camera.name + "' counts as exact, since " +
+           (is_splined ? "a splined model brings no covariance"
+                       : "its calibration states no covariance") +
+           ": every sigma leaves the lens's errors out and is too small",
+       std::string("calibrate it from boards") +
+           (is_splined ? " with --lens-model LENSMODEL_OPENCV8, or see the lens's uncertainty map "
+                         "for what is left out"
+                       : ", or let --self-calibrate adjust it with the site")});
+}
+
 // What the calibration's own report objects to; less so where the adjustment made the lens its own.
 void JudgeCalibration(const AdjustedCamera& camera, const Json::Value& calibration,
                       std::vector<Objection>* objections) {
-  const bool is_adjusted =
-      std::any_of(camera.parameters.begin(), camera.parameters.end(),
-                  [](const AdjustedCamera::Parameter& each) { return each.is_adjusted; });
+  const bool is_adjusted = IsAdjusted(camera);
   const std::string name = "calibration of '" + camera.name + "': ";
   if (!calibration.isObject()) {
     objections->push_back({Severity::kNote,
@@ -205,8 +227,9 @@ void JudgeCalibration(const AdjustedCamera& camera, const Json::Value& calibrati
     return;
   }
   for (const Json::Value& reason : calibration["verdict"]["reasons"]) {
-    Severity severity = reason["severity"] == "fail" ? Severity::kFail : Severity::kReview;
-    if (is_adjusted) severity = Severity::kNote;
+    Severity severity = Severity::kReview;
+    if (reason["severity"] == Word(Severity::kFail)) severity = Severity::kFail;
+    if (is_adjusted || reason["severity"] == Word(Severity::kNote)) severity = Severity::kNote;
     objections->push_back(
         {severity, name + reason["reason"].asString(), reason["remedy"].asString()});
   }
@@ -219,32 +242,7 @@ void PassOnWarnings(const Adjustment& adjustment, std::vector<Objection>* object
   }
 }
 
-const char* Word(Severity severity) {
-  switch (severity) {
-    case Severity::kNote:
-      return "note";
-    case Severity::kReview:
-      return "review";
-    case Severity::kFail:
-      break;
-  }
-  return "fail";
-}
-
 }  // namespace
-
-std::string Number(const char* format, double value) {
-  char text[64];
-  std::snprintf(text, sizeof text, format, value);
-  return text;
-}
-
-std::string Listing(const std::string& what, const std::vector<std::string>& names, size_t shown) {
-  std::string text = what + " (" + std::to_string(names.size()) + "): ";
-  for (size_t i = 0; i < std::min(names.size(), shown); ++i) text += (i ? ", " : "") + names[i];
-  if (names.size() > shown) text += " and " + std::to_string(names.size() - shown) + " more";
-  return text;
-}
 
 std::optional<ObservationResidual> Suspect(const Adjustment& adjustment) {
   for (const bool of_tie_points : {false, true}) {
@@ -274,6 +272,7 @@ std::vector<Objection> Judge(const Adjustment& adjustment, const ReportContext& 
   JudgePlanes(adjustment.plane_effect, adjustment.critical_w, &objections);
   JudgeGeometry(adjustment, context, &objections);
   for (size_t i = 0; i < adjustment.cameras.size(); ++i) {
+    JudgeExactLens(adjustment.cameras[i], &objections);
     JudgeCalibration(adjustment.cameras[i], context.OfCamera(static_cast<int>(i)).calibration,
                      &objections);
   }

@@ -8,12 +8,11 @@
 #include <string>
 #include <vector>
 
+#include "calibration/calibration_verdict.h"
 #include "reconstruction/image_marks.h"
 #include "reconstruction/residual_report.h"
 
 namespace insitu {
-
-enum class Severity { kNote, kReview, kFail };
 
 // Redundancy numbers below this say that an error would hardly show in the residual.
 inline constexpr double kWeaklyControlled = 0.1;
@@ -36,23 +35,5 @@ Json::Value VerdictReport(std::vector<Objection> objections);
 // surveyor measured if any, else of tie points. One at a time, since a gross error spoils the
 // residuals around it. [Baarda 1968]
 std::optional<ObservationResidual> Suspect(const Adjustment& adjustment);
-
-// What the surveyor should do about an observation that was flagged.
-std::string Advice(const ObservationResidual& row);
-
-// "mark 'a3' on photo 'left' (x)": which observation a row is, in words.
-std::string Describe(const ObservationResidual& row);
-
-// The geometry of the network, whatever its residuals: rays, angles, base, control, calibrated
-// region, coverage. Appended to `objections`.
-void JudgeGeometry(const Adjustment& adjustment, const ReportContext& context,
-                   std::vector<Objection>* objections);
-
-// "what (n): a, b, c and m more", at most `shown` names.
-std::string Listing(const std::string& what, const std::vector<std::string>& names,
-                    size_t shown = 8);
-
-// printf's way with one number.
-std::string Number(const char* format, double value);
 
 }  // namespace insitu

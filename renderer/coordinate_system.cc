@@ -6,8 +6,25 @@
 #include <cmath>
 
 #include "calibration/error.h"
+#include "reconstruction/coordinate_system.h"
 
 namespace insitu {
+namespace {
+
+// Vertices are metres by now: PROJ would take them for what the system counts in.
+void RequireMetres(const std::filesystem::path& file, const std::string& name) {
+  const auto system = CoordinateSystem::FromText(name);
+  if (!system) return;  // PROJ's way to the other one tells
+  const bool is_metric = !system->is_geographic() &&
+                         std::abs(system->metres_per_unit() - 1) < 1e-12 &&
+                         std::abs(system->metres_per_height() - 1) < 1e-12;
+  if (is_metric) return;
+  throw InputError(file, "the coordinate system \"" + name +
+                             "\" is not in metres, heights included; expected a projected one in "
+                             "metres, such as EPSG:2056");
+}
+
+}  // namespace
 
 struct CoordinateTransformation::Proj {
   PJ_CONTEXT* context = nullptr;
@@ -21,6 +38,8 @@ struct CoordinateTransformation::Proj {
 CoordinateTransformation::CoordinateTransformation(const std::filesystem::path& file,
                                                    const std::string& from, const std::string& to)
     : file_(file), names_(from + " to " + to), proj_(std::make_unique<Proj>()) {
+  RequireMetres(file, from);
+  RequireMetres(file, to);
   proj_->context = proj_context_create();
   proj_context_set_enable_network(proj_->context, 0);
   proj_log_level(proj_->context, PJ_LOG_NONE);

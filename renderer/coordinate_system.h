@@ -11,7 +11,8 @@ namespace insitu {
 
 class CoordinateTransformation {
  public:
-  // Names as PROJ knows them ("EPSG:2056"). Throws InputError at `file`: one that it does not know.
+  // Names as PROJ knows them ("EPSG:2056"). Throws InputError at `file`: one that it does not know,
+  // or that is not in metres.
   CoordinateTransformation(const std::filesystem::path& file, const std::string& from,
                            const std::string& to);
   ~CoordinateTransformation();

@@ -40,7 +40,8 @@ function showCalibration(node, camera) {
   element(node, "p", (isKnown(c.rms_px) ? `Calibrated from ${boards}, ${count(c.points, "corner")}, ` +
     `${count(c.outliers, "outlier")}: RMS ${fixed(c.rms_px, 3)} px, worst ${fixed(c.worst_px, 2)} px.` :
     kSources[c.source] ?? "Where the calibration comes from was not stated.") +
-    (camera.model_file ? ` Model: ${camera.model_file}, its SHA-256 under Identity.` : ""));
+    (camera.model_file ? ` Model: ${camera.model_file}, its SHA-256 under Identity.` : "") +
+    (c.verdict ? ` The calibration's own verdict: ${c.verdict}.` : ""));
   const maps = [["this lens model", c.uncertainty], ["the splined model", c.splined_uncertainty]]
     .filter(([, uncertainty]) => uncertainty?.sigma_px);
   if (maps.length === 0) return;
@@ -51,8 +52,8 @@ function showCalibration(node, camera) {
 // Expected standard deviation of a projection over the frame, cell by cell.
 function uncertaintyPlot(parent, what, rows, frame) {
   const cells = rows.flatMap((row, i) => row.map((sigma, k) => ({sigma,
-    x1: k / row.length * frame.width, x2: (k + 1) / row.length * frame.width,
-    y1: i / rows.length * frame.height, y2: (i + 1) / rows.length * frame.height})));
+    x1: k / row.length * frame.width - 0.5, x2: (k + 1) / row.length * frame.width - 0.5,
+    y1: i / rows.length * frame.height - 0.5, y2: (i + 1) / rows.length * frame.height - 0.5})));
   const known = cells.filter(cell => isKnown(cell.sigma));
   const dark = d3.max(known, cell => cell.sigma) * 0.6;
   framePlot(parent, `expected σ of a projection [px], by ${what}`, frame, [

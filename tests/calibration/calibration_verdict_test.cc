@@ -57,6 +57,31 @@ TEST(CalibrationVerdict, FewBoards) {
   EXPECT_EQ(OnlyFinding(calibration), "Only 9 boards.");
 }
 
+TEST(CalibrationVerdict, OneBoard) {
+  BoardCalibration calibration = Good();
+  calibration.lens.boards.resize(1);
+  calibration.lens.boards[0].tilt_deg = 30;
+  const auto findings = JudgeBoards(calibration, kSize);
+  ASSERT_EQ(findings.size(), 3u);
+  EXPECT_EQ(findings[0].reason, "Only 1 board.");
+  EXPECT_EQ(findings[1].reason, "Only 1 board is tilted by more than 20 degrees.");
+}
+
+// That nothing could be compared is said, not taken for agreement.
+TEST(CalibrationVerdict, NothingToCompare) {
+  BoardCalibration calibration = Good();
+  for (auto& px : calibration.halves->px) px.reset();
+  EXPECT_EQ(OnlyFinding(calibration).find("The lenses of two halves of the boards cannot be"), 0u);
+  calibration = Good();
+  for (auto& px : calibration.splined_difference.px) px.reset();
+  EXPECT_EQ(OnlyFinding(calibration).find("The lens model and the splined one cannot be"), 0u);
+  calibration = Good();
+  for (int& count : calibration.splined.cells.counts) count = 0;
+  const auto findings = JudgeBoards(calibration, kSize);
+  ASSERT_EQ(findings.size(), 3u);
+  EXPECT_EQ(findings[2].reason.find("How uncertain the projection is, is not known"), 0u);
+}
+
 TEST(CalibrationVerdict, NoBoardsInACorner) {
   BoardCalibration calibration = Good();
   for (int row = 6; row < 9; ++row) {

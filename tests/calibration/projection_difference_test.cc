@@ -32,8 +32,16 @@ TEST(ProjectionDifference, AScaleStays) {
   const ProjectionDifference difference =
       CompareLenses(Lens(900, 599.5, 0), Lens(909, 599.5, 0), 13, 9);
   ASSERT_TRUE(difference.px[4 * 13]);
-  EXPECT_NEAR(*difference.px[4 * 13], 0.01 * 599.5, 0.01);  // halfway down the left edge
-  EXPECT_LT(*difference.px[4 * 13 + 6], 0.01);              // the middle
+  const double off_middle = 600 - 1200.0 / 13 / 2;  // halfway down, the leftmost cell
+  EXPECT_NEAR(*difference.px[4 * 13], 0.01 * off_middle, 0.01);
+  EXPECT_LT(*difference.px[4 * 13 + 6], 0.01);  // the middle
+}
+
+TEST(FrameCenters, AreTheMiddlesOfEqualCells) {
+  const auto centers = FrameCenters(4, 2, 2, 1);
+  ASSERT_EQ(centers.size(), 2u);  // pixels 0 and 1, 2 and 3
+  EXPECT_EQ(centers[0], Eigen::Vector2d(0.5, 0.5));
+  EXPECT_EQ(centers[1], Eigen::Vector2d(2.5, 0.5));
 }
 
 // Where nothing is known of a lens it does not pull at the rotation.

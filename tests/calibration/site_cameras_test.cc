@@ -113,6 +113,36 @@ TEST_F(SiteCameras, TwoCameraFilesSideBySide) {
                 ": is a second camera file beside a.yml, expected one a folder");
 }
 
+// Notes beside the boards are no camera; a camera beside them is, and says so.
+TEST_F(SiteCameras, OtherFilesBesideBoards) {
+  AddPhoto("calibration/board_1.png", 64, 48);
+  folder_.Write("calibration/notes.json", R"({"photographer": "Anna"})");
+  folder_.Write("calibration/settings.xml", "<settings/>");
+  folder_.Write("calibration/tripod.yml", "height: 1.6\n");
+  auto folders = ListCameraFolders(site_);
+  ASSERT_EQ(folders.size(), 1u);
+  EXPECT_EQ(folders[0].source, CameraSource::kBoards);
+  folder_.Write("calibration/lens.yml",
+                "image_width: 64\nimage_height: 48\ncamera_matrix:\n"
+                "  data: [50, 0, 31.5, 0, 50, 23.5, 0, 0, 1]\n");
+  folders = ListCameraFolders(site_);
+  ASSERT_EQ(folders.size(), 1u);
+  EXPECT_EQ(folders[0].file.filename(), "lens.yml");
+  const CameraCalibration camera = CalibrateSite(site_).cameras.front();
+  ASSERT_EQ(camera.findings.size(), 1u);
+  EXPECT_EQ(camera.findings[0].severity, Severity::kNote);
+  EXPECT_NE(camera.findings[0].reason.find("beside lens.yml are not used"), std::string::npos);
+  EXPECT_EQ(JsonNode::Load(site_.calibration_report()).At("verdict").At("status").Text(), "pass");
+}
+
+TEST_F(SiteCameras, ALensAdjustedFromAnEarlierCalibrationGoes) {
+  AddCamera("", 64, 48);
+  EXPECT_EQ(CalibrateSite(site_).BriefReport().find("removed"), std::string::npos);
+  folder_.Write("work/reconstruction/lenses/camera.cameramodel", "");
+  EXPECT_NE(CalibrateSite(site_).BriefReport().find("is removed"), std::string::npos);
+  EXPECT_FALSE(fs::exists(site_.adjusted_camera()));
+}
+
 TEST_F(SiteCameras, SeveralCamerasFromCalibrationToInputImages) {
   AddCamera("wide", 64, 48, 50);
   AddCamera("long", 64, 48, 90);
@@ -139,6 +169,9 @@ TEST_F(SiteCameras, ExifAloneIsNoCalibration) {
   const CameraCalibration& camera = calibration.cameras.front();
   EXPECT_TRUE(camera.exif_focal_px);
   EXPECT_NEAR(camera.camera.focal_px(), 360, 1e-6);
+  // Without distortion, but a model that self-calibration can give some.
+  EXPECT_EQ(camera.camera.lens_model(), "LENSMODEL_OPENCV4");
+  EXPECT_NEAR(camera.camera.Project({0.3, 0.2, 1})->x(), 0.3 * 360 + 179.5, 1e-9);
   ASSERT_EQ(camera.findings.size(), 1u);
   EXPECT_EQ(camera.findings[0].severity, Severity::kFail);
   EXPECT_NE(camera.BriefReport().find("NOT CALIBRATED"), std::string::npos);

@@ -130,6 +130,11 @@ TEST_F(SurveyImported, MixedOrImpossibleSystemsAreRefused) {
   ExpectError([&] { Import({"metres.txt"}); }, "metres.txt", 2, "longitude");
   Write("degrees.csv", "label,longitude,latitude,altitude\na,9,47,410\n");
   ExpectError([&] { Import({"degrees.csv"}); }, "degrees.csv", 0, "--file-crs");
+  options_.file_crs = "EPSG:2056";
+  ExpectError([&] { Import({"degrees.csv"}); }, "degrees.csv", 0, "no system of degrees");
+  options_.file_crs.reset();
+  Write("feet_up.txt", "EPSG:32618+6360\na 400000 5200000 410\n");  // UTM, NAVD88 height (ftUS)
+  ExpectError([&] { Import({"feet_up.txt"}); }, "feet_up.txt", 0, "heights in another unit");
   options_.crs = "EPSG:2056";
   ExpectError([&] { Import({"none.txt"}); }, "none.txt", 0, "--file-crs");
 }
@@ -143,6 +148,11 @@ TEST(CoordinateSystems, AreKnownByTheWordsOfOpenDroneMap) {
   EXPECT_TRUE(CoordinateSystem::FromText("WGS84")->is_geographic());
   EXPECT_TRUE(CoordinateSystem::FromText("+proj=utm +zone=32 +datum=WGS84 +units=m +no_defs"));
   EXPECT_FALSE(CoordinateSystem::FromText("EPSG:4978"));  // geocentric
+  EXPECT_EQ(CoordinateSystem::FromText("EPSG:2056")->metres_per_height(), 1);
+  EXPECT_EQ(CoordinateSystem::FromText("EPSG:2056+5728")->metres_per_height(), 1);  // LN02
+  EXPECT_EQ(CoordinateSystem::FromText("EPSG:4979")->metres_per_height(), 1);       // ellipsoidal
+  EXPECT_NEAR(CoordinateSystem::FromText("EPSG:32618+6360")->metres_per_height(), 0.3048006, 1e-7);
+  EXPECT_EQ(CoordinateSystem::FromText("EPSG:32618+5715")->metres_per_height(), -1);  // depth
   EXPECT_FALSE(CoordinateSystem::FromText("Mars"));
   EXPECT_FALSE(CoordinateSystem::FromText(""));
 }

@@ -62,6 +62,7 @@ TEST(IsInside, FollowsTheNotchOfAConcaveOutline) {
   EXPECT_FALSE(IsInside(notched, {2, 2}));
   EXPECT_FALSE(IsInside(notched, {5, 1}));
   EXPECT_FALSE(IsInside(notched, {-1, 1}));
+  EXPECT_FALSE(IsInside({}, {1, 1}));
 }
 
 }  // namespace

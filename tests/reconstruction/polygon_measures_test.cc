@@ -79,6 +79,7 @@ TEST(OffLevel, IsTheNormalsAngleToTheZenithEitherWay) {
   EXPECT_NEAR(OffLevel(Plane({0.01, 0, 1}, 2e-3), zenith).value, std::atan(0.01), 1e-12);
   EXPECT_NEAR(OffLevel(Plane({0.01, 0, -1}, 2e-3), zenith).value, std::atan(0.01), 1e-12);
   EXPECT_NEAR(OffLevel(Plane({0.01, 0, 1}, 2e-3), zenith).sigma, 2e-3, 1e-12);
+  EXPECT_NEAR(OffLevel(Plane({0, 0, 1}, 2e-3), zenith).sigma, 2e-3, 1e-12);  // no direction at all
 }
 
 TEST(AdjoiningPolygons, ShareAnEdgeWhicheverWayItRuns) {

@@ -5,6 +5,8 @@
 
 #include <Eigen/Geometry>
 
+#include "calibration/json_file.h"
+#include "calibration/photograph.h"
 #include "calibration/whole_file.h"
 #include "tests/reconstruction/synthetic_network.h"
 
@@ -20,8 +22,14 @@ class Site : public testing::Test {
     WriteSurvey(site_, WithNoise(network_.survey, 1));
     WritePosedCamera(site_.camera(), {"camera", network_.cameras[0], {}}, "lens of the test");
     for (const std::string& photo : network_.photos) {
-      WriteWhole(site_.photos() / (photo + ".jpg"), "only its name counts here: " + photo);
+      WritePhoto(photo, network_.cameras[0].width());
     }
+  }
+  // Only names and sizes count here; but no two photographs may be alike.
+  void WritePhoto(const std::string& name, int width) {
+    Raster photo(width, network_.cameras[0].height());
+    photo.SetRgb(name.back() - '0', 0, {1, 1, 1});
+    WritePng(site_.photos() / (name + ".png"), photo, Encoding::kSrgb8);
   }
 
   SyntheticNetwork network_ = MakeSyntheticNetwork();
@@ -75,6 +83,30 @@ TEST_F(Site, TakesEstimates) {
   EXPECT_GT(target.z(), 0);
   EXPECT_LT((poses.at("P1").rotation * Eigen::Vector3d::UnitZ()).y(), -0.99);
   EXPECT_NO_THROW(ReconstructSite(site_, {}, estimates));
+  EXPECT_NE(ReadWhole(site_.residual_report()).find("--start start.json"), std::string::npos);
+}
+
+// The only camera of a site has no name; one that is called camera is another matter.
+TEST_F(Site, TakesAFolderNamedCamera) {
+  for (const auto& model : {site_.boards() / "camera/camera.cameramodel", site_.camera("camera")}) {
+    WritePosedCamera(model, {"camera", network_.cameras[0], {}}, "lens of the test");
+  }
+  std::filesystem::remove(site_.camera());
+  EXPECT_NO_THROW(ReconstructSite(site_));
+  EXPECT_EQ(
+      JsonNode::Load(site_.residual_report()).At("cameras").Items()[0].At("model_file").Text(),
+      "work/calibration/camera/camera.cameramodel");
+}
+
+TEST_F(Site, RefusesAPhotoOfAnotherSize) {
+  WritePhoto("P2", network_.cameras[0].width() / 2);
+  try {
+    ReconstructSite(site_);
+    ADD_FAILURE() << "expected an InputError";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("P2.png: is "), std::string::npos) << error.what();
+  }
+  EXPECT_FALSE(std::filesystem::exists(site_.scene().parent_path()));
 }
 
 TEST_F(Site, RefusesAnEstimateOfAnUnknownPhoto) {

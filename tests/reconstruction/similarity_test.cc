@@ -118,5 +118,26 @@ TEST(FitSimilarity, TellsAMirrorImage) {
   EXPECT_TRUE(fit->is_mirrored);
 }
 
+TEST(FitSimilarity, TellsAMirrorImageDespiteABlunder) {
+  std::vector<SimilarityPair> pairs = ExactPairs(8);
+  for (SimilarityPair& pair : pairs) std::swap(pair.target.x(), pair.target.y());
+  pairs[3].target.z() += 40;
+  const auto fit = FitSimilarity(pairs);
+  ASSERT_TRUE(fit);
+  EXPECT_TRUE(fit->is_mirrored);
+}
+
+TEST(FitSimilarity, TakesABlunderForNoMirrorImage) {
+  for (size_t i = 0; i < 6; ++i) {
+    std::vector<SimilarityPair> pairs = ExactPairs(6);
+    pairs[i].target.z() += 40;
+    pairs[(i + 2) % 6].target.x() -= 30;
+    const auto fit = FitSimilarity(pairs);
+    ASSERT_TRUE(fit);
+    EXPECT_EQ(fit->inliers, 4);
+    EXPECT_FALSE(fit->is_mirrored);
+  }
+}
+
 }  // namespace
 }  // namespace insitu

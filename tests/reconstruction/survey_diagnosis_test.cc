@@ -182,6 +182,21 @@ TEST_F(SurveyDiagnosis, ADistanceInMillimetres) {
   ExpectFirst("constraints.json", 2, Kind::kFault, {"'b4' to 'b5'", "is value_m in millimetres?"});
 }
 
+// The control points could be in kilometres as well, but nobody measures sites in kilometres.
+TEST_F(SurveyDiagnosis, AllDistancesInMillimetres) {
+  survey_.constraints.clear();
+  for (const std::string to : {"a1", "a4", "a3"}) {
+    const double distance = (network_.points.at(to) - network_.points.at("a0")).norm();
+    survey_.constraints.push_back({GeometricConstraint::Kind::kDistance,
+                                   {},
+                                   {"a0", to},
+                                   1000 * distance,
+                                   10,
+                                   {"constraints.json", 20}});
+  }
+  ExpectFirst("constraints.json", 20, Kind::kFault, {"'a0' to 'a1'", "is value_m in millimetres?"});
+}
+
 TEST_F(SurveyDiagnosis, TwoControlRowsExchanged) {
   std::swap(Control("a1").name, Control("g8").name);
   const int line = Control("g8").place.line;  // where a1 stood

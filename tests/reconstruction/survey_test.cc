@@ -157,6 +157,24 @@ TEST_F(SurveyFiles, RefuseADirectionPairOfOnePoint) {
   ExpectError("directions.json", 2, "a4");
 }
 
+TEST_F(SurveyFiles, RefuseAMisspeltKey) {
+  ReplaceLine("polygons.json", 4,
+              R"({"name": "w", "vertices": ["a0", "a1", "a2"], "material": "m", "Photo": "P1"},)");
+  ExpectError("polygons.json", 4, "is not a key of a polygon, expected name, vertices, photo");
+}
+
+TEST_F(SurveyFiles, RefuseAMisspeltKeyOfDirections) {
+  WriteWhole(site_.survey() / "directions.json", "{\"zeniths\":\n[]}\n");
+  ExpectError("directions.json", 2, "zeniths");
+  WriteWhole(site_.survey() / "directions.json", "{\"comment\": \"none yet\", \"sun\": []}\n");
+  EXPECT_TRUE(ReadSurvey(site_, network_.photos).zenith_pairs.empty());
+}
+
+TEST_F(SurveyFiles, RefuseNamesOfTiePoints) {
+  ReplaceLine("control_points.csv", 4, "tie_000012,1,2,3,0.01,0.01,0.01,control");
+  ExpectError("control_points.csv", 4, "'tie_000012' is named as tie points are");
+}
+
 TEST_F(SurveyFiles, RefuseAPolygonsFileCutShort) {
   const std::string content = ReadWhole(site_.survey() / "polygons.json");
   WriteWhole(site_.survey() / "polygons.json", content.substr(0, content.size() / 2));

@@ -120,6 +120,24 @@ TEST_F(TiePointsFile, RefusesAFileCutShortOrWithoutSense) {
   EXPECT_THROW(ReadTiePoints(site_), InputError);
 }
 
+TEST_F(TiePointsFile, RefusesPlacesThatNoPhotoHas) {
+  for (const char* photo : {"-1", "2", "0.7", "1e300", "0"}) {
+    WriteWhole(site_.tie_points(),
+               R"({"format": "insitu tie points", "version": 1, "sigma_px": 1, "photos": [
+  {"name": "a", "rotation_wxyz": [1, 0, 0, 0], "translation": [0, 0, 0]},
+  {"name": "b", "rotation_wxyz": [1, 0, 0, 0], "translation": [1, 0, 0]}],
+ "not_placed": [], "remarks": [], "points": [
+  [1, 2, 3, 0, 10, 20, )" +
+                   std::string(photo) + ", 30, 40]]}\n");
+    try {
+      ReadTiePoints(site_);
+      ADD_FAILURE() << photo;
+    } catch (const InputError& error) {
+      EXPECT_NE(std::string(error.what()).find(":5: "), std::string::npos) << error.what();
+    }
+  }
+}
+
 TEST(AlignTiePoints, PutsTheModelWhereControlHasIt) {
   const SyntheticNetwork network = MakeSyntheticNetwork();
   TiePoints tie_points = ModelOf(network, 30);

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "reconstruction/advice.h"
 #include "tests/reconstruction/synthetic_network.h"
 
 namespace insitu {
@@ -13,6 +14,9 @@ class Verdict : public testing::Test {
   Adjustment Adjusted() const {
     AdjustmentOptions options;
     options.plane_sigma = options.zenith_sigma = options.sun_sigma = 1e-4;
+    const size_t count = network_.cameras[0].intrinsics().size();
+    const Eigen::VectorXd sigma = Eigen::VectorXd::Constant(count, 1e-6);
+    options.lenses.assign(network_.photos.size(), {"camera", sigma.cwiseAbs2().asDiagonal()});
     return Adjust(survey_, network_.photos, network_.cameras, options);
   }
   // "single" is a vertex that one photo shows; surveyed, nothing is weak any more.
@@ -188,6 +192,33 @@ TEST_F(Verdict, PassesOnWhatTheCalibrationObjectsTo) {
   EXPECT_EQ(Find(Judge(adjustment, context), "NOT CALIBRATED")->severity, Severity::kNote);
 }
 
+TEST_F(Verdict, ReviewsALensThatCountsAsExact) {
+  SurveyThePointOfOneRay();
+  Adjustment adjustment = Adjusted();
+  EXPECT_FALSE(Find(Judge(adjustment), "counts as exact"));
+  adjustment.cameras[0].is_considered = false;
+  EXPECT_EQ(Status(Judge(adjustment)), "review");
+  const auto objections = Judge(adjustment);
+  ASSERT_TRUE(Find(objections, "counts as exact"));
+  EXPECT_NE(Find(objections, "counts as exact")->remedy.find("--self-calibrate"),
+            std::string::npos);
+  adjustment.cameras[0].lens_model = "LENSMODEL_SPLINED_STEREOGRAPHIC_order=3_Nx=12_Ny=9";
+  EXPECT_TRUE(Find(Judge(adjustment), "a splined model brings no covariance"));
+  adjustment.cameras[0].parameters[0].is_adjusted = true;
+  EXPECT_FALSE(Find(Judge(adjustment), "counts as exact"));
+}
+
+// Names of tie points are others at the next run, and no option leaves one out.
+TEST(Advice, OfATiePointIsWhatCanBeDone) {
+  ObservationResidual row;
+  row.group = "image x";
+  row.subject = "tie_000123";
+  row.photo = "P";
+  row.is_tie_point = true;
+  EXPECT_NE(Advice(row).find("--points"), std::string::npos);
+  EXPECT_EQ(Advice(row).find("tie_000123"), std::string::npos);
+}
+
 TEST(Advice, TellsWhatToDoForEveryKindOfObservation) {
   for (const char* group : {"image x", "edge", "control y", "camera z", "lens", "plane", "sun",
                             "zenith", "distance", "height", "angle"}) {
@@ -198,15 +229,6 @@ TEST(Advice, TellsWhatToDoForEveryKindOfObservation) {
     EXPECT_NE(Advice(row), "") << group;
     EXPECT_NE(Describe(row), "") << group;
   }
-}
-
-TEST(IsInside, TellsAConcaveOutlinesInside) {
-  const std::vector<Eigen::Vector2d> notched = {{0, 0}, {10, 0}, {10, 10}, {5, 5}, {0, 10}};
-  EXPECT_TRUE(IsInside({5, 2}, notched));
-  EXPECT_TRUE(IsInside({1, 8}, notched));
-  EXPECT_FALSE(IsInside({5, 8}, notched));
-  EXPECT_FALSE(IsInside({11, 5}, notched));
-  EXPECT_FALSE(IsInside({1, 1}, {}));
 }
 
 }  // namespace

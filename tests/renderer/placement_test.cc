@@ -143,10 +143,15 @@ TEST_F(PlacementFile, CoordinateSystems) {
       Placed(R"({"model_crs": "EPSG:21781", "survey_crs": "EPSG:2056"})", {600100, 200200, 430});
   EXPECT_NEAR((placed - Vector3d(2600100, 1200200, 430)).head<2>().norm(), 0, 2);
   EXPECT_THAT(placed.z(), testing::DoubleNear(430, 1));
-  folder_.Write("building/placement.json", R"({"model_crs": "EPSG:1", "survey_crs": "EPSG:2056"})");
-  ModelMesh mesh;
-  EXPECT_THROW(Place({folder_.path()}, ReadPlacement({folder_.path()}, "a", 1), 1, &mesh),
-               InputError);
+  // Unknown; in feet; in degrees; with heights in feet.
+  for (const char* bad : {"EPSG:1", "EPSG:2263", "EPSG:4326", "EPSG:32618+6360"}) {
+    folder_.Write("building/placement.json",
+                  R"({"survey_crs": "EPSG:2056", "model_crs": ")" + std::string(bad) + R"("})");
+    ModelMesh mesh;
+    EXPECT_THROW(Place({folder_.path()}, ReadPlacement({folder_.path()}, "a", 1), 1, &mesh),
+                 InputError)
+        << bad;
+  }
 }
 
 TEST_F(PlacementFile, BadInput) {

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Numbers and lists within sentences.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace insitu {
+
+// printf's way with one number.
+std::string Number(const char* format, double value);
+
+// "what (n): a, b, c and m more", at most `shown` names.
+std::string Listing(const std::string& what, const std::vector<std::string>& names,
+                    size_t shown = 8);
+
+}  // namespace insitu
