@@ -15,6 +15,7 @@ namespace {
 constexpr double kSmallAngle = 5 * M_PI / 180;
 constexpr double kShortBase = 0.05;      // of the distance to the points
 constexpr double kNarrowControl = 0.02;  // width over length of what counts as one line
+constexpr double kFewOutside = 0.1;      // of all marks
 constexpr double kSmallCoverage = 0.1;
 
 // Control points are determined by the survey; only the others depend on their rays. Tie points
@@ -91,7 +92,7 @@ void JudgeControlFigure(const Adjustment& adjustment, std::vector<Objection>* ob
 void JudgeFrames(const Adjustment& adjustment, const std::vector<ImageMark>& marks,
                  const ReportContext& context, std::vector<Objection>* objections) {
   std::vector<std::string> small, outside;
-  bool is_mapped = true;  // whether the calibrations' reports map the uncertainty out there
+  size_t count = 0;
   for (const AdjustedPose& pose : adjustment.poses) {
     if (pose.coverage < kSmallCoverage) {
       small.push_back(pose.photo + " " + Number("%.0f", 100 * pose.coverage) + " %");
@@ -100,10 +101,9 @@ void JudgeFrames(const Adjustment& adjustment, const std::vector<ImageMark>& mar
   for (const ImageMark& mark : marks) {
     const AdjustedPose& pose = adjustment.poses[mark.photo];
     const CameraContext& camera = context.OfCamera(pose.camera);
-    if (mark.is_tie_point || camera.calibrated_region.empty()) continue;
-    if (IsInside(camera.calibrated_region, mark.pixel)) continue;
-    outside.push_back(mark.point + " on " + pose.photo);
-    is_mapped &= camera.calibration.isObject() && camera.calibration["uncertainty"];
+    if (mark.is_tie_point) continue;
+    ++count;
+    if (!IsCalibratedAt(camera, mark.pixel)) outside.push_back(mark.point + " on " + pose.photo);
   }
   if (!small.empty()) {
     objections->push_back({Severity::kReview,
@@ -112,10 +112,10 @@ void JudgeFrames(const Adjustment& adjustment, const std::vector<ImageMark>& mar
   }
   if (outside.empty()) return;
   objections->push_back(
-      {is_mapped ? Severity::kNote : Severity::kReview,
-       Listing("marks outside the region that mrcal calls valid for the lens", outside, 3),
-       is_mapped ? "see the lens's uncertainty there, and photograph boards there"
-                 : "photograph boards there, or mark other points"});
+      {outside.size() < kFewOutside * count ? Severity::kNote : Severity::kReview,
+       Listing("marks where no board was photographed, so that the lens is hardly known", outside,
+               3),
+       "photograph boards in those parts of the frame, or mark other points"});
 }
 
 }  // namespace

@@ -98,12 +98,9 @@ Json::Value MarksReport(const std::vector<ImageMark>& marks) {
 }
 
 Json::Value OutsideRegion(const std::vector<ImageMark>& marks, const CameraContext& context) {
-  if (context.calibrated_region.empty()) return Json::Value();
   Json::Value names(Json::arrayValue);
   for (const ImageMark& mark : marks) {
-    if (!mark.is_tie_point && !IsInside(context.calibrated_region, mark.pixel)) {
-      names.append(mark.point);
-    }
+    if (!mark.is_tie_point && !IsCalibratedAt(context, mark.pixel)) names.append(mark.point);
   }
   return names;
 }

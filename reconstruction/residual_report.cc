@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "reconstruction/residual_report.h"
 
+#include <algorithm>
 #include <cmath>
 
+#include "reconstruction/plane.h"
 #include "reconstruction/report_sections.h"
 #include "reconstruction/verdict.h"
 
@@ -27,7 +29,9 @@ Json::Value Conventions() {
       "azimuth clockwise from +y, elevation above the xy plane, roll clockwise of the "
       "picture about its line of sight";
   json["residual"] = "adjusted - observed";
-  json["w"] = "residual over its own standard deviation, standard normal without a gross error";
+  json["w"] =
+      "residual over its own standard deviation, standard normal without a gross error "
+      "and with the lens as calibrated";
   json["covariance"] =
       "a posteriori, scaled by sigma0^2; of a pose: left rotation increment [rad] "
       "about the camera's axes, then centre [m]";
@@ -40,6 +44,20 @@ const CameraContext& ReportContext::OfCamera(int camera) const {
   static const CameraContext kUnknown;
   const auto found = cameras.find(camera);
   return found == cameras.end() ? kUnknown : found->second;
+}
+
+bool IsCalibratedAt(const CameraContext& camera, const Eigen::Vector2d& pixel) {
+  const Json::Value& report = camera.calibration;
+  if (report.isObject() && report.isMember("cells")) {
+    const Json::Value& rows = report["cells"]["counts"];
+    const auto cell = [](double at, double size, Json::ArrayIndex count) {
+      const double index = std::floor((at + 0.5) / size * count);
+      return static_cast<Json::ArrayIndex>(std::clamp(index, 0.0, count - 1.0));
+    };
+    const Json::Value& row = rows[cell(pixel.y(), report["height"].asDouble(), rows.size())];
+    return row[cell(pixel.x(), report["width"].asDouble(), row.size())].asInt() > 0;
+  }
+  return camera.calibrated_region.empty() || IsInside(camera.calibrated_region, pixel);
 }
 
 Json::Value ResidualReport(const Adjustment& adjustment, const Survey& survey,

@@ -34,6 +34,10 @@ struct CameraContext {
   std::vector<Eigen::Vector2d> calibrated_region;
 };
 
+// Whether the calibration knows the lens at a pixel: boards were photographed in its cell of the
+// frame or, without such a count, mrcal calls it valid there. True if neither is known.
+bool IsCalibratedAt(const CameraContext& camera, const Eigen::Vector2d& pixel);
+
 // What the report says besides the adjustment; everything may be missing, and is then said to be.
 struct ReportContext {
   AdjustmentOptions options;

@@ -14,8 +14,9 @@ namespace {
 constexpr double kInseparable = 0.99;     // correlation of two unknowns of a photo or camera
 constexpr double kCheckLimit = 1.5;       // root mean square over combined sigma; twice that fails
 constexpr double kLikelyByChance = 0.05;  // that so large a test value is somewhere among so many
-// A sigma0 so near to 1 is no fault: with tens of thousands of tie points any test would find it.
-constexpr double kSigma0Band = 0.05;
+// A sigma0 within such a factor of 1 is no fault: all sigmas reported follow it, and with tens of
+// thousands of tie points a test finds any.
+constexpr double kSigma0Band = 1.1;
 
 void JudgeGlobalTest(const Adjustment& adjustment, std::vector<Objection>* objections) {
   const GlobalTest& test = adjustment.global_test;
@@ -27,10 +28,11 @@ void JudgeGlobalTest(const Adjustment& adjustment, std::vector<Objection>* objec
     const std::string figures = "the global test is not met: sigma0 " +
                                 Number("%.2f", adjustment.sigma0) + ", p " +
                                 Number("%.4f", adjustment.chi_square_p);
+    const bool is_harmless = adjustment.sigma0 > 1 / kSigma0Band && adjustment.sigma0 < kSigma0Band;
     objections->push_back(
-        {adjustment.sigma0 > 2                           ? Severity::kFail
-         : std::abs(adjustment.sigma0 - 1) < kSigma0Band ? Severity::kNote
-                                                         : Severity::kReview,
+        {adjustment.sigma0 > 2 ? Severity::kFail
+         : is_harmless         ? Severity::kNote
+                               : Severity::kReview,
          figures + (is_worse ? "; the observations are worse than their sigmas say, or one is wrong"
                              : "; the observations are better than their sigmas say"),
          is_worse

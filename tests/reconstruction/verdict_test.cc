@@ -164,15 +164,33 @@ TEST_F(Verdict, SeesControlOnOneLineAndPhotosFromOnePlace) {
   EXPECT_TRUE(Find(objections, "within 5 degrees"));
 }
 
-TEST_F(Verdict, NamesMarksOutsideTheCalibratedRegion) {
+TEST_F(Verdict, NamesMarksWhereNoBoardWasPhotographed) {
   ReportContext context;
-  context.cameras[0].calibrated_region = {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}};
+  CameraContext& camera = context.cameras[0];
+  camera.calibrated_region = {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}};  // mrcal's, the only word on it
   const auto objections = Judge(Adjusted(), context);
-  const Objection* outside = Find(objections, "outside the region");
+  const Objection* outside = Find(objections, "no board was photographed");
   ASSERT_TRUE(outside);
   EXPECT_EQ(outside->severity, Severity::kReview);
-  context.cameras[0].calibration["uncertainty"]["center_px"] = 0.1;
-  EXPECT_EQ(Find(Judge(Adjusted(), context), "outside the region")->severity, Severity::kNote);
+  camera.calibration["width"] = network_.cameras[0].width();
+  camera.calibration["height"] = network_.cameras[0].height();
+  Json::Value& counts = camera.calibration["cells"]["counts"];
+  counts[0][0] = counts[0][1] = counts[1][0] = counts[1][1] = 5;
+  EXPECT_FALSE(Find(Judge(Adjusted(), context), "no board was photographed"));
+}
+
+TEST(IsCalibratedAt, CountsCellsFromTheFramesCorner) {
+  CameraContext camera;
+  EXPECT_TRUE(IsCalibratedAt(camera, {0, 0}));  // nothing is known
+  camera.calibration["width"] = 30;
+  camera.calibration["height"] = 20;
+  Json::Value& counts = camera.calibration["cells"]["counts"];
+  counts[0][0] = counts[0][1] = counts[1][0] = counts[1][1] = counts[1][2] = 1;
+  counts[0][2] = 0;
+  EXPECT_TRUE(IsCalibratedAt(camera, {19.4, 9.4}));
+  EXPECT_FALSE(IsCalibratedAt(camera, {19.6, 9.4}));
+  EXPECT_FALSE(IsCalibratedAt(camera, {29.5, -0.5}));
+  EXPECT_TRUE(IsCalibratedAt(camera, {29.5, 19.5}));
 }
 
 TEST_F(Verdict, PassesOnWhatTheCalibrationObjectsTo) {
