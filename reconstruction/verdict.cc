@@ -217,7 +217,8 @@ void JudgeExactLens(const AdjustedCamera& camera, std::vector<Objection>* object
                        : ", or let --self-calibrate adjust it with the site")});
 }
 
-// What the calibration's own report objects to; less so where the adjustment made the lens its own.
+// What the calibration's own report objects to, one degree less where the adjustment made the lens
+// its own: a failed calibration never leaves a pass.
 void JudgeCalibration(const AdjustedCamera& camera, const Json::Value& calibration,
                       std::vector<Objection>* objections) {
   const bool is_adjusted = IsAdjusted(camera);
@@ -229,9 +230,10 @@ void JudgeCalibration(const AdjustedCamera& camera, const Json::Value& calibrati
     return;
   }
   for (const Json::Value& reason : calibration["verdict"]["reasons"]) {
-    Severity severity = Severity::kReview;
-    if (reason["severity"] == Word(Severity::kFail)) severity = Severity::kFail;
-    if (is_adjusted || reason["severity"] == Word(Severity::kNote)) severity = Severity::kNote;
+    const bool is_fail = reason["severity"] == Word(Severity::kFail);
+    Severity severity = is_fail ? Severity::kFail : Severity::kReview;
+    if (is_adjusted) severity = is_fail ? Severity::kReview : Severity::kNote;
+    if (reason["severity"] == Word(Severity::kNote)) severity = Severity::kNote;
     objections->push_back(
         {severity, name + reason["reason"].asString(), reason["remedy"].asString()});
   }

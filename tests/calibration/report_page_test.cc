@@ -1,23 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "calibration/report_page.h"
 
-#include <gtest/gtest.h>
-#include <json/reader.h>
-
-#include <sstream>
+#include "tests/calibration/embedded_report.h"
 
 namespace insitu {
 namespace {
-
-Json::Value Embedded(const std::string& page) {
-  const std::string open = "<script type=\"application/json\" id=\"report\">";
-  const size_t begin = page.find(open) + open.size();
-  std::istringstream text(page.substr(begin, page.find("</script>", begin) - begin));
-  Json::Value json;
-  std::string errors;
-  EXPECT_TRUE(Json::parseFromStream(Json::CharReaderBuilder(), text, &json, &errors)) << errors;
-  return json;
-}
 
 size_t Count(const std::string& text, const std::string& what) {
   size_t count = 0;

@@ -2,7 +2,6 @@
 #include "reconstruction/residual_report.h"
 
 #include <gtest/gtest.h>
-#include <json/reader.h>
 #include <json/writer.h>
 
 #include <algorithm>
@@ -10,10 +9,10 @@
 #include <cstdio>
 #include <cstdlib>
 #include <limits>
-#include <sstream>
 
 #include "calibration/json_file.h"
 #include "calibration/whole_file.h"
+#include "tests/calibration/embedded_report.h"
 #include "tests/reconstruction/synthetic_network.h"
 
 namespace insitu {
@@ -244,16 +243,6 @@ TEST(ResidualReport, OfNothingIsStillAReport) {
   EXPECT_TRUE(report["control"]["points"].isArray());
   EXPECT_EQ(report["verdict"]["status"].asString(), "review");
   EXPECT_NE(ResidualPage(report).find("</html>"), std::string::npos);
-}
-
-Json::Value Embedded(const std::string& page) {
-  const std::string open = "<script type=\"application/json\" id=\"report\">";
-  const size_t begin = page.find(open) + open.size();
-  std::istringstream text(page.substr(begin, page.find("</script>", begin) - begin));
-  Json::Value json;
-  std::string errors;
-  EXPECT_TRUE(Json::parseFromStream(Json::CharReaderBuilder(), text, &json, &errors)) << errors;
-  return json;
 }
 
 TEST_F(Report, PageIsMadeFromTheFileAlone) {

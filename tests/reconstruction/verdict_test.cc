@@ -207,6 +207,12 @@ TEST_F(Verdict, PassesOnWhatTheCalibrationObjectsTo) {
   EXPECT_EQ(objection->severity, Severity::kFail);
   EXPECT_EQ(objection->remedy, "Photograph a chessboard.");
   adjustment.cameras[0].parameters[0].is_adjusted = true;
+  EXPECT_EQ(Find(Judge(adjustment, context), "NOT CALIBRATED")->severity, Severity::kReview);
+  context.cameras[0].calibration["verdict"]["reasons"][0]["severity"] = "review";
+  EXPECT_EQ(Find(Judge(adjustment, context), "NOT CALIBRATED")->severity, Severity::kNote);
+  adjustment.cameras[0].parameters[0].is_adjusted = false;
+  EXPECT_EQ(Find(Judge(adjustment, context), "NOT CALIBRATED")->severity, Severity::kReview);
+  context.cameras[0].calibration["verdict"]["reasons"][0]["severity"] = "note";
   EXPECT_EQ(Find(Judge(adjustment, context), "NOT CALIBRATED")->severity, Severity::kNote);
 }
 
