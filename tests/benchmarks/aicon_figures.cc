@@ -109,6 +109,29 @@ void ComparePoints(const Network& network, const NetworkSolution& solution,
   (*json)["max_point_sigma_difference_mm"] = sigma;
 }
 
+struct PrintedParameter {
+  double value, sigma;
+};
+
+// As example.htm prints them; its principal distance is negative.
+const std::map<std::string, PrintedParameter> kLens = {
+    {"c", {28.78507, 2.513178e-4}},      {"xh", {1.734892e-2, 3.441658e-4}},
+    {"yh", {5.668731e-2, 3.262600e-4}},  {"A1", {-1.096069e-4, 2.978787e-8}},
+    {"A2", {1.495660e-7, 7.655524e-11}}, {"B1", {5.798428e-6, 1.190972e-7}},
+    {"B2", {-8.644540e-6, 1.043919e-7}}};
+
+// Of the parameters that AddParameters listed.
+void CompareLens(Json::Value* json) {
+  double value = 0, sigma = 0;
+  for (const auto& [name, printed] : kLens) {
+    const Json::Value& own = (*json)["parameters"][name];
+    value = std::max(value, std::abs(own["value"].asDouble() - printed.value) / printed.sigma);
+    sigma = std::max(sigma, std::abs(own["sigma"].asDouble() / printed.sigma - 1));
+  }
+  (*json)["max_lens_difference_in_sigma"] = value;
+  (*json)["max_relative_lens_sigma_difference"] = sigma;
+}
+
 }  // namespace
 
 Json::Value AiconFigures(const fs::path& data) {
@@ -127,6 +150,7 @@ Json::Value AiconFigures(const fs::path& data) {
   CompareMarks(network, solution, report, &json);
   ComparePoints(network, solution, report, &json);
   AddParameters(network, solution, &json);
+  CompareLens(&json);
   return json;
 }
 

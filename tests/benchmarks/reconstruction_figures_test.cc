@@ -41,6 +41,9 @@ TEST(ReconstructionFigures, AiconsReportIsReproduced) {
   EXPECT_LE(figures["max_w_test_difference"].asDouble(), 0.00501);
   EXPECT_LE(figures["max_point_difference_mm"].asDouble(), 0.0001);
   EXPECT_LE(figures["max_point_sigma_difference_mm"].asDouble(), 0.0000501);
+  EXPECT_LE(figures["max_lens_difference_in_sigma"].asDouble(),
+            0.02);  // half of the last digit of c
+  EXPECT_LE(figures["max_relative_lens_sigma_difference"].asDouble(), 1e-6);
 }
 
 TEST(ReconstructionFigures, DbatsSelfCalibrationIsReproduced) {
