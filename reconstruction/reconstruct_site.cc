@@ -9,6 +9,7 @@
 #include "reconstruction/distinct_photographs.h"
 #include "reconstruction/input_files.h"
 #include "reconstruction/montage_points.h"
+#include "reconstruction/photo_thumbnail.h"
 #include "reconstruction/residual_report.h"
 #include "reconstruction/site_photos.h"
 
@@ -48,6 +49,10 @@ ReportContext SiteContext(const SitePaths& site, const SitePhotos& photos,
   }
   if (tie_points && !tie_points->program.empty()) {
     context.programs[tie_points->program] = tie_points->program_version;
+  }
+  for (size_t i = 0; i < photos.paths.size(); ++i) {
+    const auto thumbnail = PhotoThumbnail(photos.paths[i]);
+    if (thumbnail) context.thumbnails[photos.names[i]] = *thumbnail;
   }
   context.montage = MontagePoints(site, adjustment.scene);
   return context;

@@ -177,6 +177,8 @@ Json::Value PhotosSection(const Adjustment& adjustment, const std::vector<ImageM
   for (size_t i = 0; i < adjustment.poses.size(); ++i) {
     const AdjustedPose& pose = adjustment.poses[i];
     Json::Value photo = PhotoReport(pose, adjustment.scene.cameras[i].camera, marks_of_photo[i]);
+    const auto thumbnail = context.thumbnails.find(pose.photo);
+    if (thumbnail != context.thumbnails.end()) photo["thumbnail"] = thumbnail->second;
     photo["outside_calibrated_region"] =
         OutsideRegion(marks_of_photo[i], context.OfCamera(pose.camera));
     json.append(photo);

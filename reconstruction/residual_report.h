@@ -43,8 +43,9 @@ struct ReportContext {
   AdjustmentOptions options;
   std::string command;  // with its options, without paths
   std::vector<InputFile> inputs;
-  std::map<std::string, std::string> programs;  // version of other programs used, by name
-  std::map<int, CameraContext> cameras;         // by index into Adjustment::cameras
+  std::map<std::string, std::string> programs;    // version of other programs used, by name
+  std::map<int, CameraContext> cameras;           // by index into Adjustment::cameras
+  std::map<std::string, std::string> thumbnails;  // data URIs to draw on, by photo
   std::vector<MontagePoint> montage;
 
   const CameraContext& OfCamera(int camera) const;  // nothing known: an empty one

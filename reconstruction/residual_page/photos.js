@@ -56,6 +56,14 @@ function framePlot(parent, caption, frame, marks, width = 480) {
   });
 }
 
+// The photo itself, pale, if the report has it. `width` as framePlot's.
+function backdrop(frame, width = 480) {
+  if (!frame.thumbnail) return [];
+  const inner = width - 12;
+  return [Plot.image([frame], {x: (frame.width - 1) / 2, y: (frame.height - 1) / 2, src: "thumbnail",
+    width: inner, height: inner * frame.height / frame.width, preserveAspectRatio: "none", opacity: 0.5})];
+}
+
 // Arrows from (x, y) along (vx, vy), `enlarged` times.
 function vectors(rows, enlarged, options = {}) {
   return Plot.arrow(rows, {
@@ -87,6 +95,7 @@ function showResidualVectors() {
   const scale = vectorScale(rms, size);
   const draw = (parent, p) => framePlot(parent,
     `${p.photo}: ${count(p.points, "mark")}, RMS ${fixed(p.rms_px, 2)} px`, p, [
+      ...backdrop(p),
       vectors(p.tie_point_grid, scale.enlarged, {stroke: "#8a949b"}),
       Plot.dot(p.marks, {x: "x", y: "y", r: 1.5, fill: m => m.w > critical ? kFail : kAccent}),
       vectors(p.marks, scale.enlarged, {stroke: m => m.w > critical ? kFail : kAccent}),
@@ -108,7 +117,7 @@ function drawPhotos(parent, draw, shown = 12) {
 
 function showCoverage() {
   const node = section("Coverage", "Where each photo is measured: marks, their hull, and for tie points " +
-    "the cells that have some. Brown: the region that mrcal calls valid for the lens.");
+    "the cells that have some. Brown: the region that mrcal calls valid for the lens, by its own rule.");
   const regionOf = p => report.cameras[p.camera]?.calibrated_region ?? [];
   drawPhotos(node, (parent, p) => framePlot(parent,
     `${p.photo}: hull ${fixed(100 * p.coverage.hull, 0)} % of the frame`, p, [

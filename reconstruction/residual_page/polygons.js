@@ -22,7 +22,7 @@ function showPolygons() {
   const vertices = polygons.flatMap(p => p.vertices.filter(v => isKnown(v.off_plane_mm))
     .map(v => ({polygon: p.name, ...v})));
   const critical = report.observations.critical_w;
-  const fold = folded(node, `distance of ${count(vertices.length, "vertex")} from their planes`);
+  const fold = folded(node, `distances of ${vertices.length} vertices from their planes`);
   table(fold, vertices, [
     ["polygon", v => v.polygon, "text"],
     ["vertex", v => v.name, "text"],
