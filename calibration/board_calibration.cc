@@ -48,7 +48,7 @@ double StartFocal(const fs::path& photo) {
 
 // What a photo is called within boards/: a corner table is split at blanks, and names have some.
 std::string LinkName(const std::vector<fs::path>& photos, size_t i) {
-  char number[16];
+  char number[32];
   std::snprintf(number, sizeof(number), "%06zu", i + 1);
   return number + photos[i].extension().string();
 }

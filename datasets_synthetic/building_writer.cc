@@ -46,7 +46,7 @@ class Drawing {
 
   // The head of an entity or table entry with a handle of its own; returns the handle.
   std::string Begin(const std::string& kind, const std::string& owner) {
-    char handle[16];
+    char handle[32];
     std::snprintf(handle, sizeof handle, "%X", next_handle_++);
     BeginAs(kind, handle, owner);
     return handle;

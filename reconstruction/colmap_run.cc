@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 
 // What a photograph is called within COLMAP: names of any letters, blanks included, stay outside.
 std::string ColmapName(size_t photo, const std::string& ending) {
-  char number[16];
+  char number[32];
   std::snprintf(number, sizeof(number), "%06zu", photo + 1);
   return number + ending;
 }
