@@ -194,11 +194,15 @@ std::optional<Model> ReceiveSoundModel(Receiver* in) try {
   return std::nullopt;
 }
 
-int64_t AddressSpace() {
+void LimitMemory([[maybe_unused]] const IsolationLimits& limits) {
+#ifndef INSITU_SANITIZED  // sanitizers reserve terabytes
   std::ifstream file("/proc/self/statm");
   int64_t pages = 0;
   file >> pages;
-  return pages * sysconf(_SC_PAGESIZE);
+  const auto bytes = static_cast<rlim_t>(pages * sysconf(_SC_PAGESIZE) + limits.bytes);
+  const rlimit space{bytes, bytes};
+  setrlimit(RLIMIT_AS, &space);
+#endif
 }
 
 void Limit(const IsolationLimits& limits) {
@@ -208,11 +212,7 @@ void Limit(const IsolationLimits& limits) {
   setrlimit(RLIMIT_CPU, &cpu);
   const rlimit no_core{0, 0};
   setrlimit(RLIMIT_CORE, &no_core);
-#ifndef INSITU_SANITIZED  // sanitizers reserve terabytes
-  const auto bytes = static_cast<rlim_t>(AddressSpace() + limits.bytes);
-  const rlimit space{bytes, bytes};
-  setrlimit(RLIMIT_AS, &space);
-#endif
+  LimitMemory(limits);
 }
 
 // The child's whole life.
