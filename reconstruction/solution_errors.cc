@@ -4,6 +4,7 @@
 #include <set>
 
 #include "reconstruction/adjusted_observations.h"
+#include "reconstruction/wording.h"
 
 namespace insitu {
 namespace {
@@ -57,22 +58,16 @@ const char* Remedy(Unknown::Kind kind) {
 }  // namespace
 
 InputError RankDefectError(const RankDefect& defect, const Network& network, const Survey& survey) {
-  constexpr size_t kShown = 8;
   std::set<std::string> names;
   for (const RankDefect::Column& column : defect.columns) {
     names.insert(ColumnNames(network, column.unknown).at(static_cast<size_t>(column.component)));
   }
-  std::string list;
-  size_t shown = 0;
-  for (const std::string& name : names) {
-    if (shown++ < kShown) list += (list.empty() ? "" : ", ") + name;
-  }
-  if (names.size() > kShown) list += " and " + std::to_string(names.size() - kShown) + " more";
   const Unknown& first = defect.columns.front().unknown;
   const FilePlace place = PlaceOf(first, network, survey);
   return InputError(
       place.path, place.line,
-      "the observations do not determine " + list + "; expected " + Remedy(first.kind));
+      Listing("the observations do not determine unknowns", {names.begin(), names.end()}) +
+          "; expected " + Remedy(first.kind));
 }
 
 InputError NoSolutionError(const NoSolution& failure, const Network& network,

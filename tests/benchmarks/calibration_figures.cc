@@ -4,9 +4,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <sstream>
 #include <vector>
 
 #include "calibration/camera_file.h"
+#include "calibration/error.h"
 #include "calibration/external_program.h"
 #include "calibration/lens_assessment.h"
 #include "calibration/projection_difference.h"
@@ -55,7 +57,23 @@ double RmsOfLens(const SitePaths& site, const Camera& theirs) {
   return std::stod(ReadWhole(output));
 }
 
-Json::Value AgainstTheirs(const SitePaths& site, const fs::path& file) {
+// A lens of BoofCV's kind, fitted to the corners that ours was made from.
+Camera LensOfTheirKind(const SitePaths& site, const Camera& ours) {
+  const fs::path output = site.root / "their_kind.txt";
+  RunExternal({.command = {"/usr/bin/python3", INSITU_ROOT "/tests/benchmarks/lens_of_corners.py",
+                           fs::absolute(site.camera()).string()},
+               .package = "python3-opencv",
+               .folder = site.root,
+               .output = output,
+               .log = site.root / "their_kind.log"});
+  std::istringstream words(ReadWhole(output));
+  std::vector<double> intrinsics(9);
+  for (double& value : intrinsics) words >> value;
+  if (!words) throw InputError(output, "expected nine numbers");
+  return Camera("LENSMODEL_OPENCV5", intrinsics, ours.width(), ours.height());
+}
+
+Json::Value AgainstTheirs(const SitePaths& site, const fs::path& file, bool has_no_tangential) {
   const CameraCalibration ours = CalibrateSite(site).cameras.front();
   const Camera theirs = ReadCameraFile(file).camera;
   const ProjectionUncertainty& sigma = ours.boards->splined.uncertainty;
@@ -63,10 +81,15 @@ Json::Value AgainstTheirs(const SitePaths& site, const fs::path& file) {
   for (const auto& node : sigma.sigma_px) weights.push_back(node ? 1 / (*node * *node) : 0);
   const ProjectionDifference difference =
       CompareLenses(ours.camera, theirs, sigma.columns, sigma.rows, weights);
-  double sum = 0, sigmas = 0, largest = 0;
+  const Camera same_kind_lens =
+      has_no_tangential ? LensOfTheirKind(site, ours.camera) : ours.camera;
+  const ProjectionDifference same_kind =
+      CompareLenses(same_kind_lens, theirs, sigma.columns, sigma.rows, weights);
+  double sum = 0, same_kind_sum = 0, sigmas = 0, largest = 0;
   int seen = 0;
   for (size_t i = 0; i < difference.px.size(); ++i) {
     if (ours.lens->cells.counts[i] == 0 || !difference.px[i] || !sigma.sigma_px[i]) continue;
+    same_kind_sum += same_kind.px[i].value() * same_kind.px[i].value();
     sum += *difference.px[i] * *difference.px[i];
     sigmas += *sigma.sigma_px[i] * *sigma.sigma_px[i];
     largest = std::max(largest, *difference.px[i]);
@@ -80,6 +103,7 @@ Json::Value AgainstTheirs(const SitePaths& site, const fs::path& file) {
   json["difference_largest_px"] = difference.largest_px;
   json["seen_rms_px"] = std::sqrt(sum / seen);
   json["seen_largest_px"] = largest;
+  if (has_no_tangential) json["same_kind_seen_rms_px"] = std::sqrt(same_kind_sum / seen);
   json["sigma_seen_px"] = std::sqrt(sigmas / seen);
   return json;
 }
@@ -106,7 +130,7 @@ Json::Value BoofcvFigures(const fs::path& shared, const fs::path& work) {
   const SitePaths site =
       BoardSite(folder, "frame", "interior_corners_x 4\ninterior_corners_y 6\nsquare_m 0.03\n",
                 work / "boofcv");
-  return AgainstTheirs(site, folder / "intrinsic.yaml");
+  return AgainstTheirs(site, folder / "intrinsic.yaml", true);
 }
 
 Json::Value OpencvFigures(const fs::path& shared, const fs::path& work) {
@@ -114,7 +138,7 @@ Json::Value OpencvFigures(const fs::path& shared, const fs::path& work) {
   const SitePaths site =
       BoardSite(folder, "left", "interior_corners_x 9\ninterior_corners_y 6\nsquare_m 0.025\n",
                 work / "opencv");
-  return AgainstTheirs(site, folder / "left_intrinsics.yml");
+  return AgainstTheirs(site, folder / "left_intrinsics.yml", false);
 }
 
 Json::Value MetricFigures(const fs::path& shared) {

@@ -4,22 +4,16 @@
 
 #include <gtest/gtest.h>
 
-#include <cstdlib>
 #include <map>
+
+#include "tests/shared_data.h"
 
 namespace insitu {
 namespace {
 
-std::filesystem::path SharedData() {
-  const char* shared = std::getenv("INSITU_SHARED");
-  return (shared ? std::filesystem::path(shared)
-                 : std::filesystem::path(INSITU_SOURCE_FOLDER).parent_path() / "shared") /
-         "data";
-}
-
 // null: the data is not there, and the test is skipped with a word.
 Json::Value Measure(const std::string& key) {
-  const std::filesystem::path data = SharedData();
+  const std::filesystem::path data = SharedData("");
   for (const ReconstructionFigure& figure : ReconstructionFigures()) {
     if (figure.key != key || !std::filesystem::exists(data / figure.folder)) continue;
     static std::map<std::string, Json::Value> measured;
@@ -32,7 +26,7 @@ Json::Value Measure(const std::string& key) {
 
 TEST(ReconstructionFigures, AiconsReportIsReproduced) {
   const Json::Value figures = Measure("jaicov_aicon");
-  if (figures.isNull()) GTEST_SKIP() << "no shared data";
+  if (figures.isNull()) GTEST_SKIP() << "SKIPPED: no shared data";
   EXPECT_NEAR(figures["s0_mm"].asDouble(), 0.000405, 0.0000005);
   EXPECT_EQ(figures["redundancy"].asInt(), 18804);
   EXPECT_EQ(figures["unknowns"].asInt(), 1147);
@@ -48,7 +42,7 @@ TEST(ReconstructionFigures, AiconsReportIsReproduced) {
 
 TEST(ReconstructionFigures, DbatsSelfCalibrationIsReproduced) {
   const Json::Value figures = Measure("dbat_camcal");
-  if (figures.isNull()) GTEST_SKIP() << "no shared data";
+  if (figures.isNull()) GTEST_SKIP() << "SKIPPED: no shared data";
   EXPECT_NEAR(figures["sigma0"].asDouble(), 1.6148, 0.00005);
   EXPECT_EQ(figures["redundancy"].asInt(), 3725);
   EXPECT_LE(figures["max_parameter_difference_in_sigma"].asDouble(), 0.05);
@@ -57,7 +51,7 @@ TEST(ReconstructionFigures, DbatsSelfCalibrationIsReproduced) {
 
 TEST(ReconstructionFigures, DbatsControlVariantsAreReproduced) {
   const Json::Value figures = Measure("dbat_camcal");
-  if (figures.isNull()) GTEST_SKIP() << "no shared data";
+  if (figures.isNull()) GTEST_SKIP() << "SKIPPED: no shared data";
   EXPECT_NEAR(figures["fixed_control"]["sigma0"].asDouble(), 1.78095, 0.000005);
   EXPECT_NEAR(figures["weighted_control"]["sigma0"].asDouble(), 1.60984, 0.000005);
   for (const char* variant : {"fixed_control", "weighted_control"}) {
@@ -69,7 +63,7 @@ TEST(ReconstructionFigures, DbatsControlVariantsAreReproduced) {
 
 TEST(ReconstructionFigures, DbatsAerialBlockIsReproduced) {
   const Json::Value figures = Measure("sxb_aerial");
-  if (figures.isNull()) GTEST_SKIP() << "no shared data";
+  if (figures.isNull()) GTEST_SKIP() << "SKIPPED: no shared data";
   EXPECT_NEAR(figures["sigma0"].asDouble(), 1.1786, 0.00005);
   EXPECT_NEAR(figures["sigma0_px"].asDouble(), 0.589299, 0.0000005);
   EXPECT_EQ(figures["redundancy"].asInt(), 1261);
@@ -78,10 +72,10 @@ TEST(ReconstructionFigures, DbatsAerialBlockIsReproduced) {
 }
 
 TEST(ReconstructionFigures, DbatsArchIsReproduced) {
-  if (!std::filesystem::exists(SharedData() / "adjustment/roma_arch")) {
-    GTEST_SKIP() << "no shared data";
+  if (!std::filesystem::exists(SharedData("adjustment/roma_arch"))) {
+    GTEST_SKIP() << "SKIPPED: no shared data";
   }
-  const Json::Value figures = RomaAccuracy(SharedData());
+  const Json::Value figures = RomaAccuracy(SharedData(""));
   EXPECT_NEAR(figures["sigma0_px_self_calibration"].asDouble(), 0.582769, 0.0000005);
   EXPECT_EQ(figures["redundancy"].asInt(), 101801);
   EXPECT_NEAR(figures["parameters"]["c"]["value"].asDouble(), 24.5425003, 0.0000005);
@@ -93,7 +87,7 @@ TEST(ReconstructionFigures, DbatsArchIsReproduced) {
 
 TEST(ReconstructionFigures, MicmacsPairsAreReproduced) {
   const Json::Value figures = Measure("micmac_stonewall_gcp");
-  if (figures.isNull()) GTEST_SKIP() << "no shared data";
+  if (figures.isNull()) GTEST_SKIP() << "SKIPPED: no shared data";
   ASSERT_EQ(figures["photos"].size(), 4u);
   for (const Json::Value& photo : figures["photos"]) {
     EXPECT_EQ(photo["pairs"].asInt(), 10);
@@ -105,7 +99,7 @@ TEST(ReconstructionFigures, MicmacsPairsAreReproduced) {
 
 TEST(ReconstructionFigures, BerlinIsPlacedFromPhotographsAlone) {
   const Json::Value figures = Measure("opensfm_berlin_cathedral");
-  if (figures.isNull()) GTEST_SKIP() << "no shared data";
+  if (figures.isNull()) GTEST_SKIP() << "SKIPPED: no shared data";
   EXPECT_EQ(figures["placed"], figures["photos"]);
   EXPECT_EQ(figures["datum_defect"].asInt(), 7);
   EXPECT_TRUE(figures["has_report"].asBool());
@@ -113,19 +107,10 @@ TEST(ReconstructionFigures, BerlinIsPlacedFromPhotographsAlone) {
 
 TEST(ReconstructionFigures, GalleryIsWithinItsSigmas) {
   const Json::Value figures = Measure("gallery");
-  if (figures.isNull()) GTEST_SKIP() << "no shared data";
+  if (figures.isNull()) GTEST_SKIP() << "SKIPPED: no shared data";
   EXPECT_LE(figures["check_rms_over_sigma"].asDouble(), 1.2);
   EXPECT_LE(figures["sun_chi_square"].asDouble(), figures["chi_square_95"].asDouble());
   EXPECT_LE(figures["zenith_chi_square"].asDouble(), figures["chi_square_95"].asDouble());
-}
-
-TEST(ReconstructionFigures, IntervalsOfRandomNetworksHoldTheTruth) {
-  const Json::Value figures = Measure("coverage_95");
-  for (const char* key : {"pose", "vertex", "plane", "sun", "zenith"}) {
-    EXPECT_NEAR(figures[key].asDouble(), 0.95, 0.02) << key;
-  }
-  EXPECT_NEAR(figures["w_false_alarms_at_5_percent"].asDouble(), 0.05, 0.002);
-  EXPECT_GE(figures["blunders_of_twice_the_detectable_bias_found"].asDouble(), 0.95);
 }
 
 }  // namespace
