@@ -124,6 +124,10 @@ PlaneEffect FindPlaneEffect(const SurveyNetwork& survey_network, const NetworkSo
       effect.unknown_because = "without planes the datum is free";
       return effect;
     }
+    if (!without_solution.is_converged) {
+      effect.unknown_because = "without planes the adjustment does not converge";
+      return effect;
+    }
     effect.redundancy = without_solution.redundancy;
     effect.sigma0 = without_solution.sigma0;
     effect.statistic = solution.square_sum - without_solution.square_sum;

@@ -13,6 +13,7 @@ TEST(NetworkStatistics, IntervalsOfRandomNetworksHoldTheTruth) {
        {coverage.pose, coverage.vertex, coverage.plane, coverage.sun, coverage.zenith}) {
     EXPECT_NEAR(share, 0.95, 0.02);
   }
+  EXPECT_NEAR(statistics.mean_sigma0, 1, 0.01);
   EXPECT_NEAR(statistics.false_alarm_share, 0.05, 0.002);
   EXPECT_GE(statistics.found_blunder_share, 0.95);
 }

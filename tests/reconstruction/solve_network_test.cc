@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "tests/reconstruction/network_statistics.h"
 #include "tests/reconstruction/random_network.h"
 
 namespace insitu {
@@ -247,18 +246,6 @@ TEST(SolveNetwork, ConsideredLensAddsWhatItsErrorWouldDo) {
   const Eigen::VectorXd moved = solution.lens_sensitivity[0] * step;
   const Eigen::Vector3d center = changed.photos[1].center - network.photos[1].center;
   EXPECT_LT((center - moved.segment<3>(*solution.columns.center[1])).norm(), 0.02 * center.norm());
-}
-
-TEST(SolveNetwork, ItsStatisticsHoldOverManyNetworks) {
-  const NetworkStatistics statistics = SampleNetworkStatistics(40);
-  EXPECT_NEAR(statistics.mean_sigma0, 1, 0.01);
-  EXPECT_NEAR(statistics.false_alarm_share, 0.05, 0.005);
-  EXPECT_NEAR(statistics.coverage_95.pose, 0.95, 0.03);
-  EXPECT_NEAR(statistics.coverage_95.vertex, 0.95, 0.02);
-  EXPECT_NEAR(statistics.coverage_95.plane, 0.95, 0.03);
-  EXPECT_NEAR(statistics.coverage_95.sun, 0.95, 0.06);
-  EXPECT_NEAR(statistics.coverage_95.zenith, 0.95, 0.06);
-  EXPECT_GE(statistics.found_blunder_share, 0.95);
 }
 
 }  // namespace
