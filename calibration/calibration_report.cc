@@ -4,8 +4,8 @@
 #include <algorithm>
 
 #include "calibration/calibration_page_script.h"
-#include "calibration/json_file.h"
-#include "calibration/report_page.h"
+#include "calibration/files/json_file.h"
+#include "calibration/program/report_page.h"
 
 namespace insitu {
 namespace {

@@ -8,12 +8,12 @@
 #include <sstream>
 
 #include "calibration/calibration_report.h"
-#include "calibration/error.h"
-#include "calibration/exif.h"
-#include "calibration/json_file.h"
-#include "calibration/photograph.h"
+#include "calibration/files/error.h"
+#include "calibration/files/json_file.h"
+#include "calibration/files/whole_file.h"
+#include "calibration/photo/exif.h"
+#include "calibration/photo/photograph.h"
 #include "calibration/site_cameras.h"
-#include "calibration/whole_file.h"
 
 namespace insitu {
 namespace fs = std::filesystem;

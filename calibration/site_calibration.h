@@ -7,12 +7,12 @@
 #include <string>
 #include <vector>
 
-#include "calibration/board_calibration.h"
-#include "calibration/calibration_verdict.h"
-#include "calibration/camera.h"
-#include "calibration/camera_file.h"
-#include "calibration/film.h"
-#include "calibration/site.h"
+#include "calibration/boards/board_calibration.h"
+#include "calibration/boards/calibration_verdict.h"
+#include "calibration/camera_files/camera_file.h"
+#include "calibration/camera_files/film.h"
+#include "calibration/lens/camera.h"
+#include "calibration/program/site.h"
 
 namespace insitu {
 

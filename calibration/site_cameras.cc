@@ -7,11 +7,11 @@
 #include <optional>
 #include <set>
 
-#include "calibration/camera_file.h"
-#include "calibration/error.h"
-#include "calibration/exif.h"
-#include "calibration/film.h"
-#include "calibration/json_file.h"
+#include "calibration/camera_files/camera_file.h"
+#include "calibration/camera_files/film.h"
+#include "calibration/files/error.h"
+#include "calibration/files/json_file.h"
+#include "calibration/photo/exif.h"
 
 namespace insitu {
 namespace fs = std::filesystem;

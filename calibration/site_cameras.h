@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "calibration/site.h"
+#include "calibration/program/site.h"
 
 namespace insitu {
 

@@ -2,12 +2,12 @@
 #include <cstdio>
 #include <map>
 
-#include "calibration/error.h"
-#include "calibration/photograph.h"
-#include "calibration/program.h"
+#include "calibration/files/error.h"
+#include "calibration/lens/undistort.h"
+#include "calibration/photo/photograph.h"
+#include "calibration/program/program.h"
 #include "calibration/site_calibration.h"
 #include "calibration/site_cameras.h"
-#include "calibration/undistort.h"
 
 namespace insitu {
 namespace fs = std::filesystem;

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "calibration/error.h"
+#include "calibration/files/error.h"
 #include "datasets_synthetic/random.h"
 
 namespace insitu::demo {

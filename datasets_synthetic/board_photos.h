@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "calibration/raster.h"
+#include "calibration/photo/raster.h"
 #include "datasets_synthetic/lens.h"
 
 namespace insitu::demo {

@@ -7,8 +7,8 @@
 #include <numbers>
 #include <string>
 
-#include "calibration/json_file.h"
-#include "calibration/whole_file.h"
+#include "calibration/files/json_file.h"
+#include "calibration/files/whole_file.h"
 
 namespace insitu::demo {
 namespace {

@@ -5,8 +5,8 @@
 #include <sstream>
 #include <vector>
 
-#include "calibration/photograph.h"
-#include "calibration/whole_file.h"
+#include "calibration/files/whole_file.h"
+#include "calibration/photo/photograph.h"
 #include "datasets_synthetic/board_photos.h"
 #include "datasets_synthetic/building_writer.h"
 #include "datasets_synthetic/campus.h"

@@ -7,7 +7,7 @@
 #include <optional>
 #include <vector>
 
-#include "calibration/raster.h"
+#include "calibration/photo/raster.h"
 #include "datasets_synthetic/campus.h"
 #include "datasets_synthetic/ray_cast.h"
 #include "datasets_synthetic/spectral_light.h"

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "calibration/error.h"
+#include "calibration/files/error.h"
 
 namespace insitu::demo {
 namespace {

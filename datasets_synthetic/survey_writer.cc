@@ -8,8 +8,8 @@
 #include <cstdio>
 #include <string>
 
-#include "calibration/json_file.h"
-#include "calibration/whole_file.h"
+#include "calibration/files/json_file.h"
+#include "calibration/files/whole_file.h"
 #include "datasets_synthetic/random.h"
 
 namespace insitu::demo {

@@ -3,8 +3,8 @@
 
 #include <json/value.h>
 
-#include "calibration/json_file.h"
-#include "calibration/photograph.h"
+#include "calibration/files/json_file.h"
+#include "calibration/photo/photograph.h"
 
 namespace insitu::demo {
 namespace {

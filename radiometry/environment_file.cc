@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "calibration/json_file.h"
+#include "calibration/files/json_file.h"
 #include "radiometry/natural_environment.h"
 
 namespace insitu {

@@ -2,7 +2,7 @@
 // insitu-light: haze and daylight of a reconstructed site, from its photographs.
 #include <iostream>
 
-#include "calibration/program.h"
+#include "calibration/program/program.h"
 #include "radiometry/natural_environment.h"
 
 namespace insitu {

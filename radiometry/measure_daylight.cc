@@ -5,10 +5,10 @@
 #include <set>
 #include <sstream>
 
-#include "calibration/error.h"
+#include "calibration/files/error.h"
+#include "radiometry/measure/surroundings.h"
 #include "radiometry/natural_environment.h"
-#include "radiometry/surroundings.h"
-#include "reconstruction/ray_scene.h"
+#include "reconstruction/geometry/ray_scene.h"
 
 namespace insitu {
 namespace {

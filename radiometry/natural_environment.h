@@ -6,15 +6,15 @@
 #include <string>
 #include <vector>
 
-#include "calibration/photograph.h"
-#include "radiometry/atmosphere.h"
-#include "radiometry/daylight.h"
-#include "radiometry/fit_atmosphere.h"
-#include "radiometry/fit_daylight.h"
-#include "radiometry/material.h"
-#include "radiometry/rgb_to_spectrum.h"
-#include "radiometry/samples.h"
-#include "reconstruction/scene_geometry.h"
+#include "calibration/photo/photograph.h"
+#include "radiometry/light/atmosphere.h"
+#include "radiometry/light/daylight.h"
+#include "radiometry/light/material.h"
+#include "radiometry/measure/fit_atmosphere.h"
+#include "radiometry/measure/fit_daylight.h"
+#include "radiometry/measure/samples.h"
+#include "radiometry/spectrum/rgb_to_spectrum.h"
+#include "reconstruction/geometry/scene_geometry.h"
 
 namespace insitu {
 

@@ -9,8 +9,8 @@
 #include <optional>
 #include <utility>
 
-#include "calibration/error.h"
-#include "reconstruction/lens_residual.h"
+#include "calibration/files/error.h"
+#include "calibration/lens/lens_residual.h"
 
 namespace insitu {
 namespace {

@@ -2,9 +2,9 @@
 // Our networks and results as COLMAP models, so that anyone can check them with COLMAP.
 #pragma once
 
-#include "reconstruction/adjustment.h"
-#include "reconstruction/colmap_model.h"
-#include "reconstruction/network.h"
+#include "reconstruction/adjustment/adjustment.h"
+#include "reconstruction/colmap/colmap_model.h"
+#include "reconstruction/network/network.h"
 
 namespace insitu {
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <iostream>
 
-#include "calibration/error.h"
-#include "calibration/program.h"
-#include "calibration/site.h"
-#include "reconstruction/export_survey.h"
+#include "calibration/files/error.h"
+#include "calibration/program/program.h"
+#include "calibration/program/site.h"
+#include "reconstruction/exchange/export_survey.h"
 #include "reconstruction/site_photos.h"
 
 namespace {

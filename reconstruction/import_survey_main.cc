@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <iostream>
 
-#include "calibration/error.h"
-#include "calibration/program.h"
-#include "reconstruction/import_survey.h"
+#include "calibration/files/error.h"
+#include "calibration/program/program.h"
+#include "reconstruction/exchange/import_survey.h"
 
 namespace {
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <iostream>
 
-#include "calibration/json_file.h"
-#include "calibration/program.h"
+#include "calibration/files/json_file.h"
+#include "calibration/program/program.h"
 #include "reconstruction/colmap_export.h"
 #include "reconstruction/reconstruct_site.h"
 

@@ -4,13 +4,13 @@
 #include <algorithm>
 #include <utility>
 
-#include "calibration/json_file.h"
-#include "calibration/whole_file.h"
-#include "reconstruction/distinct_photographs.h"
-#include "reconstruction/input_files.h"
-#include "reconstruction/montage_points.h"
-#include "reconstruction/photo_thumbnail.h"
-#include "reconstruction/residual_report.h"
+#include "calibration/files/json_file.h"
+#include "calibration/files/whole_file.h"
+#include "calibration/photo/distinct_photographs.h"
+#include "calibration/photo/photo_thumbnail.h"
+#include "reconstruction/report/input_files.h"
+#include "reconstruction/report/montage_points.h"
+#include "reconstruction/report/residual_report.h"
 #include "reconstruction/site_photos.h"
 
 namespace insitu {

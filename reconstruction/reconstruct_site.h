@@ -6,8 +6,8 @@
 #include <map>
 #include <string>
 
-#include "calibration/site.h"
-#include "reconstruction/adjustment.h"
+#include "calibration/program/site.h"
+#include "reconstruction/adjustment/adjustment.h"
 
 namespace insitu {
 

@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "calibration/camera.h"
-#include "calibration/site.h"
-#include "reconstruction/adjustment.h"
+#include "calibration/lens/camera.h"
+#include "calibration/program/site.h"
+#include "reconstruction/adjustment/adjustment.h"
 
 namespace insitu {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <iostream>
 
-#include "calibration/program.h"
+#include "calibration/program/program.h"
 #include "reconstruction/tie_points_site.h"
 
 int main(int argc, char** argv) {

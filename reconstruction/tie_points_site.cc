@@ -4,12 +4,12 @@
 #include <algorithm>
 #include <set>
 
-#include "calibration/error.h"
-#include "calibration/photograph.h"
-#include "reconstruction/align_tie_points.h"
-#include "reconstruction/distinct_photographs.h"
+#include "calibration/files/error.h"
+#include "calibration/photo/distinct_photographs.h"
+#include "calibration/photo/photograph.h"
+#include "reconstruction/adjustment/align_tie_points.h"
 #include "reconstruction/site_photos.h"
-#include "reconstruction/survey.h"
+#include "reconstruction/survey/survey.h"
 
 namespace insitu {
 namespace {

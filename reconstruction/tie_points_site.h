@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "calibration/camera.h"
-#include "calibration/site.h"
-#include "reconstruction/colmap_run.h"
-#include "reconstruction/select_tie_points.h"
+#include "calibration/lens/camera.h"
+#include "calibration/program/site.h"
+#include "reconstruction/colmap/colmap_run.h"
+#include "reconstruction/colmap/select_tie_points.h"
 
 namespace insitu {
 

@@ -5,15 +5,15 @@
 #include <cstdio>
 #include <set>
 
-#include "calibration/error.h"
-#include "calibration/json_file.h"
-#include "calibration/photograph.h"
-#include "renderer/building_lights.h"
-#include "renderer/building_materials.h"
-#include "renderer/model_list.h"
-#include "renderer/model_textures.h"
-#include "renderer/overlaid_faces.h"
-#include "renderer/site_check.h"
+#include "calibration/files/error.h"
+#include "calibration/files/json_file.h"
+#include "calibration/photo/photograph.h"
+#include "renderer/building/building_lights.h"
+#include "renderer/building/building_materials.h"
+#include "renderer/building/site_check.h"
+#include "renderer/formats/model_list.h"
+#include "renderer/formats/model_textures.h"
+#include "renderer/mesh/overlaid_faces.h"
 
 namespace insitu {
 namespace {

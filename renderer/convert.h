@@ -10,10 +10,10 @@
 #include <string>
 #include <vector>
 
-#include "renderer/artificial_environment.h"
-#include "renderer/model_file.h"
-#include "renderer/placement.h"
-#include "renderer/solids.h"
+#include "renderer/building/artificial_environment.h"
+#include "renderer/building/placement.h"
+#include "renderer/formats/model_file.h"
+#include "renderer/mesh/solids.h"
 
 namespace insitu {
 

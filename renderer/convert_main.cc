@@ -2,7 +2,7 @@
 #include <iostream>
 #include <string>
 
-#include "calibration/program.h"
+#include "calibration/program/program.h"
 #include "renderer/convert.h"
 #include "renderer/convert_report.h"
 

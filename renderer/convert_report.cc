@@ -4,9 +4,9 @@
 #include <cstdio>
 #include <initializer_list>
 
-#include "calibration/json_file.h"
-#include "calibration/photograph.h"
-#include "calibration/whole_file.h"
+#include "calibration/files/json_file.h"
+#include "calibration/files/whole_file.h"
+#include "calibration/photo/photograph.h"
 #include "renderer/preview_image.h"
 
 namespace insitu {

@@ -5,10 +5,10 @@
 #include <chrono>
 #include <map>
 
-#include "calibration/error.h"
-#include "calibration/program.h"
+#include "calibration/files/error.h"
+#include "calibration/program/program.h"
 #include "calibration/site_cameras.h"
-#include "renderer/profile.h"
+#include "renderer/trace/profile.h"
 
 namespace insitu {
 namespace {

@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "calibration/photograph.h"
-#include "calibration/site.h"
-#include "renderer/building_uncertainty.h"
-#include "renderer/render.h"
+#include "calibration/photo/photograph.h"
+#include "calibration/program/site.h"
+#include "renderer/building/building_uncertainty.h"
+#include "renderer/trace/render.h"
 
 namespace insitu {
 

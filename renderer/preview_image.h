@@ -2,8 +2,8 @@
 // A quick picture of the building, before any photograph is rendered.
 #pragma once
 
-#include "calibration/raster.h"
-#include "renderer/artificial_environment.h"
+#include "calibration/photo/raster.h"
+#include "renderer/building/artificial_environment.h"
 
 namespace insitu {
 

@@ -3,9 +3,9 @@
 #include <map>
 #include <memory>
 
-#include "calibration/program.h"
+#include "calibration/program/program.h"
 #include "renderer/montage.h"
-#include "renderer/profile.h"
+#include "renderer/trace/profile.h"
 
 namespace insitu {
 namespace {

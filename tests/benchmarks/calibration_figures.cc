@@ -7,13 +7,13 @@
 #include <sstream>
 #include <vector>
 
-#include "calibration/camera_file.h"
-#include "calibration/error.h"
-#include "calibration/external_program.h"
-#include "calibration/lens_assessment.h"
-#include "calibration/projection_difference.h"
+#include "calibration/boards/lens_assessment.h"
+#include "calibration/camera_files/camera_file.h"
+#include "calibration/files/error.h"
+#include "calibration/files/whole_file.h"
+#include "calibration/lens/projection_difference.h"
+#include "calibration/program/external_program.h"
 #include "calibration/site_calibration.h"
-#include "calibration/whole_file.h"
 
 namespace insitu {
 namespace fs = std::filesystem;

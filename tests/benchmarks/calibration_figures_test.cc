@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "tests/calibration/scratch_folder.h"
+#include "tests/calibration/files/scratch_folder.h"
 
 namespace insitu {
 namespace {

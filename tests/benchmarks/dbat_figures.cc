@@ -5,8 +5,8 @@
 #include <map>
 #include <sstream>
 
-#include "calibration/error.h"
-#include "reconstruction/import_project.h"
+#include "calibration/files/error.h"
+#include "reconstruction/exchange/import_project.h"
 #include "tests/benchmarks/figure_parts.h"
 #include "tests/benchmarks/reconstruction_figures.h"
 

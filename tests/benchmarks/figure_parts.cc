@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "reconstruction/lens_residual.h"
+#include "calibration/lens/lens_residual.h"
 
 namespace insitu {
 

@@ -4,7 +4,7 @@
 
 #include <json/value.h>
 
-#include "reconstruction/solve_network.h"
+#include "reconstruction/network/solve_network.h"
 
 namespace insitu {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tests/benchmarks/reconstruction_figures.h"
 
-#include "tests/reconstruction/network_statistics.h"
+#include "tests/reconstruction/network/network_statistics.h"
 
 namespace insitu {
 

@@ -6,10 +6,10 @@
 #include <functional>
 #include <sstream>
 
-#include "calibration/error.h"
+#include "calibration/files/error.h"
+#include "reconstruction/colmap/colmap_model.h"
 #include "reconstruction/colmap_export.h"
-#include "reconstruction/colmap_model.h"
-#include "reconstruction/import_project.h"
+#include "reconstruction/exchange/import_project.h"
 #include "tests/benchmarks/figure_parts.h"
 #include "tests/benchmarks/reconstruction_figures.h"
 

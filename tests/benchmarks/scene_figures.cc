@@ -2,12 +2,12 @@
 // Whole sites: photographs in, a report out.
 #include <cmath>
 
+#include "calibration/files/xml_file.h"
 #include "calibration/site_calibration.h"
-#include "reconstruction/observation_costs.h"
+#include "reconstruction/geometry/resection.h"
+#include "reconstruction/network/observation_costs.h"
 #include "reconstruction/reconstruct_site.h"
-#include "reconstruction/resection.h"
 #include "reconstruction/tie_points_site.h"
-#include "reconstruction/xml_file.h"
 #include "tests/benchmarks/reconstruction_figures.h"
 
 namespace insitu {

@@ -3,12 +3,12 @@
 
 #include <Eigen/Eigenvalues>
 
-#include "calibration/json_file.h"
-#include "calibration/photograph.h"
-#include "calibration/undistort.h"
-#include "calibration/whole_file.h"
-#include "tests/calibration/board_photos.h"
-#include "tests/calibration/scratch_folder.h"
+#include "calibration/files/json_file.h"
+#include "calibration/files/whole_file.h"
+#include "calibration/lens/undistort.h"
+#include "calibration/photo/photograph.h"
+#include "tests/calibration/boards/drawn_boards.h"
+#include "tests/calibration/files/scratch_folder.h"
 
 namespace insitu {
 namespace {

@@ -3,11 +3,11 @@
 
 #include <exiv2/exiv2.hpp>
 
-#include "calibration/camera.h"
-#include "calibration/json_file.h"
-#include "calibration/photograph.h"
+#include "calibration/files/json_file.h"
+#include "calibration/lens/camera.h"
+#include "calibration/photo/photograph.h"
 #include "calibration/site_calibration.h"
-#include "tests/calibration/scratch_folder.h"
+#include "tests/calibration/files/scratch_folder.h"
 
 namespace insitu {
 namespace {

@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "calibration/json_file.h"
-#include "calibration/whole_file.h"
+#include "calibration/files/json_file.h"
+#include "calibration/files/whole_file.h"
 
 namespace insitu::demo {
 namespace {

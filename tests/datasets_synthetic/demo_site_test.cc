@@ -8,9 +8,9 @@
 #include <map>
 #include <string>
 
-#include "calibration/json_file.h"
-#include "calibration/photograph.h"
-#include "calibration/whole_file.h"
+#include "calibration/files/json_file.h"
+#include "calibration/files/whole_file.h"
+#include "calibration/photo/photograph.h"
 
 namespace insitu::demo {
 namespace {

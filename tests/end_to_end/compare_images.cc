@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-#include "calibration/photograph.h"
+#include "calibration/photo/photograph.h"
 
 namespace insitu {
 namespace {

@@ -3,9 +3,9 @@
 
 #include <gtest/gtest.h>
 
-#include "calibration/error.h"
-#include "calibration/whole_file.h"
-#include "tests/radiometry/synthetic_site.h"
+#include "calibration/files/error.h"
+#include "calibration/files/whole_file.h"
+#include "tests/radiometry/measure/synthetic_site.h"
 
 namespace insitu {
 namespace {

@@ -3,8 +3,8 @@
 
 #include <gtest/gtest.h>
 
-#include "reconstruction/lens_residual.h"
-#include "tests/reconstruction/synthetic_network.h"
+#include "calibration/lens/lens_residual.h"
+#include "tests/reconstruction/survey/synthetic_network.h"
 
 namespace insitu {
 namespace {

@@ -5,10 +5,10 @@
 
 #include <Eigen/Geometry>
 
-#include "calibration/json_file.h"
-#include "calibration/photograph.h"
-#include "calibration/whole_file.h"
-#include "tests/reconstruction/synthetic_network.h"
+#include "calibration/files/json_file.h"
+#include "calibration/files/whole_file.h"
+#include "calibration/photo/photograph.h"
+#include "tests/reconstruction/survey/synthetic_network.h"
 
 namespace insitu {
 namespace {

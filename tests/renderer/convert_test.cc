@@ -6,9 +6,9 @@
 
 #include <algorithm>
 
-#include "calibration/error.h"
-#include "tests/calibration/scratch_folder.h"
-#include "tests/renderer/dxf_text.h"
+#include "calibration/files/error.h"
+#include "tests/calibration/files/scratch_folder.h"
+#include "tests/renderer/dxf/dxf_text.h"
 
 namespace insitu {
 namespace {

@@ -7,9 +7,9 @@
 #include <cstdlib>
 #include <fstream>
 
-#include "calibration/error.h"
-#include "renderer/model_file.h"
-#include "renderer/solids.h"
+#include "calibration/files/error.h"
+#include "renderer/formats/model_file.h"
+#include "renderer/mesh/solids.h"
 
 namespace insitu {
 namespace {

@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "calibration/camera_files/dbat_camera.h"
+
+#include <algorithm>
+
+#include "calibration/files/text_table.h"
+
+namespace insitu {
+namespace {
+
+std::vector<double> NumbersOfCount(const XmlNode& node, size_t least, size_t most) {
+  const std::vector<double> numbers = node.Numbers();
+  if (numbers.size() < least || numbers.size() > most) {
+    throw node.Error(std::to_string(numbers.size()) + " numbers, expected " +
+                     std::to_string(least) + (most > least ? " or more" : ""));
+  }
+  return numbers;
+}
+
+void ParseSize(const XmlNode& element, DbatCamera* camera) {
+  const std::vector<double> image = NumbersOfCount(element.At("image"), 2, 2);
+  const XmlNode sensor = element.At("sensor");
+  const std::vector<std::string> sizes = SplitAt(sensor.Text(), ',');
+  const auto height = sizes.size() == 2 ? ParseNumber(sizes[1]) : std::nullopt;
+  if (!height) throw sensor.Error("expected width,height in mm, the width may be \"auto\"");
+  if (!(image[0] >= 1 && image[0] < 1e6 && image[1] >= 1 && image[1] < 1e6 && *height > 0)) {
+    throw sensor.Error("image and sensor must have a size");
+  }
+  camera->width = static_cast<int>(image[0]);
+  camera->height = static_cast<int>(image[1]);
+  camera->sensor_height_mm = *height;
+  if (sizes[0] == "auto") return;
+  const auto width = ParseNumber(sizes[0]);
+  if (!width || !(*width > 0)) throw sensor.Error("the width must be positive or \"auto\"");
+  if (!element.Find("aspect")) camera->aspect = *width / camera->width / camera->pixel_mm();
+}
+
+void ParseModel(const XmlNode& element, DbatCamera* camera) {
+  const XmlNode model = element.At("model");
+  camera->model = static_cast<int>(model.Number());
+  const bool has_affinity = camera->aspect != 1 || camera->skew != 0;
+  if (camera->model == 3 || ((camera->model == 1 || camera->model == 2) && !has_affinity)) return;
+  throw model.Error("lens model " + model.Text() + (has_affinity ? " with affinity" : "") +
+                    ", expected 3, or 1 or 2 without affinity: these are what we can adjust");
+}
+
+// cc, pp, K, P, aspect, skew. A constant of 0, as blank camera files have, is not stated.
+void ParseValues(const XmlNode& element, DbatCamera* camera) {
+  if (const auto node = element.Find("cc"); node && node->Text() != "focal") {
+    const double cc = node->Numbers()[0];
+    if (cc < 0) throw node->Error("the camera constant must be positive");
+    if (cc > 0) camera->cc_mm = cc;
+  }
+  if (const auto node = element.Find("pp"); node && node->Text() != "default") {
+    const std::vector<double> pp = NumbersOfCount(*node, 2, 2);
+    if (pp[0] != 0 || pp[1] != 0) camera->pp_mm = {pp[0], pp[1]};
+  }
+  if (const auto node = element.Find("K")) {
+    const std::vector<double> K = NumbersOfCount(*node, 1, 3);
+    std::copy(K.begin(), K.end(), camera->K.begin());
+  }
+  if (const auto node = element.Find("P")) {
+    const std::vector<double> P = NumbersOfCount(*node, 2, 2);
+    std::copy(P.begin(), P.end(), camera->P.begin());
+  }
+  if (const auto node = element.Find("skew")) camera->skew = node->Number();
+}
+
+int ParseCount(const XmlNode& element, const std::string& name, int most) {
+  const auto node = element.Find(name);
+  if (!node) return most;
+  const double count = node->Number();
+  if (!(count >= 0 && count <= most)) {
+    throw node->Error("expected at most " + std::to_string(most) + " coefficients");
+  }
+  return static_cast<int>(count);
+}
+
+}  // namespace
+
+DbatCamera WithDefaults(DbatCamera camera) {
+  camera.cc_mm = camera.focal_mm;
+  camera.aspect = 1;
+  camera.skew = 0;
+  camera.pp_mm = camera.pixel_mm() / 2 * Eigen::Vector2d(camera.width, camera.height);
+  camera.K.fill(0);
+  camera.P.fill(0);
+  return camera;
+}
+
+DbatCamera ParseDbatCamera(const XmlNode& element) {
+  if (const auto unit = element.Find("unit"); unit && unit->Text() != "mm") {
+    throw unit->Error("\"" + unit->Text() + "\", expected mm");
+  }
+  DbatCamera camera;
+  if (const auto id = element.Find("id")) camera.id = id->Text();
+  if (const auto name = element.Find("name")) camera.name = name->Text();
+  camera.focal_mm = element.At("focal").Number();
+  if (!(camera.focal_mm > 0)) throw element.At("focal").Error("the focal length must be positive");
+  ParseSize(element, &camera);
+  const double aspect = camera.aspect;
+  camera = WithDefaults(camera);
+  camera.aspect = element.Find("aspect") ? element.At("aspect").Number() : aspect;
+  ParseValues(element, &camera);
+  ParseModel(element, &camera);
+  camera.K_count = ParseCount(element, "nK", 3);
+  camera.P_count = ParseCount(element, "nP", 2);
+  return camera;
+}
+
+MetricCamera MetricFromDbat(const DbatCamera& camera) {
+  MetricCamera metric;
+  metric.model = MetricModel::kBackwardBrown;
+  metric.width = camera.width;
+  metric.height = camera.height;
+  metric.pixel_mm.setConstant(camera.pixel_mm());
+  metric.origin_px.setConstant(-kDbatFirstPixelCenter);
+  metric.parameters = {camera.cc_mm,      camera.pp_mm.x(), -camera.pp_mm.y(), camera.K[0],
+                       camera.K[1],       camera.K[2],      camera.P[0],       camera.P[1],
+                       1 - camera.aspect, camera.skew};
+  return metric;
+}
+
+DbatCamera DbatFromMetric(const MetricCamera& metric) {
+  INSITU_CHECK(metric.model == MetricModel::kBackwardBrown);
+  INSITU_CHECK(metric.pixel_mm.x() == metric.pixel_mm.y());
+  const std::vector<double>& p = metric.parameters;
+  const Eigen::Vector2d corner_mm =
+      metric.pixel_mm.x() * (metric.origin_px + Eigen::Vector2d::Constant(kDbatFirstPixelCenter));
+  DbatCamera camera;
+  camera.width = metric.width;
+  camera.height = metric.height;
+  camera.sensor_height_mm = metric.pixel_mm.y() * metric.height;
+  camera.focal_mm = camera.cc_mm = p[0];
+  camera.pp_mm = corner_mm + Eigen::Vector2d(p[1], -p[2]);
+  camera.K = {p[3], p[4], p[5]};
+  camera.P = {p[6], p[7]};
+  camera.aspect = 1 - p[8];
+  camera.skew = p[9];
+  return camera;
+}
+
+}  // namespace insitu

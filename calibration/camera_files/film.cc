@@ -1,0 +1,207 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "calibration/camera_files/film.h"
+
+#include <math.h>  // boost's pchip calls isnan without its namespace
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <boost/math/interpolators/pchip.hpp>
+#include <cmath>
+
+#include "calibration/files/csv_file.h"
+#include "calibration/files/error.h"
+#include "calibration/files/json_file.h"
+
+namespace insitu {
+namespace {
+
+constexpr double kOpencvSuffices_px = 0.05;
+
+// Moves the centroid to the origin and the mean distance from it to 1.
+Eigen::Matrix3d Normalizing(const std::vector<Eigen::Vector2d>& points) {
+  Eigen::Vector2d center = Eigen::Vector2d::Zero();
+  for (const Eigen::Vector2d& point : points) center += point / static_cast<double>(points.size());
+  double distance = 0;
+  for (const Eigen::Vector2d& point : points) distance += (point - center).norm();
+  const double scale = static_cast<double>(points.size()) / std::max(distance, 1e-300);
+  Eigen::Matrix3d matrix;
+  matrix << scale, 0, -scale * center.x(), 0, scale, -scale * center.y(), 0, 0, 1;
+  return matrix;
+}
+
+Eigen::Vector2d Mapped(const Eigen::Matrix3d& map, const Eigen::Vector2d& point) {
+  return (map * point.homogeneous()).hnormalized();
+}
+
+// One Gauss-Newton step on the first `count` of the map's elements, row by row; false: singular.
+bool Improve(const std::vector<Eigen::Vector2d>& from, const std::vector<Eigen::Vector2d>& to,
+             int count, Eigen::Matrix3d* map) {
+  Eigen::MatrixXd design = Eigen::MatrixXd::Zero(2 * from.size(), count);
+  Eigen::VectorXd rest(2 * from.size());
+  for (size_t i = 0; i < from.size(); ++i) {
+    const Eigen::Vector3d mapped = *map * from[i].homogeneous();
+    const Eigen::Vector2d position = mapped.hnormalized();
+    rest.segment<2>(2 * i) = to[i] - position;
+    for (const int axis : {0, 1}) {
+      const auto row = static_cast<Eigen::Index>(2 * i + axis);
+      design.block<1, 3>(row, 3 * axis) = from[i].homogeneous().transpose() / mapped.z();
+      if (count > 6) {
+        design.block<1, 2>(row, 6) = -position[axis] / mapped.z() * from[i].transpose();
+      }
+    }
+  }
+  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> solver(design);
+  solver.setThreshold(1e-9);
+  if (solver.rank() < count) return false;
+  const Eigen::VectorXd step = solver.solve(rest);
+  for (int i = 0; i < count; ++i) (*map)(i / 3, i % 3) += step[i];
+  return true;
+}
+
+int Parameters(FilmTransformation transformation) {
+  return transformation == FilmTransformation::kAffine ? 6 : 8;
+}
+
+FilmTransformation TransformationOf(const JsonNode& file) {
+  const auto node = file.Find("transformation");
+  if (!node || node->Text() == "affine") return FilmTransformation::kAffine;
+  if (node->Text() == "projective") return FilmTransformation::kProjective;
+  throw node->Error("is \"" + node->Text() + "\", expected affine or projective");
+}
+
+void CheckSame(const CsvRow& row, const std::map<std::string, Eigen::Vector2d>& calibrated,
+               const Fiducial& fiducial) {
+  const Eigen::Vector2d& other = calibrated.at(fiducial.mark);
+  if (other == fiducial.image_mm) return;
+  throw row.Error("mark " + fiducial.mark +
+                  " has other millimetres than further up, expected those of one camera");
+}
+
+}  // namespace
+
+std::map<std::string, std::vector<Fiducial>> ReadFiducials(const std::filesystem::path& path) {
+  std::map<std::string, std::vector<Fiducial>> marks_of_photo;
+  std::map<std::string, Eigen::Vector2d> calibrated;
+  for (const CsvRow& row : ReadCsv(path, {"mark", "x_mm", "y_mm", "photo", "x", "y"})) {
+    const Fiducial fiducial{row.Text("mark"),
+                            {row.Number("x_mm"), row.Number("y_mm")},
+                            {row.Number("x"), row.Number("y")}};
+    calibrated.emplace(fiducial.mark, fiducial.image_mm);
+    CheckSame(row, calibrated, fiducial);
+    std::vector<Fiducial>& marks = marks_of_photo[row.Text("photo")];
+    for (const Fiducial& other : marks) {
+      if (other.mark == fiducial.mark) {
+        throw row.Error("mark " + fiducial.mark + " stands twice for photo " + row.Text("photo"));
+      }
+    }
+    marks.push_back(fiducial);
+  }
+  return marks_of_photo;
+}
+
+std::optional<FilmMap> FitFilmMap(const std::vector<Fiducial>& marks,
+                                  FilmTransformation transformation) {
+  const int count = Parameters(transformation);
+  const auto observations = static_cast<int>(2 * marks.size());
+  if (observations < count) return std::nullopt;
+  std::vector<Eigen::Vector2d> image, bitmap;
+  for (const Fiducial& fiducial : marks) {
+    image.push_back(fiducial.image_mm);
+    bitmap.push_back(fiducial.bitmap_px);
+  }
+  const Eigen::Matrix3d to_image = Normalizing(image), to_bitmap = Normalizing(bitmap);
+  for (Eigen::Vector2d& point : image) point = Mapped(to_image, point);
+  for (Eigen::Vector2d& point : bitmap) point = Mapped(to_bitmap, point);
+  Eigen::Matrix3d map = Eigen::Matrix3d::Identity();
+  if (!Improve(image, bitmap, 6, &map)) return std::nullopt;
+  constexpr int kSteps = 12;  // of a problem that is nearly linear
+  for (int i = 0; count > 6 && i < kSteps; ++i) {
+    if (!Improve(image, bitmap, count, &map)) return std::nullopt;
+  }
+  FilmMap result{.transformation = transformation};
+  result.bitmap_from_image = to_bitmap.inverse() * map * to_image;
+  result.bitmap_from_image /= result.bitmap_from_image(2, 2);
+  double sum = 0;
+  for (const Fiducial& fiducial : marks) {
+    result.residuals_px.push_back(Mapped(result.bitmap_from_image, fiducial.image_mm) -
+                                  fiducial.bitmap_px);
+    sum += result.residuals_px.back().squaredNorm();
+  }
+  if (observations > count) result.sigma_px = std::sqrt(sum / (observations - count));
+  return result;
+}
+
+FilmCamera ReadFilmCamera(const std::filesystem::path& path) {
+  const JsonNode file = JsonNode::Load(path);
+  FilmCamera film;
+  film.path = path;
+  film.focal_mm = file.At("focal_mm").Number();
+  if (!(film.focal_mm > 0)) throw file.At("focal_mm").Error("is not positive");
+  if (const auto point = file.Find("principal_point_mm")) {
+    const std::vector<double> numbers = point->Numbers();
+    if (numbers.size() != 2) throw point->Error("expected two numbers, x and y");
+    film.principal_point_mm = {numbers[0], numbers[1]};
+  }
+  film.transformation = TransformationOf(file);
+  const auto table = file.Find("distortion");
+  if (!table) return film;
+  for (const JsonNode& row : table->Items()) {
+    const std::vector<double> numbers = row.Numbers();
+    const bool rises = numbers.size() == 2 &&
+                       numbers[0] > (film.distortion.empty() ? 0 : film.distortion.back().x());
+    if (!rises) throw row.Error("expected [radius_mm, distortion_mm] with radii rising from > 0");
+    film.distortion.emplace_back(numbers[0], numbers[1]);
+  }
+  if (film.distortion.size() == 1) throw table->Error("expected two radii or more, or none");
+  return film;
+}
+
+double DistortionAt(const FilmCamera& film, double radius_mm) {
+  if (film.distortion.empty()) return 0;
+  std::vector<double> radii = {0}, values = {0};
+  for (const Eigen::Vector2d& row : film.distortion) {
+    radii.insert(radii.begin(), -row.x());  // an odd function has a smooth start
+    values.insert(values.begin(), -row.y());
+    radii.push_back(row.x());
+    values.push_back(row.y());
+  }
+  const double last = radii.back(), value = values.back();
+  boost::math::interpolators::pchip curve(std::move(radii), std::move(values));
+  if (radius_mm < last) return curve(radius_mm);
+  return value + (radius_mm - last) * curve.prime(last);
+}
+
+Eigen::Vector3d SightOfFilm(const FilmCamera& film, const Eigen::Vector2d& image_mm) {
+  const Eigen::Vector2d measured = image_mm - film.principal_point_mm;
+  const double radius = measured.norm();
+  const double scale = radius > 0 ? 1 - DistortionAt(film, radius) / radius : 1;
+  return {scale * measured.x(), -scale * measured.y(), film.focal_mm};
+}
+
+std::optional<CameraFit> FitFilmCamera(const FilmCamera& film, const FilmMap& map, int width,
+                                       int height) {
+  const Eigen::Matrix2d linear = map.bitmap_from_image.topLeftCorner<2, 2>();
+  if (!(linear.determinant() < 0)) return std::nullopt;  // y up to y down: else it is mirrored
+  const Eigen::Matrix3d image_from_bitmap = map.bitmap_from_image.inverse();
+  const auto sight = [&](const Eigen::Vector2d& pixel) {
+    return SightOfFilm(film, Mapped(image_from_bitmap, pixel));
+  };
+  FitCameraOptions options;
+  options.turn_axes = true;
+  options.start_fit_from_lens =
+      Eigen::AngleAxisd(std::atan2(linear(1, 0), linear(0, 0)), Eigen::Vector3d::UnitZ());
+  auto fit = FitCamera(sight, width, height, options);
+  if (fit && fit->largest_deviation_px <= kOpencvSuffices_px) return fit;
+  const double half_width = 0.5 * width / std::sqrt(std::abs(linear.determinant()));
+  const double fov_deg = 1.3 * 2 * std::atan(half_width / film.focal_mm) * 180 / M_PI;
+  options.lens_model = "LENSMODEL_SPLINED_STEREOGRAPHIC_order=3_Nx=14_Ny=" +
+                       std::to_string(std::max(6, 14 * height / width + 1)) +
+                       "_fov_x_deg=" + std::to_string(static_cast<int>(std::ceil(fov_deg)));
+  options.turn_axes = false;  // the spline shows any turn
+  if (fit) options.start_fit_from_lens = fit->fit_from_lens;
+  const auto splined = FitCamera(sight, width, height, options);
+  if (!splined) return fit;
+  return fit && fit->largest_deviation_px < splined->largest_deviation_px ? fit : splined;
+}
+
+}  // namespace insitu

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "calibration/program/site.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <map>
+
+#include "calibration/files/error.h"
+
+namespace insitu {
+namespace fs = std::filesystem;
+
+bool IsPhotograph(const fs::path& path) {
+  static constexpr std::array kEndings = {".jpg", ".jpeg", ".png", ".tif", ".tiff", ".exr"};
+  if (!fs::is_regular_file(path) || path.filename().string().starts_with('.')) return false;
+  std::string ending = path.extension().string();
+  std::transform(ending.begin(), ending.end(), ending.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return std::find(kEndings.begin(), kEndings.end(), ending) != kEndings.end();
+}
+
+void RequireResult(const fs::path& result, const std::string& program) {
+  if (!fs::exists(result)) {
+    throw InputError(result, "is not there, expected the result of " + program + "; run it first");
+  }
+}
+
+std::vector<fs::path> ListPhotographs(const SitePaths& site) {
+  if (!fs::is_directory(site.photos())) {
+    throw InputError(site.photos(), "no such folder, expected the site's photographs in it");
+  }
+  std::map<std::string, fs::path> by_name;
+  for (const fs::directory_entry& entry : fs::directory_iterator(site.photos())) {
+    if (!IsPhotograph(entry.path())) continue;
+    const auto [other, is_new] = by_name.emplace(entry.path().stem().string(), entry.path());
+    if (!is_new) {
+      const auto [first, second] = std::minmax(other->second, entry.path());
+      throw InputError(second, "has the same name as " + first.filename().string() +
+                                   ", expected each photograph's name once");
+    }
+  }
+  if (by_name.empty()) {
+    throw InputError(site.photos(), "no photographs, expected JPEG, PNG, TIFF or EXR files");
+  }
+  std::vector<fs::path> photos;
+  photos.reserve(by_name.size());
+  for (const auto& [name, path] : by_name) photos.push_back(path);
+  return photos;
+}
+
+}  // namespace insitu

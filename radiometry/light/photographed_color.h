@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The true colour of the site's surfaces, looked up in its photographs. [Durisch92, §6.2 case D]
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <vector>
+
+#include "calibration/photo/raster.h"
+#include "radiometry/light/atmosphere.h"
+#include "radiometry/spectrum/rgb_to_spectrum.h"
+#include "reconstruction/geometry/ray_scene.h"
+
+namespace insitu {
+
+// A surface element, in the scene's local frame (world minus its origin).
+struct SurfacePoint {
+  Eigen::Vector3d position;  // [m]
+  Eigen::Vector3d normal;    // unit, towards the side that is lit and looked at
+};
+
+// Light rays start this far off a surveyed surface: survey noise leaves polygons that lie on each
+// other about a centimetre apart, and the lower of two must not be shaded by the upper. [m]
+constexpr double kSurveyClearance = 0.02;
+
+// A photograph, or the input image made from it, with its camera in the local frame.
+struct LocalImage {
+  LocalImage(const PosedCamera& posed, const Eigen::Vector3d& origin, const Raster& image);
+
+  PosedCamera camera;
+  Eigen::Vector3d center;  // of projection [m]
+  const Raster* linear;    // never null, owned by the caller
+};
+
+// What a look-up needs. All references are the caller's.
+struct PhotographedSite {
+  const SceneGeometry& scene;
+  const RayScene& rays;  // of MeshOfPolygons(scene)
+  const std::vector<int>& polygon_of_triangle;
+  const std::vector<LocalImage>& images;  // in the order of scene.cameras
+  const Atmosphere& air;
+  const SpectralBasis& spectra;
+};
+
+struct PhotographedColor {
+  Spectrum true_color;        // L_0 >= 0, haze removed by [Durisch92, Eq. (8)]
+  Eigen::Vector3d to_camera;  // unit, towards the photograph it was seen from
+};
+
+// Looks up a point of a polygon in the photo of its image attribute or, where that does not show
+// it (out of frame, hidden, other side), in the first other photo that does. nullopt: none does.
+std::optional<PhotographedColor> LookUpColor(const PhotographedSite& site, int polygon,
+                                             const SurfacePoint& surface);
+
+}  // namespace insitu

@@ -1,0 +1,242 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "radiometry/measure/fit_daylight.h"
+
+#include <Eigen/LU>
+#include <Eigen/QR>
+#include <Eigen/SVD>
+#include <algorithm>
+#include <cmath>
+
+#include "calibration/files/error.h"
+#include "radiometry/measure/robust_weights.h"
+#include "radiometry/spectrum/color.h"
+
+namespace insitu {
+namespace {
+
+constexpr int kRobustPasses = 20;
+constexpr double kSingular = 1e16;  // condition reported for a rank defect
+constexpr double kRankTolerance = 1e-8;
+
+// The ambient column of Eq. (9): pi as in Eq. (4), or what the surroundings really send.
+double AmbientFactor(const DaylightSample& sample, int bin) {
+  return sample.surroundings ? (*sample.surroundings)[bin] : sample.geometry.ambient;
+}
+
+// One bin's weighted equations A x = y for x = (sun, ambient, sky).
+struct Equations {
+  Eigen::MatrixX3d A;
+  Eigen::VectorXd y;
+};
+
+struct Solution {
+  Eigen::Vector3d radiance = Eigen::Vector3d::Zero();
+  Eigen::Vector3d sigma = Eigen::Vector3d::Zero();
+  double condition = 1;
+};
+
+Equations SetUp(const std::vector<DaylightSample>& samples, double brdf, bool has_sun, int bin,
+                const std::vector<double>& weights) {
+  const int n = static_cast<int>(samples.size());
+  Equations equations{Eigen::MatrixX3d(n, 3), Eigen::VectorXd(n)};
+  for (int i = 0; i < n; ++i) {
+    const LightGeometry& seen = samples[i].geometry;
+    const double p = std::sqrt(weights[i]) / samples[i].sigma[bin];
+    equations.A.row(i) << (has_sun ? seen.sun : 0), AmbientFactor(samples[i], bin), seen.sky;
+    equations.A.row(i) *= p * brdf;
+    equations.y[i] = p * samples[i].true_color[bin];
+  }
+  return equations;
+}
+
+std::vector<int> InfluentialColumns(const Eigen::MatrixX3d& A) {
+  std::vector<int> columns;
+  for (int c = 0; c < 3; ++c) {
+    if (A.col(c).norm() > 0) columns.push_back(c);
+  }
+  return columns;
+}
+
+// Columns of unit length, so that rank and condition mean the geometry, not the units.
+Eigen::MatrixXd ScaledColumns(const Eigen::MatrixX3d& A, const std::vector<int>& columns) {
+  Eigen::MatrixXd scaled(A.rows(), columns.size());
+  for (size_t i = 0; i < columns.size(); ++i) scaled.col(i) = A.col(columns[i]).normalized();
+  return scaled;
+}
+
+std::vector<int> Subset(const std::vector<int>& columns, unsigned mask) {
+  std::vector<int> subset;
+  for (size_t i = 0; i < columns.size(); ++i) {
+    if (mask >> i & 1) subset.push_back(columns[i]);
+  }
+  return subset;
+}
+
+// Exact non-negative least squares: its solution is the least-squares solution on its own support,
+// so with three unknowns all supports can be tried.
+Eigen::Vector3d SolveNonNegative(const Equations& equations, const std::vector<int>& columns) {
+  Eigen::Vector3d best = Eigen::Vector3d::Zero();
+  double smallest = equations.y.squaredNorm();
+  for (unsigned mask = 1; mask < 1u << columns.size(); ++mask) {
+    const std::vector<int> support = Subset(columns, mask);
+    Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(ScaledColumns(equations.A, support));
+    qr.setThreshold(kRankTolerance);
+    if (qr.rank() < static_cast<int>(support.size())) continue;
+    const Eigen::VectorXd scaled = qr.solve(equations.y);
+    if (scaled.minCoeff() < 0) continue;
+    Eigen::Vector3d x = Eigen::Vector3d::Zero();
+    for (size_t i = 0; i < support.size(); ++i) {
+      x[support[i]] = scaled[i] / equations.A.col(support[i]).norm();
+    }
+    const double cost = (equations.A * x - equations.y).squaredNorm();
+    if (cost >= smallest) continue;
+    smallest = cost;
+    best = x;
+  }
+  return best;
+}
+
+// Standard deviations of all influential components, those held at zero included, from the
+// pseudo-inverse of the unconstrained system, scaled by the variance of the residuals.
+void SetPrecision(const Equations& equations, const std::vector<int>& columns, Solution& solution) {
+  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(ScaledColumns(equations.A, columns),
+                                              Eigen::ComputeThinV);
+  const Eigen::VectorXd singular = svd.singularValues();
+  const double smallest = singular[singular.size() - 1];
+  solution.condition = smallest > 0 ? std::min(kSingular, singular[0] / smallest) : kSingular;
+  const double dof = static_cast<double>(equations.y.size()) - static_cast<double>(columns.size());
+  const double squares = (equations.A * solution.radiance - equations.y).squaredNorm();
+  const double variance_factor = dof > 0 ? std::max(1.0, squares / dof) : 1.0;
+  for (size_t i = 0; i < columns.size(); ++i) {
+    double variance = 0;
+    for (int k = 0; k < singular.size(); ++k) {
+      if (singular[k] < kRankTolerance * singular[0]) continue;
+      variance += std::pow(svd.matrixV()(i, k) / singular[k], 2);
+    }
+    solution.sigma[columns[i]] =
+        std::sqrt(variance * variance_factor) / equations.A.col(columns[i]).norm();
+  }
+}
+
+Solution Solve(const Equations& equations) {
+  Solution solution;
+  const std::vector<int> columns = InfluentialColumns(equations.A);
+  if (columns.empty()) return solution;
+  solution.radiance = SolveNonNegative(equations, columns);
+  SetPrecision(equations, columns, solution);
+  return solution;
+}
+
+DaylightFit SolveBins(const std::vector<DaylightSample>& samples, const Spectrum& brdf,
+                      bool has_sun, const SpectralBins& bins, const std::vector<double>& weights) {
+  DaylightFit fit;
+  for (Spectrum* part :
+       {&fit.sun_radiance, &fit.ambient_radiance, &fit.sky_radiance, &fit.sun_sigma,
+        &fit.ambient_sigma, &fit.sky_sigma, &fit.surroundings_weight}) {
+    part->setZero();
+  }
+  for (int bin = 0; bin < bins.count; ++bin) {
+    const Solution x = Solve(SetUp(samples, brdf[bin], has_sun, bin, weights));
+    fit.sun_radiance[bin] = x.radiance[0];
+    fit.ambient_radiance[bin] = x.radiance[1];
+    fit.sky_radiance[bin] = x.radiance[2];
+    fit.sun_sigma[bin] = x.sigma[0];
+    fit.ambient_sigma[bin] = x.sigma[1];
+    fit.sky_sigma[bin] = x.sigma[2];
+    fit.condition = std::max(fit.condition, x.condition);
+  }
+  return fit;
+}
+
+// The paper's k, one for all wavelengths, times its L, which is D65 as in §7. The mean over the
+// spectrum is weighted by what the eye makes of D65, so that the luminance stays as measured.
+void AverageOverWavelength(Spectrum& radiance, Spectrum& sigma, const SpectralBins& bins) {
+  const Spectrum d65 = IlluminantD65(bins);
+  const double luminance = Tristimulus(d65, bins).y();
+  radiance = Tristimulus(radiance, bins).y() / luminance * d65;
+  sigma = Tristimulus(sigma, bins).y() / luminance * d65;
+}
+
+Spectrum ModelRadiance(const DaylightFit& fit, const Spectrum& brdf, const DaylightSample& sample) {
+  const Spectrum ambient =
+      sample.surroundings ? *sample.surroundings : Spectrum::Constant(sample.geometry.ambient);
+  return brdf * (fit.sun_radiance * sample.geometry.sun + fit.ambient_radiance * ambient +
+                 fit.sky_radiance * sample.geometry.sky);
+}
+
+// Per sample: root mean square over the bins, in units of sigma.
+std::vector<double> ResidualMagnitudes(const std::vector<DaylightSample>& samples,
+                                       const DaylightFit& fit, const Spectrum& brdf,
+                                       const SpectralBins& bins) {
+  std::vector<double> magnitudes;
+  for (const DaylightSample& sample : samples) {
+    const Spectrum residual = (sample.true_color - ModelRadiance(fit, brdf, sample)) / sample.sigma;
+    magnitudes.push_back(std::sqrt(residual.head(bins.count).square().mean()));
+  }
+  return magnitudes;
+}
+
+void SetResiduals(const std::vector<DaylightSample>& samples, const Spectrum& brdf,
+                  const SpectralBins& bins, DaylightFit& fit) {
+  const std::vector<double> magnitudes = ResidualMagnitudes(samples, fit, brdf, bins);
+  fit.rms = Eigen::VectorXd::Map(magnitudes.data(), magnitudes.size()).norm() /
+            std::sqrt(static_cast<double>(magnitudes.size()));
+  for (const DaylightSample& sample : samples) {
+    const Spectrum model = ModelRadiance(fit, brdf, sample);
+    const double measured = sample.true_color.head(bins.count).mean();
+    fit.residuals.push_back((measured - model.head(bins.count).mean()) /
+                            std::max(std::abs(measured), sample.sigma.head(bins.count).mean()));
+  }
+}
+
+// From the weight of the surroundings to the terms of Eqs. (4) and (5): see the header.
+void SpreadSurroundings(const std::vector<DaylightSample>& samples, DaylightFit& fit) {
+  Spectrum irradiance = Spectrum::Zero();
+  double hidden = 0;  // projected solid angle that the sky does not fill [sr]
+  for (const DaylightSample& sample : samples) {
+    irradiance += *sample.surroundings;
+    hidden += sample.geometry.ambient - sample.geometry.sky;
+  }
+  const Spectrum mean_radiance = irradiance / std::max(hidden, 1e-9);
+  fit.surroundings_weight = fit.ambient_radiance;
+  fit.ambient_radiance *= mean_radiance;
+  fit.ambient_sigma *= mean_radiance;
+  fit.ambient_radiance = fit.ambient_radiance.min(fit.sky_radiance);
+  fit.sky_radiance -= fit.ambient_radiance;
+  fit.sky_sigma = (fit.sky_sigma.square() + fit.ambient_sigma.square()).sqrt();
+}
+
+bool HaveSurroundings(const std::vector<DaylightSample>& samples) {
+  const auto with = std::count_if(samples.begin(), samples.end(),
+                                  [](const auto& sample) { return sample.surroundings; });
+  INSITU_CHECK(with == 0 || with == static_cast<long>(samples.size()));
+  return with > 0;
+}
+
+}  // namespace
+
+DaylightFit FitDaylight(const std::vector<DaylightSample>& samples, const Spectrum& brdf,
+                        bool has_sun, const SpectralBins& bins, const DaylightFitOptions& options) {
+  INSITU_CHECK(samples.size() >= (has_sun ? 3u : 2u));
+  INSITU_CHECK((brdf.head(bins.count) > 0).all());
+  for (const DaylightSample& sample : samples) {
+    INSITU_CHECK((sample.sigma.head(bins.count) > 0).all());
+  }
+  const bool has_surroundings = HaveSurroundings(samples);
+  std::vector<double> weights(samples.size(), 1.0);
+  DaylightFit fit = SolveBins(samples, brdf, has_sun, bins, weights);
+  for (int pass = 0; pass < kRobustPasses; ++pass) {
+    weights = HuberWeights(ResidualMagnitudes(samples, fit, brdf, bins));
+    fit = SolveBins(samples, brdf, has_sun, bins, weights);
+  }
+  SetResiduals(samples, brdf, bins, fit);
+  if (has_surroundings) SpreadSurroundings(samples, fit);
+  if (options.average_over_wavelength) {
+    AverageOverWavelength(fit.sun_radiance, fit.sun_sigma, bins);
+    AverageOverWavelength(fit.ambient_radiance, fit.ambient_sigma, bins);
+    AverageOverWavelength(fit.sky_radiance, fit.sky_sigma, bins);
+  }
+  return fit;
+}
+
+}  // namespace insitu

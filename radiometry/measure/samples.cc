@@ -1,0 +1,219 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "radiometry/measure/samples.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "calibration/files/json_file.h"
+#include "reconstruction/geometry/ray_scene.h"
+
+namespace insitu {
+namespace {
+
+// Survey noise leaves polygons that touch (a path on a lawn) centimetres apart: a polygon that
+// close before the wanted one's plane does not hide it. [m]
+constexpr double kCoplanar = 0.05;
+constexpr double kRelativeFloor = 0.01;  // of a sample's sigma: one patch is not the material
+constexpr double kAbsoluteFloor = 1e-6;  // for black
+
+struct PolygonHit {
+  int polygon = 0;
+  Eigen::Vector3d point;  // [m], world
+};
+
+// The photographs with the polygons before them.
+class PhotographedScene {
+ public:
+  PhotographedScene(const SceneGeometry& scene, const std::vector<Photograph>& photos)
+      : scene_(scene), photos_(photos), polygons_(MeshOfPolygons(scene)), rays_(polygons_.mesh) {}
+
+  const SceneGeometry& geometry() const { return scene_; }
+  const Photograph& photo(int index) const { return photos_[index]; }
+
+  // The polygon that a pixel sees first.
+  std::optional<PolygonHit> First(int photo, const Eigen::Vector2d& pixel) const {
+    const PosedCamera& posed = scene_.cameras[photo];
+    const Eigen::Vector3d center = Center(posed.cam_from_world);
+    const Eigen::Vector3d direction =
+        posed.cam_from_world.rotation.conjugate() * posed.camera.Unproject(pixel);
+    const auto hit = rays_.Nearest({center - scene_.origin, direction});
+    if (!hit) return std::nullopt;
+    return PolygonHit{polygons_.polygon_of_triangle[hit->triangle],
+                      center + hit->distance * direction};
+  }
+
+ private:
+  const SceneGeometry& scene_;
+  const std::vector<Photograph>& photos_;
+  PolygonMesh polygons_;
+  RayScene rays_;
+};
+
+int FindPhoto(const JsonNode& name, const SceneGeometry& scene) {
+  for (size_t i = 0; i < scene.cameras.size(); ++i) {
+    if (scene.cameras[i].photo == name.Text()) return static_cast<int>(i);
+  }
+  throw name.Error("is the unknown photo \"" + name.Text() + "\", expected a reconstructed one");
+}
+
+int FindPolygon(const JsonNode& name, const SceneGeometry& scene) {
+  for (size_t i = 0; i < scene.polygons.size(); ++i) {
+    if (scene.polygons[i].name == name.Text()) return static_cast<int>(i);
+  }
+  throw name.Error("is the unknown polygon \"" + name.Text() + "\", expected one of polygons.json");
+}
+
+bool IsInside(const Raster& image, int x, int y) {
+  return x >= 0 && y >= 0 && x < image.width && y < image.height;
+}
+
+// The pixels about the sample that see the same thing first as its centre does.
+std::vector<Eigen::Vector2i> Patch(const PhotographedScene& scene, const PixelSample& sample,
+                                   int radius) {
+  const auto polygon_at = [&](const Eigen::Vector2d& pixel) {
+    const auto hit = scene.First(sample.photo, pixel);
+    return hit ? std::optional(hit->polygon) : std::nullopt;
+  };
+  const std::optional<int> center_polygon = polygon_at(sample.pixel);
+  const Eigen::Vector2i center = sample.pixel.array().round().cast<int>();
+  std::vector<Eigen::Vector2i> patch;
+  for (int y = center.y() - radius; y <= center.y() + radius; ++y) {
+    for (int x = center.x() - radius; x <= center.x() + radius; ++x) {
+      if (!IsInside(scene.photo(sample.photo).linear, x, y)) continue;
+      if (polygon_at(Eigen::Vector2d(x, y)) == center_polygon) patch.emplace_back(x, y);
+    }
+  }
+  if (patch.empty()) patch.push_back(center);  // a sliver between pixel centres
+  return patch;
+}
+
+void MeasureColor(const PhotographedScene& scene, const JsonNode& node, int radius,
+                  PixelSample& sample) {
+  const Photograph& photo = scene.photo(sample.photo);
+  const std::vector<Eigen::Vector2i> patch = Patch(scene, sample, radius);
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (const Eigen::Vector2i& at : patch) {
+    if (IsClipped(photo, at.x(), at.y())) {
+      throw node.Error("is clipped, expected a pixel below the sensor's brightest code");
+    }
+    sum += photo.linear.Rgb(at.x(), at.y());
+  }
+  const double n = static_cast<double>(patch.size());
+  sample.rgb = sum / n;
+  Eigen::Array3d squares = Eigen::Array3d::Zero();
+  for (const Eigen::Vector2i& at : patch) {
+    squares += (photo.linear.Rgb(at.x(), at.y()) - sample.rgb).array().square();
+  }
+  const Eigen::Array3d sigma_of_mean = (squares / std::max(1.0, n - 1) / n).sqrt();
+  sample.rgb_sigma =
+      sigma_of_mean.max(kRelativeFloor * sample.rgb.array()).max(kAbsoluteFloor).matrix();
+}
+
+PixelSample ReadPixel(const JsonNode& node, const PhotographedScene& scene) {
+  PixelSample sample;
+  sample.photo = FindPhoto(node.At("photo"), scene.geometry());
+  sample.pixel = {node.At("x").Number(), node.At("y").Number()};
+  sample.point.setZero();
+  sample.place = {node.path(), node.line()};
+  const Raster& image = scene.photo(sample.photo).linear;
+  const Eigen::Vector2i rounded = sample.pixel.array().round().cast<int>();
+  if (!IsInside(image, rounded.x(), rounded.y())) {
+    throw node.Error("lies outside the photograph, expected a pixel of " +
+                     std::to_string(image.width) + " x " + std::to_string(image.height));
+  }
+  return sample;
+}
+
+void PlaceOnPolygon(const JsonNode& node, const PhotographedScene& scene, PixelSample& sample) {
+  sample.polygon = FindPolygon(node.At("polygon"), scene.geometry());
+  const PosedCamera& posed = scene.geometry().cameras[sample.photo];
+  const Polygon& polygon = scene.geometry().polygons[*sample.polygon];
+  const auto point = PointOnPolygon(posed, sample.pixel, polygon);
+  if (!point) {
+    throw node.Error("misses polygon \"" + polygon.name + "\", expected a pixel that shows it");
+  }
+  sample.point = *point;
+  sample.distance = (*point - Center(posed.cam_from_world)).norm();
+  const auto first = scene.First(sample.photo, sample.pixel);
+  if (!first || first->polygon == *sample.polygon) return;
+  if (std::abs(polygon.normal.dot(first->point - *point)) > kCoplanar) {
+    throw node.Error("shows polygon \"" + scene.geometry().polygons[first->polygon].name +
+                     "\" before polygon \"" + polygon.name + "\", expected a free sight of it");
+  }
+}
+
+PixelSample ReadSurfaceSample(const JsonNode& node, const PhotographedScene& scene, int radius) {
+  PixelSample sample = ReadPixel(node, scene);
+  PlaceOnPolygon(node, scene, sample);
+  MeasureColor(scene, node, radius, sample);
+  return sample;
+}
+
+PixelSample ReadHorizonSample(const JsonNode& node, const PhotographedScene& scene, int radius) {
+  PixelSample sample = ReadPixel(node, scene);
+  if (const auto first = scene.First(sample.photo, sample.pixel)) {
+    throw node.Error("lies on polygon \"" + scene.geometry().polygons[first->polygon].name +
+                     "\", expected a pixel of the sky");
+  }
+  MeasureColor(scene, node, radius, sample);
+  return sample;
+}
+
+std::vector<JsonNode> AtLeast(const JsonNode& samples, size_t count) {
+  std::vector<JsonNode> items = samples.Items();
+  if (items.size() < count) {
+    throw samples.Error("has " + std::to_string(items.size()) + " samples, expected at least " +
+                        std::to_string(count));
+  }
+  return items;
+}
+
+std::vector<PixelSample> ReadSurfaceSamples(const JsonNode& nodes, size_t at_least,
+                                            const PhotographedScene& scene, int radius) {
+  std::vector<PixelSample> samples;
+  for (const JsonNode& node : AtLeast(nodes, at_least)) {
+    samples.push_back(ReadSurfaceSample(node, scene, radius));
+  }
+  return samples;
+}
+
+void CheckDistancesDiffer(const JsonNode& nodes, const std::vector<PixelSample>& samples) {
+  const auto [nearest, farthest] =
+      std::minmax_element(samples.begin(), samples.end(),
+                          [](const auto& a, const auto& b) { return a.distance < b.distance; });
+  if (farthest->distance <= nearest->distance) {
+    throw nodes.Error("has samples at one distance only, expected different ones");
+  }
+}
+
+Eigen::Vector3d ReadReflectance(const JsonNode& node) {
+  const Eigen::Vector3d rgb = node.Vector3();
+  if (rgb.minCoeff() <= 0 || rgb.maxCoeff() > 1) {
+    throw node.Error("is not a reflectance, expected values above 0 and up to 1");
+  }
+  return rgb;
+}
+
+}  // namespace
+
+LightSamples ReadSamples(const SitePaths& site, const SceneGeometry& scene,
+                         const std::vector<Photograph>& photos, const SampleOptions& options) {
+  INSITU_CHECK(photos.size() == scene.cameras.size());
+  const PhotographedScene photographed(scene, photos);
+  const JsonNode file = JsonNode::Load(site.survey() / "samples.json");
+  LightSamples samples;
+  for (const JsonNode& node : AtLeast(file.At("horizon"), 1)) {
+    samples.horizon.push_back(ReadHorizonSample(node, photographed, options.radius));
+  }
+  if (const auto haze = file.Find("haze")) {
+    samples.haze = ReadSurfaceSamples(*haze, 2, photographed, options.radius);
+    CheckDistancesDiffer(*haze, samples.haze);
+  }
+  samples.daylight = ReadSurfaceSamples(file.At("daylight"), 3, photographed, options.radius);
+  if (const auto reflectance = file.Find("daylight_reflectance_rgb")) {
+    samples.daylight_reflectance = ReadReflectance(*reflectance);
+  }
+  return samples;
+}
+
+}  // namespace insitu

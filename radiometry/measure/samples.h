@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// survey/samples.json: pixels chosen on the photographs for horizon colour, haze and daylight.
+#pragma once
+
+#include <Eigen/Core>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "calibration/photo/photograph.h"
+#include "calibration/program/site.h"
+#include "reconstruction/geometry/scene_geometry.h"
+#include "reconstruction/survey/survey.h"
+
+namespace insitu {
+
+struct PixelSample {
+  int photo = 0;               // index into SceneGeometry::cameras
+  Eigen::Vector2d pixel;       // of the original photograph
+  std::optional<int> polygon;  // nullopt: sky (horizon samples)
+  Eigen::Vector3d rgb;         // mean linear colour about the pixel
+  Eigen::Vector3d rgb_sigma;   // of that mean, > 0
+  Eigen::Vector3d point;       // [m], world, on the polygon; zero for sky
+  double distance = 0;         // [m] from the camera; zero for sky
+  FilePlace place;
+};
+
+struct SampleOptions {
+  int radius = 2;  // [px], the colour is the mean over (2 radius + 1)^2 pixels of the same surface
+};
+
+struct LightSamples {
+  std::vector<PixelSample> horizon, haze, daylight;
+  std::optional<Eigen::Vector3d> daylight_reflectance;  // linear Rec. 709, 0..1
+};
+
+// Throws InputError at the sample's line: unknown photo or polygon, outside the frame, clipped,
+// a polygon sample whose sight misses its polygon or meets another one before it, a horizon sample
+// on a polygon, haze samples that are fewer than two, daylight samples fewer than three.
+// samples.json may lack "haze" (air stays clear) but not "horizon" or "daylight".
+LightSamples ReadSamples(const SitePaths& site, const SceneGeometry& scene,
+                         const std::vector<Photograph>& photos, const SampleOptions& options = {});
+
+}  // namespace insitu

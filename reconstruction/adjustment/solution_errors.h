@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What it means for the surveyor that a network cannot be solved, at the line of the survey
+// concerned.
+#pragma once
+
+#include "calibration/files/error.h"
+#include "reconstruction/network/solve_network.h"
+#include "reconstruction/survey/survey.h"
+
+namespace insitu {
+
+// Names the parameters that nothing determines, and what would.
+InputError RankDefectError(const RankDefect& defect, const Network& network, const Survey& survey);
+
+// An observation that has no value at the start values: almost always a mark whose point would lie
+// behind the camera.
+InputError NoSolutionError(const NoSolution& failure, const Network& network, const Survey& survey);
+
+}  // namespace insitu

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Start values for the joint adjustment: every photo placed by image matching or resected, every
+// point found from control, from sights, or from the planes of its polygons.
+#pragma once
+
+#include <Eigen/Core>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "reconstruction/adjustment/adjustment.h"
+
+namespace insitu {
+
+struct StartPoint {
+  Eigen::Vector3d position;  // [m], world
+  double sigma = 0;  // [m], its largest; infinite if a polygon's plane was needed to find it
+};
+
+// A point of Survey::tie_points, in the world.
+struct StartTiePoint {
+  struct Mark {
+    int photo = 0;  // index into StartValues::cameras
+    Eigen::Vector2d pixel;
+  };
+  std::string name;          // "tie_000001", by its place in TiePoints::points
+  Eigen::Vector3d position;  // [m], world
+  std::vector<Mark> marks;   // two or more
+};
+
+struct StartValues {
+  std::vector<PosedCamera> cameras;  // as `photos`
+  std::map<std::string, StartPoint> points;
+  std::vector<StartTiePoint> tie_points;
+  double tie_point_sigma_px = 1;  // of each of their marks
+  std::vector<std::string> warnings;
+};
+
+// Photos that image matching placed take their poses from its model, moved into the world by
+// control (align_tie_points.h); without control the model is taken as it is, with a warning. Other
+// photos are resected from control, or from points that the placed photos determine. The points are
+// those that are marked, or a polygon's vertex, or an end of a direction pair. Throws InputError as
+// Adjust does: a mark off its photograph, a photo that cannot be resected, a point that nothing
+// determines.
+StartValues FindStartValues(const Survey& survey, const std::vector<std::string>& photos,
+                            const std::vector<Camera>& cameras, const AdjustmentOptions& options);
+
+}  // namespace insitu

@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The columns are known from the files themselves: with x = ck X / Z they reproduce the image
+// residuals that AICON wrote beside the marks to 1e-5 mm (tests/reconstruction/import_aicon_test).
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include "calibration/files/text_table.h"
+#include "reconstruction/exchange/import_project.h"
+#include "reconstruction/geometry/omega_phi_kappa.h"
+
+namespace insitu {
+namespace {
+
+constexpr double kMetresPerMm = 1e-3;
+
+using Indices = std::map<std::string, int>;
+
+std::vector<TextRow> Rows(const std::filesystem::path& path) {
+  const std::vector<TextRow> rows = ReadTextRows(path, WordSeparator::kBlanks);
+  if (rows.empty()) throw InputError(path, "is empty");
+  return rows;
+}
+
+// NAME without ending of the one set in a folder, or of a file.
+std::filesystem::path SetStem(const std::filesystem::path& path) {
+  if (!std::filesystem::is_directory(path)) return std::filesystem::path(path).replace_extension();
+  std::set<std::filesystem::path> stems;
+  for (const auto& entry : std::filesystem::directory_iterator(path)) {
+    if (entry.path().extension() == ".phc") {
+      stems.insert(std::filesystem::path(entry.path()).replace_extension());
+    }
+  }
+  if (stems.size() != 1) {
+    throw InputError(path, std::to_string(stems.size()) +
+                               " files *.phc in this folder, expected one; name the file");
+  }
+  return *stems.begin();
+}
+
+std::filesystem::path File(const std::filesystem::path& stem, const std::string& ending) {
+  return std::filesystem::path(stem) += ending;
+}
+
+Eigen::Vector3d Vector(const TextRow& row, size_t first, const std::string& what) {
+  return {row.Number(first, what + " x"), row.Number(first + 1, what + " y"),
+          row.Number(first + 2, what + " z")};
+}
+
+int Insert(Indices* indices, const TextRow& row, const std::string& name, const char* what) {
+  const auto [place, is_new] = indices->emplace(name, static_cast<int>(indices->size()));
+  if (!is_new) throw row.Error(std::string(what) + " \"" + name + "\" stands twice");
+  return place->second;
+}
+
+// A camera takes five lines: id -999 ck xh yh A1 A2 r0 / A3 / B1 B2 / C1 C2 / width height [mm px].
+NetworkCamera MakeCamera(const TextRow* rows) {
+  MetricCamera lens;
+  lens.model = MetricModel::kBalancedRadial;
+  const double ck = rows[0].Number(2, "ck");
+  if (!(ck < 0)) throw rows[0].Error("ck is not negative, as AICON's principal distances are");
+  lens.parameters = {-ck,
+                     rows[0].Number(3, "xh"),
+                     rows[0].Number(4, "yh"),
+                     rows[0].Number(5, "A1"),
+                     rows[0].Number(6, "A2"),
+                     rows[1].Number(0, "A3"),
+                     rows[2].Number(0, "B1"),
+                     rows[2].Number(1, "B2"),
+                     rows[3].Number(0, "C1"),
+                     rows[3].Number(1, "C2")};
+  lens.balanced_radius_mm = rows[0].Number(7, "r0");
+  const double width_mm = rows[4].Number(0, "sensor width");
+  lens.width = rows[4].Integer(2, "image width");
+  lens.height = rows[4].Integer(3, "image height");
+  if (!(width_mm > 0) || lens.width <= 0 || lens.height <= 0) {
+    throw rows[4].Error("sensor and image must have a size");
+  }
+  lens.pixel_mm.setConstant(width_mm / lens.width);
+  lens.origin_px = {(lens.width - 1) / 2.0, (lens.height - 1) / 2.0};
+  return {rows[0].words[0], lens, {true, true, true, true, true, false, true, true, false, false}};
+}
+
+Indices IndicesOf(const std::vector<NetworkCamera>& cameras) {
+  Indices indices;
+  for (const NetworkCamera& camera : cameras) {
+    indices.emplace(camera.name, static_cast<int>(indices.size()));
+  }
+  return indices;
+}
+
+// photo camera x y z omega phi kappa ... [mm, rad]
+Indices ReadOrientations(const std::filesystem::path& path, const Indices& cameras,
+                         Network* network) {
+  Indices indices;
+  for (const TextRow& row : Rows(path)) {
+    NetworkPhoto photo;
+    photo.name = row.Text(0, "photo number");
+    Insert(&indices, row, photo.name, "photo");
+    const auto camera = cameras.find(row.Text(1, "camera number"));
+    if (camera == cameras.end()) throw row.Error("camera \"" + row.words[1] + "\" is not known");
+    photo.camera = camera->second;
+    photo.center = kMetresPerMm * Vector(row, 2, "position");
+    photo.cam_from_local = CamFromWorldOmegaPhiKappa(Vector(row, 5, "angle about"));
+    network->photos.push_back(photo);
+  }
+  return indices;
+}
+
+// point x y z sx sy sz rays used ... [mm]
+Indices ReadPoints(const std::filesystem::path& path, Network* network,
+                   std::vector<std::string>* remarks) {
+  Indices indices;
+  int unused = 0;
+  for (const TextRow& row : Rows(path)) {
+    if (row.words.size() > 8 && row.Integer(8, "flag") == 0 && ++unused) continue;
+    const std::string& name = row.Text(0, "point number");
+    Insert(&indices, row, name, "point");
+    network->points.push_back({name, kMetresPerMm * Vector(row, 1, "coordinate")});
+  }
+  if (unused) remarks->push_back(std::to_string(unused) + " points are flagged as not adjusted");
+  return indices;
+}
+
+// photo point x y sx sy vx vy flag used flag [mm]
+void ReadMarks(const std::filesystem::path& path, const Indices& photos, const Indices& points,
+               const AiconOptions& options, ImportedProject* project) {
+  Network& network = project->network;
+  int flagged = 0, pointless = 0;
+  for (const TextRow& row : Rows(path)) {
+    const auto photo = photos.find(row.Text(0, "photo number"));
+    if (photo == photos.end()) throw row.Error("photo \"" + row.words[0] + "\" has no orientation");
+    const Eigen::Vector2d mm(row.Number(2, "x"), row.Number(3, "y"));
+    if (row.words.size() > 9 && row.Integer(9, "flag") == 0 && ++flagged) continue;
+    const auto point = points.find(row.words[1]);
+    if (point == points.end() && ++pointless) continue;
+    const auto& lens = std::get<MetricCamera>(
+        network.cameras[static_cast<size_t>(network.photos[photo->second].camera)].lens);
+    network.marks.push_back({photo->second, point->second, AiconPixel(lens, mm),
+                             options.mark_sigma_mm / lens.pixel_mm.x()});
+  }
+  if (flagged) project->remarks.push_back(std::to_string(flagged) + " marks are flagged as unused");
+  if (pointless) {
+    project->remarks.push_back(std::to_string(pointless) +
+                               " marks are of points without coordinates");
+  }
+}
+
+// number "name" from to length sigma used [mm]
+void ReadScales(const std::filesystem::path& path, const Indices& points, Network* network) {
+  for (const TextRow& row : Rows(path)) {
+    if (row.words.size() > 6 && row.Integer(6, "flag") == 0) continue;
+    const auto from = points.find(row.Text(2, "first point"));
+    const auto to = points.find(row.Text(3, "second point"));
+    if (from == points.end() || to == points.end()) {
+      throw row.Error("a scale bar between points of which one has no coordinates");
+    }
+    const double length = row.Number(4, "length"), sigma = row.Number(5, "sigma");
+    if (!(length > 0) || !(sigma > 0)) throw row.Error("length and sigma must be positive");
+    network->distances.push_back(
+        {from->second, to->second, kMetresPerMm * length, kMetresPerMm * sigma});
+  }
+}
+
+}  // namespace
+
+std::vector<NetworkCamera> ReadAiconCameras(const std::filesystem::path& path) {
+  const std::vector<TextRow> rows = Rows(path);
+  if (rows.size() % 5 != 0) {
+    throw rows.back().Error("the file ends within a camera, expected five lines for each");
+  }
+  Indices indices;
+  std::vector<NetworkCamera> cameras;
+  for (size_t i = 0; i < rows.size(); i += 5) {
+    Insert(&indices, rows[i], rows[i].Text(0, "camera number"), "camera");
+    cameras.push_back(MakeCamera(&rows[i]));
+  }
+  return cameras;
+}
+
+Eigen::Vector2d AiconPixel(const MetricCamera& lens, const Eigen::Vector2d& mm) {
+  return {lens.origin_px.x() + mm.x() / lens.pixel_mm.x(),
+          lens.origin_px.y() - mm.y() / lens.pixel_mm.y()};
+}
+
+ImportedProject ReadAiconProject(const std::filesystem::path& path, const AiconOptions& options) {
+  INSITU_CHECK(options.mark_sigma_mm > 0);
+  const std::filesystem::path stem = SetStem(path);
+  ImportedProject project;
+  project.network.cameras = ReadAiconCameras(File(stem, ".ior"));
+  const Indices cameras = IndicesOf(project.network.cameras);
+  const Indices photos = ReadOrientations(File(stem, ".eor"), cameras, &project.network);
+  const Indices points = ReadPoints(File(stem, ".obc"), &project.network, &project.remarks);
+  ReadMarks(File(stem, ".phc"), photos, points, options, &project);
+  if (std::filesystem::exists(File(stem, ".scale"))) {
+    ReadScales(File(stem, ".scale"), points, &project.network);
+  }
+  return project;
+}
+
+}  // namespace insitu

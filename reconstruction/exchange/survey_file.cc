@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "reconstruction/exchange/survey_file.h"
+
+#include "calibration/program/site.h"
+#include "reconstruction/exchange/survey_readers.h"
+
+namespace insitu {
+namespace {
+
+SurveyFile ReadXml(const std::filesystem::path& path) {
+  const XmlNode root = XmlNode::Load(path);
+  if (root.Attribute("dbat_script_version")) return ReadDbatSurvey(path);
+  if (root.Name() == "document") return ReadMetashapeXml(root);
+  return ReadMicMacXml(root);
+}
+
+SurveyFile ReadText(const SurveyText& text) {
+  if (text.rows.empty()) throw InputError(text.path, "is empty");
+  if (IsOdmList(text)) return ReadOdmList(text);
+  if (IsHeaderTable(text)) return ReadHeaderTable(text);
+  if (IsAicon(text)) return ReadAicon(text);
+  if (IsMarkList(text)) return ReadMarkList(text);
+  if (IsPointList(text)) return ReadPointList(text);
+  throw text.rows[0].Error(
+      "is of no format that we know, expected for example a coordinate system and lines \"X Y Z px "
+      "py image name\" (OpenDroneMap), a header \"name,x,y,z\", lines \"name X Y Z\", lines "
+      "\"image,point,x,y\" (Pix4D), XML of Metashape, MicMac or DBAT, JSON of OpenSfM");
+}
+
+}  // namespace
+
+std::string PhotoName(const std::string& path) {
+  const size_t folder = path.find_last_of("/\\");
+  const std::string file = folder == std::string::npos ? path : path.substr(folder + 1);
+  return IsPhotoFileName(file) ? std::filesystem::path(file).stem().string() : file;
+}
+
+bool IsPhotoFileName(const std::string& text) {
+  std::string ending = std::filesystem::path(text).extension().string();
+  for (char& letter : ending) letter = static_cast<char>(std::tolower(letter));
+  for (const char* known : {".jpg", ".jpeg", ".png", ".tif", ".tiff", ".exr", ".dng"}) {
+    if (ending == known) return true;
+  }
+  return false;
+}
+
+SurveyFile ReadSurveyFile(const std::filesystem::path& path, const PhotoSize& photo_size) {
+  const std::string content = ReadTextFile(path);
+  const std::string_view start = TrimmedView(content);
+  SurveyFile file;
+  if (start.starts_with("<")) {
+    file = ReadXml(path);
+  } else if (start.starts_with("{")) {
+    file = ReadOpenSfmJson(path, photo_size);
+  } else {
+    file = ReadText({path, content, SplitTextRows(path, content, WordSeparator::kGuess)});
+  }
+  file.path = path;
+  if (file.points.empty() && file.marks.empty() && file.centers.empty()) {
+    throw InputError(path, "holds neither points nor marks (read as " + file.format + ")");
+  }
+  return file;
+}
+
+}  // namespace insitu

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What the adjustment means for the montage: how well the image of any point of space is known.
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+
+#include "calibration/lens/camera.h"
+
+namespace insitu {
+
+struct ImageUncertainty {
+  Eigen::Vector2d pixel;              // of the photograph
+  Eigen::Matrix2d covariance_px;      // [px^2]
+  double major_px = 0, minor_px = 0;  // semi-axes of the standard ellipse [px]
+  double major_m = 0;  // the same displacement across the line of sight at the point [m]
+};
+
+// The image of a point that is itself exactly known, such as a planned building's corner.
+// `covariance`: of the photo's left rotation increment [rad], centre [m] and, where its lens is
+// uncertain, all intrinsics in their order: 6 x 6 or (6 + n) x (6 + n).
+// nullopt: the point is not before the camera, or outside its photograph.
+std::optional<ImageUncertainty> ProjectWithUncertainty(const PosedCamera& camera,
+                                                       const Eigen::MatrixXd& covariance,
+                                                       const Eigen::Vector3d& world);
+
+}  // namespace insitu

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Rays against triangles, by Embree: nearest hit and occlusion. Geometry only, no light, so that
+// radiometry can ask for visibility too.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "reconstruction/geometry/scene_geometry.h"
+
+namespace insitu {
+
+struct Ray {
+  Eigen::Vector3d origin;     // [m], in the scene's local frame (world minus its origin)
+  Eigen::Vector3d direction;  // unit
+  double near = 0;            // [m], hits closer are ignored
+  double far = std::numeric_limits<double>::infinity();
+};
+
+struct RayHit {
+  double distance = 0;  // [m]
+  int triangle = 0;     // index into the triangles given
+  Eigen::Vector2d uv;   // barycentric weights of the triangle's second and third corner
+};
+
+// Triangles as three corners each, about a local origin so that single precision suffices.
+struct TriangleMesh {
+  std::vector<Eigen::Vector3f> vertices;  // [m], local
+  std::vector<Eigen::Vector3i> triangles;
+};
+
+class RayScene {
+ public:
+  explicit RayScene(const TriangleMesh& mesh);  // an empty mesh is allowed: nothing is ever hit
+  ~RayScene();
+  RayScene(RayScene&&) noexcept;
+  RayScene& operator=(RayScene&&) noexcept;
+
+  std::optional<RayHit> Nearest(const Ray& ray) const;
+  bool IsOccluded(const Ray& ray) const;
+
+  // Up to 16 directions from one origin at once (Embree packets). Bit i of the result: direction i
+  // is blocked between `near` and infinity.
+  uint16_t OcclusionMask(const Eigen::Vector3d& origin, std::span<const Eigen::Vector3f> directions,
+                         double near) const;
+
+ private:
+  struct Embree;
+  std::unique_ptr<Embree> embree_;
+};
+
+// The natural environment's polygons as triangles; polygon_of_triangle[t] indexes scene.polygons.
+struct PolygonMesh {
+  TriangleMesh mesh;
+  std::vector<int> polygon_of_triangle;
+};
+PolygonMesh MeshOfPolygons(const SceneGeometry& scene);
+
+}  // namespace insitu

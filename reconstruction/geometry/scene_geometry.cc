@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "reconstruction/geometry/scene_geometry.h"
+
+#include "calibration/files/json_file.h"
+#include "reconstruction/geometry/intersection.h"
+#include "reconstruction/geometry/plane.h"
+
+namespace insitu {
+namespace {
+
+constexpr char kFormat[] = "insitu scene 1";
+
+Json::Value DirectionToJson(const Direction& direction) {
+  Json::Value json;
+  json["unit"] = ToJson(Eigen::VectorXd(direction.unit));
+  json["covariance"] = ToJson(Eigen::MatrixXd(direction.covariance));
+  return json;
+}
+
+Json::Value PolygonToJson(const Polygon& polygon, const std::vector<PosedCamera>& cameras) {
+  Json::Value json;
+  json["name"] = polygon.name;
+  json["material"] = polygon.material;
+  json["photo"] = polygon.photo ? Json::Value(cameras[*polygon.photo].photo) : Json::Value();
+  json["normal"] = ToJson(Eigen::VectorXd(polygon.normal));
+  for (const Eigen::Vector3d& vertex : polygon.vertices) {
+    json["vertices"].append(ToJson(Eigen::VectorXd(vertex)));
+  }
+  return json;
+}
+
+Direction DirectionFromJson(const JsonNode& node) {
+  Direction direction{node.At("unit").Vector3(), Eigen::Matrix3d::Zero()};
+  if (std::abs(direction.unit.norm() - 1) > 1e-9) throw node.Error("expected a unit vector");
+  const std::vector<JsonNode> rows = node.At("covariance").Items();
+  if (rows.size() != 3) throw node.Error("expected a covariance of three rows");
+  for (int row = 0; row < 3; ++row) direction.covariance.row(row) = rows[row].Vector3();
+  return direction;
+}
+
+int CameraIndex(const std::vector<PosedCamera>& cameras, const JsonNode& photo) {
+  for (size_t i = 0; i < cameras.size(); ++i) {
+    if (cameras[i].photo == photo.Text()) return static_cast<int>(i);
+  }
+  throw photo.Error("photo '" + photo.Text() + "' is not among the scene's cameras");
+}
+
+Polygon PolygonFromJson(const JsonNode& node, const std::vector<PosedCamera>& cameras) {
+  Polygon polygon;
+  polygon.name = node.At("name").Text();
+  polygon.material = node.At("material").Text();
+  polygon.normal = node.At("normal").Vector3();
+  if (std::abs(polygon.normal.norm() - 1) > 1e-9) throw node.Error("expected a unit normal");
+  if (const auto photo = node.Find("photo")) polygon.photo = CameraIndex(cameras, *photo);
+  for (const JsonNode& vertex : node.At("vertices").Items()) {
+    polygon.vertices.push_back(vertex.Vector3());
+  }
+  if (polygon.vertices.size() < 3) throw node.Error("expected at least three vertices");
+  if (!Triangulate(polygon.vertices, polygon.normal)) {
+    throw node.Error("the outline of polygon '" + polygon.name + "' crosses itself or has no area");
+  }
+  return polygon;
+}
+
+Eigen::MatrixXd CovarianceFromJson(const JsonNode& node, const Camera& camera) {
+  const std::vector<JsonNode> rows = node.Items();
+  const auto size = static_cast<Eigen::Index>(rows.size());
+  if (size != 6 && size != 6 + static_cast<Eigen::Index>(camera.intrinsics().size())) {
+    throw node.Error("expected a covariance of six rows, or six and the lens's");
+  }
+  Eigen::MatrixXd covariance(size, size);
+  for (Eigen::Index row = 0; row < size; ++row) {
+    const std::vector<double> numbers = rows[row].Numbers();
+    if (static_cast<Eigen::Index>(numbers.size()) != size) {
+      throw rows[row].Error("expected as many numbers as the covariance has rows");
+    }
+    covariance.row(row) = Eigen::Map<const Eigen::RowVectorXd>(numbers.data(), size);
+  }
+  return covariance;
+}
+
+}  // namespace
+
+void WriteSceneGeometry(const SitePaths& site, const SceneGeometry& scene) {
+  Json::Value json;
+  json["format"] = kFormat;
+  json["origin"] = ToJson(Eigen::VectorXd(scene.origin));
+  json["cameras"] = Json::Value(Json::arrayValue);
+  for (const PosedCamera& camera : scene.cameras) {
+    WritePosedCamera(site.posed_camera(camera.photo), camera, "exterior orientation by insitu");
+    json["cameras"].append(camera.photo);
+  }
+  for (size_t i = 0; i < scene.camera_covariances.size(); ++i) {
+    json["camera_covariances"][scene.cameras[i].photo] = ToJson(scene.camera_covariances[i]);
+  }
+  json["polygons"] = Json::Value(Json::arrayValue);
+  for (const Polygon& polygon : scene.polygons) {
+    json["polygons"].append(PolygonToJson(polygon, scene.cameras));
+  }
+  json["sun"] = scene.sun ? DirectionToJson(*scene.sun) : Json::Value();
+  json["zenith"] = DirectionToJson(scene.zenith);
+  json["vertex_sigma"] = scene.vertex_sigma;
+  WriteJson(site.scene(), json);
+}
+
+SceneGeometry ReadSceneGeometry(const SitePaths& site) {
+  RequireResult(site.scene(), "insitu-reconstruct");
+  const JsonNode root = JsonNode::Load(site.scene());
+  if (const JsonNode format = root.At("format"); format.Text() != kFormat) {
+    throw format.Error("expected \"" + std::string(kFormat) + "\"");
+  }
+  SceneGeometry scene;
+  scene.origin = root.At("origin").Vector3();
+  for (const JsonNode& photo : root.At("cameras").Items()) {
+    scene.cameras.push_back(ReadPosedCamera(site.posed_camera(photo.Text())));
+  }
+  if (const auto covariances = root.Find("camera_covariances")) {
+    for (const PosedCamera& camera : scene.cameras) {
+      scene.camera_covariances.push_back(
+          CovarianceFromJson(covariances->At(camera.photo), camera.camera));
+    }
+  }
+  for (const JsonNode& polygon : root.At("polygons").Items()) {
+    scene.polygons.push_back(PolygonFromJson(polygon, scene.cameras));
+  }
+  if (const auto sun = root.Find("sun")) scene.sun = DirectionFromJson(*sun);
+  scene.zenith = DirectionFromJson(root.At("zenith"));
+  scene.vertex_sigma = root.At("vertex_sigma").Number();
+  return scene;
+}
+
+std::optional<Eigen::Vector3d> PointOnPolygon(const PosedCamera& camera,
+                                              const Eigen::Vector2d& pixel,
+                                              const Polygon& polygon) {
+  const Eigen::Vector3d inside = FitPlane(polygon.vertices).point;
+  const std::optional<Eigen::Vector3d> hit =
+      IntersectPlane({&camera, pixel}, polygon.normal, polygon.normal.dot(inside));
+  if (!hit) return std::nullopt;
+  const auto outline = ProjectOutline(polygon.vertices, polygon.normal, inside);
+  const auto point = ProjectOutline({*hit}, polygon.normal, inside);
+  if (!IsInside(outline, point[0])) return std::nullopt;
+  return hit;
+}
+
+}  // namespace insitu

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What the reconstruction hands on: posed cameras, planar polygons, sun and zenith.
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "calibration/lens/camera.h"
+#include "calibration/program/site.h"
+
+namespace insitu {
+
+// A planar polygon of the natural environment. [Durisch92, §3.6, §4.1]
+struct Polygon {
+  std::string name;
+  std::vector<Eigen::Vector3d> vertices;  // [m], world, counter-clockwise seen from outside
+  Eigen::Vector3d normal;                 // unit, outward, of the adjusted plane
+  std::optional<int> photo;               // image attribute: index into SceneGeometry::cameras
+  std::string material;                   // material attribute
+};
+
+// A measured direction in the world frame.
+struct Direction {
+  Eigen::Vector3d unit;        // to the sun, or to the zenith
+  Eigen::Matrix3d covariance;  // of the unit vector (rank 2)
+};
+
+struct SceneGeometry {
+  Eigen::Vector3d origin;  // a round point near the site; single-precision work is about it
+  std::vector<PosedCamera> cameras;
+  // As cameras, of left rotation increment [rad], centre [m] and, of a lens that is not exactly
+  // known, its intrinsics; empty where nothing is known.
+  std::vector<Eigen::MatrixXd> camera_covariances;
+  std::vector<Polygon> polygons;
+  std::optional<Direction> sun;  // nullopt: overcast, no sun pairs
+  Direction zenith;
+  double vertex_sigma = 0;  // [m], the median posterior sigma of a vertex coordinate
+};
+
+// work/reconstruction/scene.json and the .cameramodel files beside it. Reading throws InputError.
+void WriteSceneGeometry(const SitePaths& site, const SceneGeometry& scene);
+SceneGeometry ReadSceneGeometry(const SitePaths& site);
+
+// Triangles (indices into `vertices`) of a simple planar polygon, convex or concave, by ear
+// clipping about `normal`; nullopt if the outline crosses itself or has no area.
+std::optional<std::vector<Eigen::Vector3i>> Triangulate(
+    const std::vector<Eigen::Vector3d>& vertices, const Eigen::Vector3d& normal);
+
+// The point of a polygon that a pixel of `camera` sees, ignoring everything before it; nullopt if
+// the line of sight misses the polygon.
+std::optional<Eigen::Vector3d> PointOnPolygon(const PosedCamera& camera,
+                                              const Eigen::Vector2d& pixel, const Polygon& polygon);
+
+}  // namespace insitu

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The geometry of a network, whatever its residuals: rays, angles, base, control, calibrated
+// region, coverage.
+#pragma once
+
+#include <vector>
+
+#include "reconstruction/report/verdict.h"
+
+namespace insitu {
+
+// Appends to `objections`.
+void JudgeGeometry(const Adjustment& adjustment, const ReportContext& context,
+                   std::vector<Objection>* objections);
+
+}  // namespace insitu

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Areas, lengths and angles of adjusted polygons with their standard deviations.
+#pragma once
+
+#include <utility>
+#include <vector>
+
+#include "reconstruction/adjustment/adjustment.h"
+
+namespace insitu {
+
+struct UncertainValue {
+  double value = 0, sigma = 0;
+};
+
+struct PolygonMeasures {
+  UncertainValue area;                // [m^2]
+  std::vector<UncertainValue> edges;  // [m], the i-th from vertex i to the next
+  bool is_joint = false;  // from the joint covariance of the vertices; else they count as
+                          // independent, which for neighbours is on the safe side as a rule only
+};
+
+// Of polygon `index` of the survey. First-order propagation.
+PolygonMeasures MeasurePolygon(const Adjustment& adjustment, const PolygonOutline& outline,
+                               size_t index);
+
+// The angle between the outward normals of two planes [rad], 0..pi. Their normals count as
+// independent: the covariance between planes is not among the adjustment's results.
+UncertainValue AngleBetween(const AdjustedPlane& a, const AdjustedPlane& b);
+
+// The angle between a plane's normal, either way, and the zenith [rad]; the zenith counts as exact.
+UncertainValue OffLevel(const AdjustedPlane& plane, const Eigen::Vector3d& zenith);
+
+// Pairs of polygons (indices) that share an edge.
+std::vector<std::pair<size_t, size_t>> AdjoiningPolygons(const Survey& survey);
+
+}  // namespace insitu

@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "calibration/program/report_page.h"
+#include "reconstruction/report/residual_page_script.h"
+#include "reconstruction/report/residual_report.h"
+
+namespace insitu {
+
+std::string ResidualPage(const Json::Value& report) {
+  return ReportPage("Residual report", report, kResidualPageScript);
+}
+
+}  // namespace insitu

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Who is who in a survey: every name resolved, or told what it was probably meant to be.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "reconstruction/survey/survey.h"
+
+namespace insitu {
+
+// What is wrong with the name of a photo; nullopt if it is among `photos`.
+std::optional<std::string> FaultOfPhoto(const std::string& photo,
+                                        const std::vector<std::string>& photos);
+
+// Marks must be of points that another file names, that an edge or a constraint joins, or that two
+// photos show; the ends of pairs, edges and constraints must be surveyed, marked or vertices.
+// Throws InputError.
+void RequireKnownPoints(const Survey& survey);
+
+// Throws InputError at the first place of a point that is named "tie_" and six digits or more, as
+// points of image matching are.
+void RequireNoNamesOfTiePoints(const Survey& survey);
+
+}  // namespace insitu

@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "reconstruction/survey/survey_tables.h"
+
+#include <utility>
+
+#include "calibration/files/csv_file.h"
+#include "reconstruction/survey/survey_names.h"
+
+namespace insitu {
+namespace {
+
+constexpr double kLargestFrame = 100000;  // [px], no photograph is wider or higher
+
+double PositiveNumber(const CsvRow& row, const std::string& column) {
+  const double value = row.Number(column);
+  if (value <= 0) throw row.Error(column + " is " + row.Text(column) + ", expected more than 0");
+  return value;
+}
+
+Eigen::Vector3d Position(const CsvRow& row) {
+  return {row.Number("x"), row.Number("y"), row.Number("z")};
+}
+
+Eigen::Vector3d Sigma(const CsvRow& row) {
+  return {PositiveNumber(row, "sigma_x"), PositiveNumber(row, "sigma_y"),
+          PositiveNumber(row, "sigma_z")};
+}
+
+// The role by its name in the table.
+template <typename Role>
+Role RoleOf(const CsvRow& row, const std::vector<std::pair<std::string, Role>>& roles) {
+  const std::string& text = row.Text("role");
+  std::string expected;
+  for (const auto& [name, role] : roles) {
+    if (text == name) return role;
+    expected += (expected.empty() ? "'" : " or '") + name + "'";
+  }
+  throw row.Error("role is '" + text + "', expected " + expected);
+}
+
+double FrameCoordinate(const CsvRow& row, const std::string& column) {
+  const double value = row.Number(column);
+  if (value < -0.5 || value > kLargestFrame) {
+    throw row.Error(column + " is " + row.Text(column) +
+                    ", expected a pixel position of the original photograph, counted from the "
+                    "centre of its top-left pixel");
+  }
+  return value;
+}
+
+Eigen::Vector2d Pixel(const CsvRow& row) {
+  return {FrameCoordinate(row, "x"), FrameCoordinate(row, "y")};
+}
+
+std::string Photo(const CsvRow& row, const std::vector<std::string>& photos) {
+  const std::string& photo = row.Text("photo");
+  if (const auto fault = FaultOfPhoto(photo, photos)) throw row.Error(*fault);
+  return photo;
+}
+
+}  // namespace
+
+std::vector<ControlPoint> ReadControlPoints(const std::filesystem::path& path) {
+  std::vector<ControlPoint> points;
+  std::map<std::string, int> line_of_name;
+  for (const CsvRow& row :
+       ReadCsv(path, {"name", "x", "y", "z", "sigma_x", "sigma_y", "sigma_z", "role"})) {
+    ControlPoint point;
+    point.name = row.Text("name");
+    point.position = Position(row);
+    point.sigma = Sigma(row);
+    point.role = RoleOf<ControlRole>(
+        row, {{"control", ControlRole::kControl}, {"check", ControlRole::kCheck}});
+    point.place = {row.path, row.line};
+    const auto [first, is_new] = line_of_name.emplace(point.name, row.line);
+    if (!is_new) {
+      throw row.Error("point '" + point.name + "' stands already in line " +
+                      std::to_string(first->second) + ", expected each name once");
+    }
+    points.push_back(std::move(point));
+  }
+  return points;
+}
+
+std::vector<ImageObservation> ReadObservations(const std::filesystem::path& path,
+                                               const std::vector<std::string>& photos) {
+  std::vector<ImageObservation> observations;
+  std::map<std::pair<std::string, std::string>, int> line_of_mark;
+  for (const CsvRow& row : ReadCsv(path, {"photo", "point", "x", "y", "sigma"})) {
+    ImageObservation mark{Photo(row, photos),
+                          row.Text("point"),
+                          Pixel(row),
+                          PositiveNumber(row, "sigma"),
+                          {row.path, row.line}};
+    const auto [first, is_new] = line_of_mark.emplace(std::pair(mark.photo, mark.point), row.line);
+    if (!is_new) {
+      throw row.Error("point '" + mark.point + "' is marked on photo '" + mark.photo +
+                      "' already in line " + std::to_string(first->second) +
+                      ", expected one mark a photo: remove one row, or name the point it shows");
+    }
+    observations.push_back(std::move(mark));
+  }
+  return observations;
+}
+
+std::vector<CameraPosition> ReadCameraPositions(const std::filesystem::path& path,
+                                                const std::vector<std::string>& photos) {
+  std::vector<CameraPosition> positions;
+  std::map<std::string, int> line_of_photo;
+  for (const CsvRow& row :
+       ReadCsv(path, {"photo", "x", "y", "z", "sigma_x", "sigma_y", "sigma_z", "role"})) {
+    const PositionRole role = RoleOf<PositionRole>(row, {{"fixed", PositionRole::kFixed},
+                                                         {"weighted", PositionRole::kWeighted},
+                                                         {"free", PositionRole::kFree}});
+    CameraPosition position{
+        Photo(row, photos), Position(row), Sigma(row), role, {row.path, row.line}};
+    const auto [first, is_new] = line_of_photo.emplace(position.photo, row.line);
+    if (!is_new) {
+      throw row.Error("photo '" + position.photo + "' has a position already in line " +
+                      std::to_string(first->second) + ", expected each photo once");
+    }
+    positions.push_back(std::move(position));
+  }
+  return positions;
+}
+
+std::vector<EdgeMark> ReadEdges(const std::filesystem::path& path,
+                                const std::vector<std::string>& photos) {
+  std::vector<EdgeMark> edges;
+  for (const CsvRow& row : ReadCsv(path, {"photo", "from", "to", "x", "y", "sigma"})) {
+    edges.push_back({Photo(row, photos),
+                     row.Text("from"),
+                     row.Text("to"),
+                     Pixel(row),
+                     PositiveNumber(row, "sigma"),
+                     {row.path, row.line}});
+    if (edges.back().from == edges.back().to) {
+      throw row.Error("the edge joins point '" + edges.back().to +
+                      "' with itself, expected two points");
+    }
+  }
+  return edges;
+}
+
+}  // namespace insitu

@@ -1,0 +1,249 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "renderer/building/artificial_environment.h"
+
+#include <bit>
+#include <cstdint>
+#include <cstring>
+
+#include "calibration/files/json_file.h"
+#include "calibration/files/whole_file.h"
+
+namespace insitu {
+namespace {
+
+using Eigen::Vector3d;
+using Eigen::Vector3i;
+
+constexpr int kVersion = 2;
+static_assert(std::endian::native == std::endian::little, "building.bin is written as in memory");
+
+std::filesystem::path MeshPath(const SitePaths& site) {
+  return site.artificial().replace_extension(".bin");
+}
+
+template <typename T>
+void Append(const std::vector<T>& values, std::string* bytes) {
+  bytes->append(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T));
+}
+
+template <typename T>
+std::vector<T> Take(size_t count, std::string_view* bytes) {
+  std::vector<T> values(count);
+  if (count == 0) return values;
+  std::memcpy(reinterpret_cast<char*>(values.data()), bytes->data(), count * sizeof(T));
+  bytes->remove_prefix(count * sizeof(T));
+  return values;
+}
+
+std::string MeshBytes(const ArtificialEnvironment& environment) {
+  std::string bytes;
+  Append(environment.vertices, &bytes);
+  Append(environment.triangles, &bytes);
+  Append(environment.material_of_triangle, &bytes);
+  Append(environment.corner_normals, &bytes);
+  Append(environment.corner_uvs, &bytes);
+  return bytes;
+}
+
+// FNV-1a, 64 bits: tells whether the two files belong together.
+std::string Checksum(std::string_view bytes) {
+  uint64_t hash = 0xcbf29ce484222325u;
+  for (const char c : bytes) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3u;
+  constexpr char kDigits[] = "0123456789abcdef";
+  std::string text;
+  for (int shift = 60; shift >= 0; shift -= 4) text += kDigits[hash >> shift & 15];
+  return text;
+}
+
+Json::Value TableJson(const SpectralTable& table) {
+  Json::Value json(Json::arrayValue);
+  for (const Eigen::Vector2d& row : table) json.append(ToJson(Eigen::VectorXd(row)));
+  return json;
+}
+
+SpectralTable TableOf(const JsonNode& node) {
+  SpectralTable table;
+  for (const JsonNode& row : node.Items()) {
+    const std::vector<double> values = row.Numbers();
+    if (values.size() != 2) throw row.Error("has not two numbers, expected wavelength and value");
+    table.emplace_back(values[0], values[1]);
+  }
+  return table;
+}
+
+Json::Value MaterialJson(const SurfaceMaterial& material) {
+  Json::Value json;
+  json["name"] = material.name;
+  json["diffuse_rgb"] = ToJson(Eigen::VectorXd(material.diffuse_rgb));
+  json["diffuse_weight"] = material.diffuse_weight;
+  if (material.specular) {
+    json["specular"]["weight"] = material.specular->weight;
+    if (material.specular->index) json["specular"]["index"] = *material.specular->index;
+  }
+  if (!material.reflectance.empty()) json["reflectance"] = TableJson(material.reflectance);
+  if (material.roughness != 0) json["roughness"] = material.roughness;
+  if (material.transmission != 0) json["transmission"] = material.transmission;
+  if (!material.texture.empty()) json["texture"] = material.texture;
+  return json;
+}
+
+SurfaceMaterial MaterialOf(const JsonNode& node) {
+  SurfaceMaterial material;
+  material.name = node.At("name").Text();
+  material.diffuse_rgb = node.At("diffuse_rgb").Vector3();
+  material.diffuse_weight = node.At("diffuse_weight").Number();
+  if (const auto specular = node.Find("specular")) {
+    material.specular = Specular{specular->At("weight").Number(), std::nullopt};
+    if (const auto index = specular->Find("index")) material.specular->index = index->Number();
+  }
+  if (const auto table = node.Find("reflectance")) material.reflectance = TableOf(*table);
+  if (const auto value = node.Find("roughness")) material.roughness = value->Number();
+  if (const auto value = node.Find("transmission")) material.transmission = value->Number();
+  if (const auto value = node.Find("texture")) material.texture = value->Text();
+  return material;
+}
+
+Json::Value NumbersJson(const std::vector<double>& values) {
+  return ToJson(Eigen::VectorXd(Eigen::VectorXd::Map(values.data(), std::ssize(values))));
+}
+
+Json::Value DistributionJson(const LightDistribution& distribution) {
+  Json::Value json;
+  json["world_from_lamp"] = ToJson(Eigen::MatrixXd(distribution.world_from_lamp));
+  json["gamma_deg"] = NumbersJson(distribution.gamma_deg);
+  json["c_deg"] = NumbersJson(distribution.c_deg);
+  json["values"] = NumbersJson(distribution.values);
+  return json;
+}
+
+LightDistribution DistributionOf(const JsonNode& node) {
+  LightDistribution distribution;
+  const std::vector<JsonNode> rows = node.At("world_from_lamp").Items();
+  if (rows.size() != 3) throw node.Error("world_from_lamp has not 3 rows");
+  for (int i = 0; i < 3; ++i) distribution.world_from_lamp.row(i) = rows[i].Vector3().transpose();
+  distribution.gamma_deg = node.At("gamma_deg").Numbers();
+  distribution.c_deg = node.At("c_deg").Numbers();
+  distribution.values = node.At("values").Numbers();
+  if (distribution.gamma_deg.empty() || distribution.c_deg.empty() ||
+      distribution.values.size() != distribution.gamma_deg.size() * distribution.c_deg.size()) {
+    throw node.Error("has not a value for each pair of angles");
+  }
+  return distribution;
+}
+
+Json::Value LightJson(const PointLight& light) {
+  Json::Value json;
+  json["name"] = light.name;
+  json["position"] = ToJson(Eigen::VectorXd(light.position));
+  json["intensity_rgb"] = ToJson(Eigen::VectorXd(light.intensity_rgb));
+  if (light.distribution) json["distribution"] = DistributionJson(*light.distribution);
+  if (!light.spectrum.empty()) json["spectrum"] = TableJson(light.spectrum);
+  if (light.candela != 0) json["candela"] = light.candela;
+  return json;
+}
+
+PointLight LightOf(const JsonNode& node) {
+  PointLight light{node.At("name").Text(),
+                   node.At("position").Vector3(),
+                   node.At("intensity_rgb").Vector3(),
+                   std::nullopt,
+                   {},
+                   0};
+  if (const auto value = node.Find("distribution")) light.distribution = DistributionOf(*value);
+  if (const auto value = node.Find("spectrum")) light.spectrum = TableOf(*value);
+  if (const auto value = node.Find("candela")) light.candela = value->Number();
+  return light;
+}
+
+Json::Value MeshJson(const SitePaths& site, const ArtificialEnvironment& environment,
+                     std::string_view bytes) {
+  Json::Value json;
+  json["file"] = MeshPath(site).filename().string();
+  json["layout"] =
+      "little-endian: x y z of each vertex [m, float64], corners of each triangle [3 int32, from "
+      "0], material of each triangle [int32, from 0], then as stated below: unit normal of each "
+      "corner [3 float32], UV of each corner [2 float32]";
+  json["vertices"] = Json::Value::Int64(environment.vertices.size());
+  json["triangles"] = Json::Value::Int64(environment.triangles.size());
+  json["has_normals"] = !environment.corner_normals.empty();
+  json["has_uvs"] = !environment.corner_uvs.empty();
+  json["checksum"] = Checksum(bytes);
+  return json;
+}
+
+int CountOf(const JsonNode& node) {
+  if (node.Integer() < 0) throw node.Error("is negative, expected a count");
+  return node.Integer();
+}
+
+void ReadMesh(const SitePaths& site, const JsonNode& mesh, ArtificialEnvironment* environment) {
+  const std::filesystem::path path = site.artificial().parent_path() / mesh.At("file").Text();
+  const std::string content = ReadWhole(path);
+  const size_t vertices = CountOf(mesh.At("vertices")), triangles = CountOf(mesh.At("triangles"));
+  const size_t normals = mesh.At("has_normals").Boolean() ? 3 * triangles : 0;
+  const size_t uvs = mesh.At("has_uvs").Boolean() ? 3 * triangles : 0;
+  const size_t size = vertices * sizeof(Vector3d) + triangles * (sizeof(Vector3i) + sizeof(int)) +
+                      normals * sizeof(Eigen::Vector3f) + uvs * sizeof(Eigen::Vector2f);
+  if (content.size() != size || Checksum(content) != mesh.At("checksum").Text()) {
+    throw InputError(path, "does not belong to " + site.artificial().filename().string() +
+                               ", expected the mesh written with it: run insitu-convert again");
+  }
+  std::string_view rest = content;
+  environment->vertices = Take<Vector3d>(vertices, &rest);
+  environment->triangles = Take<Vector3i>(triangles, &rest);
+  environment->material_of_triangle = Take<int>(triangles, &rest);
+  environment->corner_normals = Take<Eigen::Vector3f>(normals, &rest);
+  environment->corner_uvs = Take<Eigen::Vector2f>(uvs, &rest);
+}
+
+void CheckIndices(const std::filesystem::path& path, const ArtificialEnvironment& environment) {
+  const int vertices = static_cast<int>(environment.vertices.size());
+  const int materials = static_cast<int>(environment.materials.size());
+  for (size_t t = 0; t < environment.triangles.size(); ++t) {
+    const Vector3i& triangle = environment.triangles[t];
+    const int material = environment.material_of_triangle[t];
+    if (triangle.minCoeff() < 0 || triangle.maxCoeff() >= vertices || material < 0 ||
+        material >= materials) {
+      throw InputError(path, "triangle " + std::to_string(t) +
+                                 " names a vertex or a material that is not there");
+    }
+  }
+}
+
+}  // namespace
+
+void WriteArtificialEnvironment(const SitePaths& site, const ArtificialEnvironment& environment) {
+  INSITU_CHECK(environment.material_of_triangle.size() == environment.triangles.size());
+  const std::string bytes = MeshBytes(environment);
+  Json::Value json;
+  json["version"] = kVersion;
+  json["mesh"] = MeshJson(site, environment, bytes);
+  json["materials"] = Json::arrayValue;
+  for (const auto& material : environment.materials)
+    json["materials"].append(MaterialJson(material));
+  json["lights"] = Json::arrayValue;
+  for (const auto& light : environment.lights) json["lights"].append(LightJson(light));
+  WriteWhole(MeshPath(site), bytes);
+  WriteJson(site.artificial(), json);
+}
+
+ArtificialEnvironment ReadArtificialEnvironment(const SitePaths& site) {
+  RequireResult(site.artificial(), "insitu-convert");
+  const JsonNode root = JsonNode::Load(site.artificial());
+  if (root.At("version").Integer() != kVersion) {
+    throw root.At("version").Error("is not a version this program reads, expected " +
+                                   std::to_string(kVersion));
+  }
+  ArtificialEnvironment environment;
+  for (const JsonNode& node : root.At("materials").Items()) {
+    environment.materials.push_back(MaterialOf(node));
+  }
+  for (const JsonNode& node : root.At("lights").Items()) {
+    environment.lights.push_back(LightOf(node));
+  }
+  ReadMesh(site, root.At("mesh"), &environment);
+  CheckIndices(site.artificial(), environment);
+  return environment;
+}
+
+}  // namespace insitu

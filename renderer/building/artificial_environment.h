@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The artificial environment description: the planned building and its lamps. [Durisch92, §5]
+#pragma once
+
+#include <Eigen/Core>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "calibration/program/site.h"
+#include "radiometry/light/material.h"
+
+namespace insitu {
+
+// Wavelength [nm], rising, and a value there; linear between, constant beyond.
+using SpectralTable = std::vector<Eigen::Vector2d>;
+
+struct SurfaceMaterial {
+  std::string name;                                              // the model's layer
+  Eigen::Vector3d diffuse_rgb = Eigen::Vector3d::Constant(0.5);  // albedo, linear Rec. 709, 0..1
+  double diffuse_weight = 1;                                     // k_d, 0..1
+  std::optional<Specular> specular = {};                         // nullopt: purely diffuse
+  SpectralTable reflectance =
+      {};  // albedo by wavelength, 0..1; goes before diffuse_rgb unless empty
+  // Kept for renderers that show them; ours says so where they are set.
+  double roughness = 0;      // of the mirroring share, 0..1
+  double transmission = 0;   // 0..1
+  std::string texture = {};  // image of the albedo, relative to building/; empty: none
+};
+
+// Relative intensity by direction, as in an IES file: gamma is the angle to the lamp's axis, C the
+// angle about it. Linear between the angles given; over C it goes round if it covers a full turn,
+// is mirrored if it covers 90 or 180 degrees, and does not matter if there is one.
+struct LightDistribution {
+  Eigen::Matrix3d world_from_lamp;  // columns: C = 0, C = 90, the axis (gamma = 0)
+  std::vector<double> gamma_deg;    // rising
+  std::vector<double> c_deg;        // rising
+  std::vector<double> values;       // >= 0, all gammas of the first C, then of the next
+
+  double At(const Eigen::Vector3d& direction) const;  // unit vector, from the lamp, world
+};
+
+// Shines alike in all directions unless it has a distribution. Area lights are several of these.
+struct PointLight {
+  std::string name;
+  Eigen::Vector3d position;       // [m], world
+  Eigen::Vector3d intensity_rgb;  // radiant intensity: the site's radiance unit times m^2, >= 0
+  std::optional<LightDistribution> distribution = {};  // factor of the intensity
+  SpectralTable spectrum = {};  // its shape; empty: as Appendix A makes it from intensity_rgb
+  double candela = 0;           // at distribution 1; 0: not known in photometric units
+};
+
+struct ArtificialEnvironment {
+  std::vector<SurfaceMaterial> materials;
+  std::vector<Eigen::Vector3d> vertices;        // [m], world
+  std::vector<Eigen::Vector3i> triangles;       // indices into vertices
+  std::vector<int> material_of_triangle;        // index into materials
+  std::vector<Eigen::Vector3f> corner_normals;  // empty, or three a triangle: unit
+  std::vector<Eigen::Vector2f> corner_uvs;      // empty, or three a triangle
+  std::vector<PointLight> lights;
+};
+
+// work/building.json (readable, versioned) and building.bin beside it (the mesh: little-endian
+// doubles and 32-bit indices, as the JSON states). Reading throws InputError, also when the two
+// files do not belong together.
+void WriteArtificialEnvironment(const SitePaths& site, const ArtificialEnvironment& environment);
+ArtificialEnvironment ReadArtificialEnvironment(const SitePaths& site);
+
+// What the description holds and this version's renderer does not show, a line each: roughness,
+// transmission, textures, lamps of unknown strength.
+std::vector<std::string> NotShown(const ArtificialEnvironment& environment);
+
+}  // namespace insitu

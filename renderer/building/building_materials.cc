@@ -1,0 +1,210 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "renderer/building/building_materials.h"
+
+#include <fnmatch.h>
+
+#include <algorithm>
+#include <optional>
+#include <utility>
+
+#include "calibration/files/file_beside.h"
+#include "calibration/files/json_file.h"
+#include "calibration/photo/photograph.h"
+#include "renderer/building/spectral_table.h"
+#include "renderer/dxf/dxf_drawing.h"
+
+namespace insitu {
+namespace {
+
+namespace fs = std::filesystem;
+using Eigen::Vector3d;
+
+double Share(const JsonNode& node) {
+  const double share = node.Number();
+  if (share < 0 || share > 1) throw node.Error("is out of range, expected 0 to 1");
+  return share;
+}
+
+double ShareOr(const JsonNode& material, const std::string& key, double if_absent) {
+  const auto node = material.Find(key);
+  return node ? Share(*node) : if_absent;
+}
+
+Vector3d Albedo(const JsonNode& node) {
+  const Vector3d rgb = node.Vector3();
+  if (rgb.minCoeff() < 0 || rgb.maxCoeff() > 1) {
+    throw node.Error("is no albedo, expected three values from 0 to 1");
+  }
+  return rgb;
+}
+
+Vector3d AlbedoOfSrgb(const JsonNode& node) {
+  const Vector3d codes = node.Vector3();
+  if (codes.minCoeff() < 0 || codes.maxCoeff() > 255) {
+    throw node.Error("is no sRGB colour, expected three values from 0 to 255");
+  }
+  return codes.unaryExpr([](double code) { return LinearFromSrgb(code / 255); });
+}
+
+Vector3d AlbedoOfLab(const JsonNode& material, const JsonNode& node) {
+  const auto white = material.Find("lab_white");
+  const std::string name = white ? white->Text() : "D65";
+  if (name != "D65" && name != "D50") {
+    throw white->Error("is \"" + name + "\", expected D65 or D50");
+  }
+  const Vector3d lab = node.Vector3();
+  if (lab.x() < 0 || lab.x() > 100) throw node.Error("has no L from 0 to 100");
+  // A colour outside Rec. 709 is brought to its border.
+  return LinearFromLab(lab, name == "D50").cwiseMax(0).cwiseMin(1);
+}
+
+void CheckReflectance(const JsonNode& node, const SpectralTable& table) {
+  for (const Eigen::Vector2d& row : table) {
+    if (row.y() > 1) throw node.Error("has a value above 1, expected reflectances from 0 to 1");
+  }
+}
+
+void ReadColor(const JsonNode& material, SurfaceMaterial* surface) {
+  if (const auto rgb = material.Find("diffuse_rgb")) {
+    surface->diffuse_rgb = Albedo(*rgb);
+  } else if (const auto srgb = material.Find("diffuse_srgb")) {
+    surface->diffuse_rgb = AlbedoOfSrgb(*srgb);
+  } else if (const auto lab = material.Find("diffuse_lab")) {
+    surface->diffuse_rgb = AlbedoOfLab(material, *lab);
+  } else if (const auto table = material.Find("reflectance")) {
+    surface->reflectance = ReadSpectralTable(*table);
+    CheckReflectance(*table, surface->reflectance);
+  } else if (const auto file = material.Find("reflectance_file")) {
+    surface->reflectance = ReadSpectralTable(FileBeside(*file));
+    CheckReflectance(*file, surface->reflectance);
+  } else {
+    throw material.Error(
+        "names no colour, expected diffuse_rgb, diffuse_srgb, diffuse_lab, reflectance or "
+        "reflectance_file");
+  }
+  if (!surface->reflectance.empty()) {
+    surface->diffuse_rgb = ColorOfReflectance(surface->reflectance);
+  }
+}
+
+std::optional<double> FresnelIndex(const JsonNode& material) {
+  const JsonNode index = material.At("ior");
+  if (index.Number() <= 1) throw index.Error("is no index of refraction, expected above 1");
+  return index.Number();
+}
+
+std::optional<Specular> SpecularOf(const JsonNode& material) {
+  const auto node = material.Find("specular");
+  const std::string kind = node ? node->Text() : "none";
+  if (kind == "none") return std::nullopt;
+  if (kind != "fresnel" && kind != "mirror") {
+    throw node->Error("is \"" + kind + "\", expected none, fresnel or mirror");
+  }
+  return Specular{ShareOr(material, "specular_weight", 1),
+                  kind == "fresnel" ? FresnelIndex(material) : std::nullopt};
+}
+
+BuildingMaterial ReadMaterial(const std::string& name, const JsonNode& node,
+                              const std::map<std::string, BuildingMaterial>& library) {
+  if (const auto use = node.Find("use")) {
+    const auto found = library.find(use->Text());
+    if (found == library.end()) {
+      throw use->Error("names \"" + use->Text() + "\", which is not in \"library\"");
+    }
+    BuildingMaterial material = found->second;
+    material.surface.name = name;
+    return material;
+  }
+  BuildingMaterial material;
+  material.surface.name = name;
+  const auto hidden = node.Find("hidden");
+  material.hidden = hidden && hidden->Boolean();
+  if (material.hidden) return material;
+  ReadColor(node, &material.surface);
+  material.surface.diffuse_weight = ShareOr(node, "diffuse_weight", 1);
+  material.surface.specular = SpecularOf(node);
+  material.surface.roughness = ShareOr(node, "roughness", 0);
+  material.surface.transmission = ShareOr(node, "transmission", 0);
+  if (const auto texture = node.Find("texture")) {
+    FileBeside(*texture);
+    material.surface.texture = texture->Text();
+  }
+  return material;
+}
+
+bool HasPattern(const std::string& name) { return name.find_first_of("*?") != std::string::npos; }
+
+}  // namespace
+
+BuildingMaterials BuildingMaterials::Read(const fs::path& path) {
+  BuildingMaterials result;
+  if (!fs::exists(path)) return result;
+  const JsonNode root = JsonNode::Load(path);
+  std::map<std::string, BuildingMaterial> library;
+  if (const auto section = root.Find("library")) {
+    for (const auto& [name, node] : section->Members()) {
+      library[name] = ReadMaterial(name, node, library);
+    }
+  }
+  const auto read = [&](const JsonNode& section, Section* entries) {
+    for (const auto& [name, node] : section.Members()) {
+      (*entries)[name].material = ReadMaterial(name, node, library);
+    }
+  };
+  const auto materials = root.Find("materials"), blocks = root.Find("blocks");
+  if (materials) read(*materials, &result.materials_);
+  if (blocks) read(*blocks, &result.blocks_);
+  if (!materials && !blocks) {
+    read(root.At("layers"), &result.layers_);
+  } else if (const auto layers = root.Find("layers")) {
+    read(*layers, &result.layers_);
+  }
+  return result;
+}
+
+BuildingMaterials::Entry* BuildingMaterials::FindIn(Section* section, const std::string& name) {
+  if (name.empty()) return nullptr;
+  if (const auto exact = section->find(name); exact != section->end()) return &exact->second;
+  const std::string key = DxfKey(name);
+  Entry* best = nullptr;
+  size_t longest = 0;
+  for (auto& [pattern, entry] : *section) {
+    const std::string pattern_key = DxfKey(pattern);
+    if (pattern_key == key) return &entry;
+    if (!HasPattern(pattern) || pattern.size() <= longest) continue;
+    if (fnmatch(pattern_key.c_str(), key.c_str(), FNM_NOESCAPE) != 0) continue;
+    best = &entry;
+    longest = pattern.size();
+  }
+  return best;
+}
+
+const BuildingMaterial* BuildingMaterials::Find(const SurfaceNames& names) {
+  Entry* entry = nullptr;
+  const std::pair<Section*, const std::string*> places[] = {{&materials_, &names.material},
+                                                            {&layers_, &names.material},
+                                                            {&blocks_, &names.block},
+                                                            {&layers_, &names.block},
+                                                            {&layers_, &names.layer}};
+  for (const auto& [section, name] : places) {
+    if (!entry) entry = FindIn(section, *name);
+  }
+  if (!entry) return nullptr;
+  entry->used = true;
+  return &entry->material;
+}
+
+std::vector<std::string> BuildingMaterials::Unused() const {
+  std::vector<std::string> names;
+  const auto add = [&names](const char* what, const Section& section) {
+    for (const auto& [name, entry] : section) {
+      if (!entry.used) names.push_back(std::string(what) + " \"" + name + "\"");
+    }
+  };
+  add("material", materials_);
+  add("block", blocks_);
+  add("layer", layers_);
+  return names;
+}
+
+}  // namespace insitu

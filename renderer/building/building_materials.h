@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What the architect's layers, blocks and materials are made of: building/materials.json.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "renderer/building/artificial_environment.h"
+#include "renderer/mesh/model.h"
+
+namespace insitu {
+
+struct BuildingMaterial {
+  SurfaceMaterial surface;
+  bool hidden = false;  // left out of the building
+};
+
+// Sections "materials", "blocks" and "layers", each name -> material; names may hold * and ?.
+// A material names its colour as one of
+//   diffuse_rgb [r, g, b] (albedo, linear Rec. 709, 0..1), diffuse_srgb [r, g, b] (0..255, as RAL
+//   and NCS colours are given for screens), diffuse_lab [L, a, b] with lab_white D65 or D50,
+//   reflectance [[nm, value], ...] or reflectance_file (CSV: wavelength,value);
+// and may say diffuse_weight, specular (none, fresnel, mirror), specular_weight, ior, roughness,
+// transmission, texture (an image beside materials.json), hidden; or use NAME of section "library".
+class BuildingMaterials {
+ public:
+  // Throws InputError: unreadable, weights or albedo outside 0..1, an unknown kind of specular,
+  // Fresnel without an index above 1, a texture or table that is not there, an unknown library
+  // name. Without a file there are no materials.
+  static BuildingMaterials Read(const std::filesystem::path& path);
+
+  // The material of a surface: by the first of its material, block and layer names that is listed,
+  // in its own section or else in "layers"; exactly, else in any case, else by the longest pattern.
+  // nullptr: none is listed.
+  const BuildingMaterial* Find(const SurfaceNames& names);
+
+  // Names that Find has not met, as "layers NAME".
+  std::vector<std::string> Unused() const;
+
+ private:
+  struct Entry {
+    BuildingMaterial material;
+    bool used = false;
+  };
+  using Section = std::map<std::string, Entry>;
+  Entry* FindIn(Section* section, const std::string& name);
+
+  Section materials_, blocks_, layers_;
+};
+
+}  // namespace insitu

@@ -1,0 +1,241 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "renderer/building/placement.h"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/SVD>
+#include <cmath>
+#include <map>
+#include <numbers>
+
+#include "calibration/files/csv_file.h"
+#include "calibration/files/json_file.h"
+#include "renderer/building/coordinate_system.h"
+
+namespace insitu {
+namespace {
+
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+
+std::filesystem::path PlacementPath(const SitePaths& site) {
+  return site.building() / "placement.json";
+}
+
+double MetresOf(const JsonNode& unit) {
+  static const std::map<std::string, double> kMetres = {
+      {"mm", 1e-3},   {"cm", 1e-2},   {"dm", 1e-1},
+      {"m", 1},       {"km", 1e3},    {"in", 0.0254},
+      {"ft", 0.3048}, {"yd", 0.9144}, {"us-ft", 1200.0 / 3937}};
+  const auto found = kMetres.find(unit.Text());
+  if (found == kMetres.end()) {
+    throw unit.Error("is \"" + unit.Text() + "\", expected mm, cm, dm, m, km, in, ft, us-ft or yd");
+  }
+  return found->second;
+}
+
+Matrix3d RotationOf(const JsonNode& node) {
+  if (const auto degrees = node.Find("rotation_deg")) {
+    const double angle = degrees->Number() * std::numbers::pi / 180;
+    return Eigen::AngleAxisd(angle, Vector3d::UnitZ()).toRotationMatrix();
+  }
+  const auto rows = node.Find("rotation");
+  if (!rows) return Matrix3d::Identity();
+  Matrix3d rotation;
+  const std::vector<JsonNode> items = rows->Items();
+  if (items.size() != 3) throw rows->Error("has not 3 rows, expected a 3 x 3 rotation");
+  for (int i = 0; i < 3; ++i) rotation.row(i) = items[i].Vector3().transpose();
+  const double misfit = (rotation * rotation.transpose() - Matrix3d::Identity()).norm();
+  if (misfit > 1e-6 || rotation.determinant() < 0) {
+    throw rows->Error("is no rotation, expected orthogonal rows of length 1, right-handed");
+  }
+  return rotation;
+}
+
+Vector3d ZUp(bool y_up, const Vector3d& v) { return y_up ? Vector3d(v.x(), -v.z(), v.y()) : v; }
+
+std::map<std::string, CsvRow> SurveyPoints(const SitePaths& site) {
+  std::map<std::string, CsvRow> points;
+  const std::filesystem::path path = site.survey() / "control_points.csv";
+  for (CsvRow& row : ReadCsv(path, {"name", "x", "y", "z", "sigma_x", "sigma_y", "sigma_z"})) {
+    const std::string name = row.Text("name");
+    points.emplace(name, std::move(row));
+  }
+  return points;
+}
+
+double Sigma(const JsonNode& pair, double otherwise) {
+  const auto node = pair.Find("sigma");
+  if (!node) return otherwise;
+  if (!(node->Number() > 0)) throw node->Error("is not above 0, expected a standard deviation [m]");
+  return node->Number();
+}
+
+PointPair ReadPair(const SitePaths& site, const JsonNode& node, double metres, bool y_up) {
+  constexpr double kUsualSigma = 0.01;
+  PointPair pair;
+  pair.in_model = metres * ZUp(y_up, node.At("model").Vector3());
+  if (const auto point = node.Find("point")) {
+    const auto points = SurveyPoints(site);
+    const auto found = points.find(point->Text());
+    if (found == points.end()) {
+      throw point->Error("names \"" + point->Text() +
+                         "\", which survey/control_points.csv does not hold");
+    }
+    const CsvRow& row = found->second;
+    pair.name = point->Text();
+    pair.in_survey = {row.Number("x"), row.Number("y"), row.Number("z")};
+    const Vector3d sigma(row.Number("sigma_x"), row.Number("sigma_y"), row.Number("sigma_z"));
+    pair.sigma = Sigma(node, sigma.norm() / std::sqrt(3));
+  } else {
+    pair.in_survey = node.At("survey").Vector3();
+    pair.sigma = Sigma(node, kUsualSigma);
+  }
+  return pair;
+}
+
+double ScaleOf(const JsonNode& node) {
+  const auto scale = node.Find("scale");
+  if (!scale) return 1;
+  if (!(scale->Number() > 0)) throw scale->Error("is not above 0, expected a scale");
+  return scale->Number();
+}
+
+void ReadPairs(const SitePaths& site, const JsonNode& node, double metres, Placement* placement) {
+  const auto pairs = node.Find("pairs");
+  if (!pairs) return;
+  for (const JsonNode& item : pairs->Items()) {
+    placement->pairs.push_back(ReadPair(site, item, metres, placement->y_up));
+    std::string& name = placement->pairs.back().name;
+    if (name.empty()) name = "pair " + std::to_string(placement->pairs.size());
+  }
+  const auto free = node.Find("adjust_scale");
+  const double factor = ScaleOf(node);
+  for (PointPair& pair : placement->pairs) pair.in_model *= factor;
+  placement->adjusted = AdjustSimilarity(placement->pairs, free && free->Boolean());
+  if (!placement->adjusted) {
+    throw pairs->Error("do not fix the model, expected three or more pairs not on one line");
+  }
+  placement->world_from_model = placement->adjusted->world_from_model;
+  placement->world_from_model.scale *= factor;
+}
+
+Placement PlacementOf(const SitePaths& site, const JsonNode& node, double metres_per_unit) {
+  Placement placement;
+  if (const auto unit = node.Find("unit")) placement.metres_per_unit = MetresOf(*unit);
+  if (const auto up = node.Find("up")) {
+    if (up->Text() != "y" && up->Text() != "z") throw up->Error("is neither \"y\" nor \"z\"");
+    placement.y_up = up->Text() == "y";
+  }
+  if (node.Find("pairs")) {
+    ReadPairs(site, node, placement.metres_per_unit.value_or(metres_per_unit), &placement);
+  } else {
+    placement.world_from_model.scale = ScaleOf(node);
+    placement.world_from_model.rotation = RotationOf(node);
+    if (const auto shift = node.Find("shift")) placement.world_from_model.shift = shift->Vector3();
+  }
+  if (node.Find("model_crs") || node.Find("survey_crs")) {
+    placement.model_crs = node.At("model_crs").Text();
+    placement.survey_crs = node.At("survey_crs").Text();
+  }
+  return placement;
+}
+
+struct Centred {
+  Vector3d model = Vector3d::Zero(), survey = Vector3d::Zero();
+  double weight = 0;
+};
+
+Centred CentreOf(const std::vector<PointPair>& pairs) {
+  Centred centre;
+  for (const PointPair& pair : pairs) {
+    const double w = 1 / (pair.sigma * pair.sigma);
+    centre.model += w * pair.in_model;
+    centre.survey += w * pair.in_survey;
+    centre.weight += w;
+  }
+  centre.model /= centre.weight;
+  centre.survey /= centre.weight;
+  return centre;
+}
+
+// Sigmas of rotation and scale about the centre: normal equations of small turns.
+void AddPrecision(const std::vector<PointPair>& pairs, const Vector3d& centre, bool adjust_scale,
+                  AdjustedSimilarity* result) {
+  Matrix3d normal = Matrix3d::Zero();
+  double scale_normal = 0;
+  for (const PointPair& pair : pairs) {
+    const double w = 1 / (pair.sigma * pair.sigma);
+    const Similarity& t = result->world_from_model;
+    const Vector3d arm = t.scale * (t.rotation * (pair.in_model - centre));
+    normal += w * (arm.squaredNorm() * Matrix3d::Identity() - arm * arm.transpose());
+    scale_normal += w * arm.squaredNorm() / (t.scale * t.scale);
+  }
+  result->sigma_rotation = normal.inverse().diagonal().cwiseSqrt();
+  if (adjust_scale) result->sigma_scale = 1 / std::sqrt(scale_normal);
+}
+
+}  // namespace
+
+std::optional<AdjustedSimilarity> AdjustSimilarity(const std::vector<PointPair>& pairs,
+                                                   bool adjust_scale) {
+  if (pairs.size() < 3) return std::nullopt;
+  const Centred centre = CentreOf(pairs);
+  Matrix3d mixed = Matrix3d::Zero(), spread = Matrix3d::Zero();
+  double model_square = 0;
+  for (const PointPair& pair : pairs) {
+    const double w = 1 / (pair.sigma * pair.sigma);
+    const Vector3d a = pair.in_model - centre.model, b = pair.in_survey - centre.survey;
+    mixed += w * b * a.transpose();
+    spread += w * a * a.transpose();
+    model_square += w * a.squaredNorm();
+  }
+  const Eigen::SelfAdjointEigenSolver<Matrix3d> extent(spread);
+  if (!(extent.eigenvalues()[1] > 1e-8 * extent.eigenvalues()[2])) return std::nullopt;
+  const Eigen::JacobiSVD<Matrix3d> svd(mixed, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  Vector3d sign = Vector3d::Ones();
+  if (svd.matrixU().determinant() * svd.matrixV().determinant() < 0) sign.z() = -1;
+  AdjustedSimilarity result;
+  Similarity& t = result.world_from_model;
+  t.rotation = svd.matrixU() * sign.asDiagonal() * svd.matrixV().transpose();
+  result.free_scale = svd.singularValues().dot(sign) / model_square;
+  t.scale = adjust_scale ? result.free_scale : 1;
+  t.shift = centre.survey - t.scale * (t.rotation * centre.model);
+  double square = 0;
+  for (const PointPair& pair : pairs) {
+    result.residuals.push_back(pair.in_survey - t * pair.in_model);
+    square += result.residuals.back().squaredNorm() / (pair.sigma * pair.sigma);
+  }
+  result.redundancy = 3 * static_cast<int>(pairs.size()) - (adjust_scale ? 7 : 6);
+  result.sigma0 = std::sqrt(square / result.redundancy);
+  result.sigma_shift = Vector3d::Constant(1 / std::sqrt(centre.weight));
+  AddPrecision(pairs, centre.model, adjust_scale, &result);
+  return result;
+}
+
+Placement ReadPlacement(const SitePaths& site, const std::string& name, double metres_per_unit) {
+  const std::filesystem::path path = PlacementPath(site);
+  if (!std::filesystem::exists(path)) return {};
+  const JsonNode root = JsonNode::Load(path);
+  if (const auto models = root.Find("models")) {
+    if (const auto own = models->Find(name)) return PlacementOf(site, *own, metres_per_unit);
+  }
+  return PlacementOf(site, root, metres_per_unit);
+}
+
+void Place(const SitePaths& site, const Placement& placement, double metres_per_unit,
+           ModelMesh* mesh) {
+  const double unit = placement.metres_per_unit.value_or(metres_per_unit) / metres_per_unit;
+  const Matrix3d& rotation = placement.world_from_model.rotation;
+  for (Vector3d& vertex : mesh->vertices) {
+    vertex = placement.world_from_model * ZUp(placement.y_up, unit * vertex);
+  }
+  for (Eigen::Vector3f& normal : mesh->corner_normals) {
+    normal = (rotation * ZUp(placement.y_up, normal.cast<double>())).cast<float>();
+  }
+  if (placement.model_crs.empty()) return;
+  const CoordinateTransformation transformation(PlacementPath(site), placement.model_crs,
+                                                placement.survey_crs);
+  for (Vector3d& vertex : mesh->vertices) vertex = transformation.Apply(vertex);
+}
+
+}  // namespace insitu

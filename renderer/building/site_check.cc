@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "renderer/building/site_check.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <optional>
+
+#include "calibration/files/csv_file.h"
+#include "reconstruction/geometry/scene_geometry.h"
+
+namespace insitu {
+namespace {
+
+using Eigen::AlignedBox3d;
+using Eigen::Vector3d;
+
+struct Factor {
+  double value;  // the model's coordinates are this many times too large
+  const char* meaning;
+};
+
+constexpr Factor kFactors[] = {
+    {1000, "millimetres taken as metres"},  {1 / 1000.0, "metres taken as millimetres"},
+    {304.8, "millimetres taken as feet"},   {1 / 304.8, "feet taken as millimetres"},
+    {25.4, "millimetres taken as inches"},  {1 / 25.4, "inches taken as millimetres"},
+    {1 / 0.0254, "inches taken as metres"}, {0.0254, "metres taken as inches"},
+    {1 / 0.3048, "feet taken as metres"},   {0.3048, "metres taken as feet"},
+    {100, "centimetres taken as metres"},   {1 / 100.0, "metres taken as centimetres"}};
+
+std::string Text(const char* format, double a, double b = 0) {
+  char text[300];
+  std::snprintf(text, sizeof(text), format, a, b);
+  return text;
+}
+
+// Sizes a planned building may have, from a kiosk to a district [m].
+constexpr double kSmallest = 1, kLargest = 3000;
+
+bool IsLikely(double size, const AlignedBox3d& site) {
+  if (size < kSmallest || size > kLargest) return false;
+  if (site.isEmpty()) return true;
+  const double share = size / site.diagonal().norm();
+  return share > 0.02 && share < 5;
+}
+
+double Distance(const AlignedBox3d& building, const AlignedBox3d& site) {
+  return std::sqrt(building.squaredExteriorDistance(site));
+}
+
+bool IsFar(const AlignedBox3d& building, const AlignedBox3d& site) {
+  return !site.isEmpty() && Distance(building, site) > std::max(2 * site.diagonal().norm(), 200.0);
+}
+
+AlignedBox3d Scaled(const AlignedBox3d& box, double factor) {
+  return {box.min() * factor, box.max() * factor};
+}
+
+// The factor that puts the building onto the site, or else brings its size to the likely one
+// nearest to a tenth of the site.
+std::optional<Factor> FactorOff(const AlignedBox3d& building, const AlignedBox3d& site) {
+  const double size = building.diagonal().norm();
+  std::optional<Factor> best;
+  double best_misfit = 0;
+  for (const Factor& factor : kFactors) {
+    const AlignedBox3d box = Scaled(building, 1 / factor.value);
+    if (!IsLikely(size / factor.value, site)) continue;
+    const bool lands = !site.isEmpty() && IsFar(building, site) && !IsFar(box, site);
+    const double usual = site.isEmpty() ? 30 : site.diagonal().norm() / 3;
+    const double misfit = std::abs(std::log(size / factor.value / usual)) - (lands ? 100 : 0);
+    if (best && misfit >= best_misfit) continue;
+    best = factor;
+    best_misfit = misfit;
+  }
+  return best;
+}
+
+}  // namespace
+
+AlignedBox3d SiteBox(const SitePaths& site) {
+  AlignedBox3d box;
+  if (std::filesystem::exists(site.scene())) {
+    for (const Polygon& polygon : ReadSceneGeometry(site).polygons) {
+      for (const Vector3d& vertex : polygon.vertices) box.extend(vertex);
+    }
+  }
+  const std::filesystem::path points = site.survey() / "control_points.csv";
+  if (!box.isEmpty() || !std::filesystem::exists(points)) return box;
+  for (const CsvRow& row : ReadCsv(points, {"name", "x", "y", "z"})) {
+    box.extend(Vector3d(row.Number("x"), row.Number("y"), row.Number("z")));
+  }
+  return box;
+}
+
+std::vector<std::string> SuspicionsOf(const AlignedBox3d& building, const AlignedBox3d& site) {
+  std::vector<std::string> suspicions;
+  if (building.isEmpty()) return suspicions;
+  const double size = building.diagonal().norm();
+  const bool far = IsFar(building, site);
+  if (far) {
+    suspicions.push_back(Text("the building lies %.0f m from the site", Distance(building, site)) +
+                         Text(" (%.0f m across): see placement.json", site.diagonal().norm()));
+  }
+  if (!IsLikely(size, site)) {
+    suspicions.push_back(Text(site.isEmpty() ? "the building is %.4g m across"
+                                             : "the building is %.4g m across, the "
+                                               "site %.4g m",
+                              size, site.isEmpty() ? 0 : site.diagonal().norm()));
+  }
+  if (suspicions.empty()) return suspicions;
+  const std::optional<Factor> factor = FactorOff(building, site);
+  const bool lands = factor && far && !IsFar(Scaled(building, 1 / factor->value), site);
+  if (factor && (lands || !IsLikely(size, site))) {
+    suspicions.push_back(Text("its unit looks wrong by a factor of %.5g: ", factor->value) +
+                         factor->meaning + "? (\"unit\" in placement.json)");
+  }
+  return suspicions;
+}
+
+}  // namespace insitu

@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "renderer/dxf/dxf_drawing.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+
+#include "renderer/dxf/dxf_color.h"
+#include "renderer/dxf/dxf_units.h"
+
+namespace insitu {
+namespace {
+
+constexpr size_t kDeepest = 64;
+
+// The header's variables are pairs: 9 and a name, then the value.
+void ReadHeader(const DxfRecord& header, DxfReader* reader, DxfDrawing* drawing) {
+  const auto tags = header.tags();
+  for (size_t i = 0; i + 1 < tags.size(); ++i) {
+    if (tags[i].code != 9) continue;
+    const DxfTag& value = tags[i + 1];
+    if (tags[i].value == "$ACADVER") drawing->version = value.value;
+    if (tags[i].value == "$DWGCODEPAGE") reader->SetCodePage(std::string(value.value));
+    if (tags[i].value != "$INSUNITS") continue;
+    const int units = header.IntegerOf(value);
+    drawing->metres_per_unit = MetresPerDxfUnit(units);
+    if (units != 0 && !drawing->metres_per_unit) {
+      throw header.ErrorAt(
+          value, "$INSUNITS is " + std::to_string(units) + ", expected 0 to 24 (6: metres)");
+    }
+  }
+}
+
+void ReadTableEntry(const DxfRecord& record, DxfDrawing* drawing) {
+  if (record.kind() != "LAYER") return;
+  DxfLayer layer;
+  const int color = record.Integer(62, 7);  // negative if off
+  layer.frozen = record.Integer(70, 0) & 1;
+  layer.off = color < 0;
+  layer.no_plot = record.Integer(290, 1) == 0;
+  layer.rgb = ColorOfIndex(color == -2147483647 - 1 ? 0 : std::abs(color));
+  if (const DxfTag* tag = record.Find(420)) {
+    layer.rgb = LinearFromSrgb24(static_cast<uint32_t>(record.IntegerOf(*tag)) & 0xFFFFFF);
+  }
+  drawing->layers[DxfKey(record.Name(2))] = layer;
+}
+
+// Reads the records of one section, whose end must come.
+class SectionReader {
+ public:
+  SectionReader(DxfReader* reader, DxfDrawing* drawing) : reader_(reader), drawing_(drawing) {}
+
+  // `head` is the SECTION; it is gone after the first record.
+  void Read(const DxfRecord& head) {
+    const std::string name = head.Name(2);
+    const DxfPlace place = head.place();
+    if (name == "HEADER") ReadHeader(head, reader_, drawing_);
+    DxfEntityReader entities(&drawing_->model_space);
+    while (const DxfRecord* record = reader_->Next()) {
+      if (record->kind() == "ENDSEC") return Finish(&entities);
+      if (name == "TABLES") ReadTableEntry(*record, drawing_);
+      if (name == "BLOCKS") ReadBlockRecord(*record);
+      if (name == "ENTITIES") entities.Add(*record);
+    }
+    throw place.Error("section " + name + " is not closed, expected an ENDSEC");
+  }
+
+ private:
+  void Finish(DxfEntityReader* entities) {
+    if (block_) {
+      throw block_place_.Error("block \"" + block_->name + "\" is not closed, expected an ENDBLK");
+    }
+    entities->Finish();
+  }
+
+  void ReadBlockRecord(const DxfRecord& record) {
+    if (!block_) {
+      if (record.kind() == "BLOCK") BeginBlock(record);
+    } else if (record.kind() == "ENDBLK") {
+      block_entities_->Finish();
+      drawing_->blocks[DxfKey(block_->name)] = std::move(*block_);
+      block_entities_.reset();
+      block_.reset();
+    } else {
+      block_entities_->Add(record);
+    }
+  }
+
+  void BeginBlock(const DxfRecord& head) {
+    constexpr int kExternal = 4 | 8;  // attached, overlaid
+    block_place_ = head.place();
+    block_.emplace();
+    block_->name = head.Name(2);
+    block_->base = head.FindPoint(10).value_or(Eigen::Vector3d(Eigen::Vector3d::Zero()));
+    block_->external = head.Integer(70, 0) & kExternal;
+    block_entities_.emplace(&*block_);
+  }
+
+  DxfReader* reader_;
+  DxfDrawing* drawing_;
+  DxfPlace block_place_;
+  std::optional<DxfBlock> block_;
+  std::optional<DxfEntityReader> block_entities_;
+};
+
+// Of a block with all that it inserts.
+struct Extent {
+  double pieces = 0;  // far beyond any integer in a malicious drawing
+  size_t depth = 0;   // of blocks
+};
+
+double OwnPieces(const DxfBlock& block) {
+  double pieces = static_cast<double>(block.vertices.size());
+  for (const auto& [kind, count] : block.entities) pieces += count;
+  return pieces;
+}
+
+// Looks at every block that the model space uses, once, before any is copied.
+class InsertCheck {
+ public:
+  InsertCheck(const DxfDrawing& drawing, double most_pieces)
+      : drawing_(drawing), most_pieces_(most_pieces) {}
+
+  Extent AllInserted(const DxfBlock& holder) {
+    Extent all;
+    for (const DxfInsert& insert : holder.inserts) {
+      const Extent one = Inserted(insert);
+      all.pieces += one.pieces * insert.rows * insert.columns;
+      all.depth = std::max(all.depth, one.depth);
+      if (all.pieces > most_pieces_) {
+        throw insert.place.Error("copies of blocks come to over " +
+                                 std::to_string(std::lround(most_pieces_ / 1e6)) +
+                                 " million pieces");
+      }
+    }
+    return all;
+  }
+
+ private:
+  Extent Inserted(const DxfInsert& insert) {
+    const DxfBlock& block = InsertedBlock(drawing_, insert);
+    if (std::ranges::find(nesting_, &block) != nesting_.end()) {
+      throw insert.place.Error("block \"" + insert.block + "\" inserts itself");
+    }
+    const auto known = extents_.find(&block);
+    const size_t depth = nesting_.size() + (known == extents_.end() ? 1 : known->second.depth);
+    if (depth > kDeepest) {
+      throw insert.place.Error("blocks within blocks, more than 64 deep");
+    }
+    if (known != extents_.end()) return known->second;
+    nesting_.push_back(&block);
+    const Extent inner = AllInserted(block);
+    nesting_.pop_back();
+    return extents_[&block] = {1 + OwnPieces(block) + inner.pieces, 1 + inner.depth};
+  }
+
+  const DxfDrawing& drawing_;
+  double most_pieces_;
+  std::vector<const DxfBlock*> nesting_;
+  std::map<const DxfBlock*, Extent> extents_;
+};
+
+}  // namespace
+
+std::string DxfKey(const std::string& name) {
+  std::string key = name;
+  for (char& c : key) {
+    if (c >= 'a' && c <= 'z') c = static_cast<char>(c - 'a' + 'A');
+  }
+  return key;
+}
+
+const DxfBlock& InsertedBlock(const DxfDrawing& drawing, const DxfInsert& insert) {
+  const auto found = drawing.blocks.find(DxfKey(insert.block));
+  if (found == drawing.blocks.end()) {
+    throw insert.place.Error("INSERT of block \"" + insert.block +
+                             "\", which the drawing does not define");
+  }
+  return found->second;
+}
+
+DxfDrawing ReadDxfDrawing(const std::filesystem::path& path, double most_pieces) {
+  DxfDrawing drawing;
+  DxfReader reader(path);
+  drawing.binary = reader.binary();
+  SectionReader section(&reader, &drawing);
+  while (const DxfRecord* record = reader.Next()) {
+    if (record->kind() == "SECTION") section.Read(*record);
+  }
+  InsertCheck(drawing, most_pieces).AllInserted(drawing.model_space);
+  return drawing;
+}
+
+}  // namespace insitu

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A DXF drawing as it stands in the file: units, layers, blocks, and the model space.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+
+#include "renderer/dxf/dxf_block.h"
+
+namespace insitu {
+
+struct DxfLayer {
+  bool frozen = false;   // neither its entities nor the blocks inserted on it are shown
+  bool off = false;      // its entities are not shown
+  bool no_plot = false;  // its entities are not printed
+  std::optional<Eigen::Vector3d> rgb;  // linear Rec. 709
+};
+
+struct DxfDrawing {
+  std::string version;  // $ACADVER, "AC1032"; empty: not named
+  bool binary = false;
+  std::optional<double> metres_per_unit;   // nullopt: the drawing names none
+  std::map<std::string, DxfLayer> layers;  // by DxfKey; those of the layer table
+  std::map<std::string, DxfBlock> blocks;  // by DxfKey
+  DxfBlock model_space;
+};
+
+// Names of layers and blocks that differ in case alone mean the same: their common key.
+std::string DxfKey(const std::string& name);
+
+// The block that an INSERT names. Throws InputError: the drawing does not define it.
+const DxfBlock& InsertedBlock(const DxfDrawing& drawing, const DxfInsert& insert);
+
+// Throws InputError: a section that is not closed, an unknown unit, a faulty entity; and, among the
+// blocks that the model space uses, one that is unknown, inserts itself or lies more than 64 deep,
+// or copies that come to over `most_pieces` (vertices, entities and the copies themselves).
+DxfDrawing ReadDxfDrawing(const std::filesystem::path& path, double most_pieces);
+
+}  // namespace insitu

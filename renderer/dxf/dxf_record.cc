@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "renderer/dxf/dxf_record.h"
+
+#include <charconv>
+#include <cmath>
+
+namespace insitu {
+namespace {
+
+constexpr double kLargestNumber = 1e12;
+
+template <typename T>
+std::optional<T> Parsed(std::string_view text) {
+  if (text.starts_with('+')) text.remove_prefix(1);
+  T value{};
+  const auto [end, status] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (status != std::errc() || end != text.data() + text.size()) return std::nullopt;
+  return value;
+}
+
+}  // namespace
+
+std::string QuotedDxf(std::string_view text) {
+  constexpr size_t kLongest = 40;
+  std::string quoted = "\"";
+  for (const char c : text.substr(0, kLongest)) quoted += (c >= ' ' && c <= '~') ? c : '?';
+  return quoted + (text.size() > kLongest ? "...\"" : "\"");
+}
+
+InputError DxfPlace::Error(const std::string& message) const {
+  if (binary) return InputError(file, "byte " + std::to_string(place) + ": " + message);
+  return InputError(file, static_cast<int>(place), message);
+}
+
+DxfPlace DxfRecord::place() const { return {*file_, binary_, tags_.front().place}; }
+
+const DxfTag* DxfRecord::Find(int code) const {
+  for (const DxfTag& tag : tags_) {
+    if (tag.code == code) return &tag;
+  }
+  return nullptr;
+}
+
+std::string DxfRecord::Name(int code, const std::string& if_absent) const {
+  const DxfTag* tag = Find(code);
+  return tag ? Utf8FromDxf(tag->value, *code_page_) : if_absent;
+}
+
+int DxfRecord::Integer(int code, int if_absent) const {
+  const DxfTag* tag = Find(code);
+  return tag ? IntegerOf(*tag) : if_absent;
+}
+
+double DxfRecord::Number(int code, double if_absent) const {
+  const DxfTag* tag = Find(code);
+  return tag ? NumberOf(*tag) : if_absent;
+}
+
+std::optional<Eigen::Vector3d> DxfRecord::FindPoint(int code) const {
+  const DxfTag* x = Find(code);
+  if (!x) return std::nullopt;
+  const DxfTag* y = Find(code + 10);
+  if (!y) {
+    throw ErrorAt(*x, "group " + std::to_string(code) + " (x) has no group " +
+                          std::to_string(code + 10) + " (y) beside it");
+  }
+  return Eigen::Vector3d(NumberOf(*x), NumberOf(*y), Number(code + 20, 0));
+}
+
+Eigen::Vector3d DxfRecord::Point(int code) const {
+  const std::optional<Eigen::Vector3d> point = FindPoint(code);
+  if (!point) {
+    throw Error(std::string(kind()) + " has no point, expected one at group " +
+                std::to_string(code));
+  }
+  return *point;
+}
+
+int DxfRecord::IntegerOf(const DxfTag& tag) const {
+  const std::optional<int> value = Parsed<int>(tag.value);
+  if (!value) {
+    throw ErrorAt(
+        tag, QuotedDxf(tag.value) + ", expected an integer for group " + std::to_string(tag.code));
+  }
+  return *value;
+}
+
+double DxfRecord::NumberOf(const DxfTag& tag) const {
+  const std::optional<double> value = Parsed<double>(tag.value);
+  if (!value || !(std::abs(*value) <= kLargestNumber)) {
+    throw ErrorAt(tag, QuotedDxf(tag.value) + ", expected a number of at most 1e12 for group " +
+                           std::to_string(tag.code));
+  }
+  return *value;
+}
+
+InputError DxfRecord::Error(const std::string& message) const {
+  return ErrorAt(tags_.front(), message);
+}
+
+InputError DxfRecord::ErrorAt(const DxfTag& tag, const std::string& message) const {
+  return DxfPlace{*file_, binary_, tag.place}.Error(message);
+}
+
+}  // namespace insitu

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "renderer/formats/model_list.h"
+
+#include <algorithm>
+#include <map>
+
+#include "calibration/files/error.h"
+#include "renderer/formats/model_file.h"
+
+namespace insitu {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Of files with one name the exacter format goes first.
+int Rank(const fs::path& path) {
+  const auto format = DetectModelFormat(path);
+  if (!format) return -1;  // to be refused by name
+  switch (*format) {
+    case ModelFormat::kDxf:
+      return 0;
+    case ModelFormat::kIfc:
+      return 1;
+    case ModelFormat::kGltf:
+      return 2;
+    case ModelFormat::kCollada:
+      return 3;
+    case ModelFormat::kObj:
+      return 4;
+    case ModelFormat::kPly:
+      return 5;
+    case ModelFormat::kStl:
+      return 6;
+  }
+  return 7;
+}
+
+}  // namespace
+
+ModelList ListModels(const SitePaths& site) {
+  std::map<std::string, std::vector<fs::path>> files_of_name;
+  std::error_code missing;
+  for (const fs::directory_entry& entry : fs::directory_iterator(site.building(), missing)) {
+    const fs::path& path = entry.path();
+    if (!entry.is_regular_file() || path.filename().string().starts_with('.')) continue;
+    if (IsNamedLikeAModel(path) || DetectModelFormat(path)) {
+      files_of_name[path.stem().string()].push_back(path);
+    }
+  }
+  ModelList list;
+  for (auto& [name, files] : files_of_name) {
+    std::ranges::sort(files, {}, [](const fs::path& path) { return std::pair(Rank(path), path); });
+    list.files.push_back(files.front());
+    for (size_t i = 1; i < files.size(); ++i) {
+      list.warnings.push_back(InputError(files[i], "not read: taken as the same model as " +
+                                                       files.front().filename().string())
+                                  .what());
+    }
+  }
+  if (list.files.empty()) {
+    throw InputError(site.building(),
+                     "no model, expected a DXF, IFC, OBJ, glTF, COLLADA, PLY or STL file");
+  }
+  std::ranges::sort(list.files);
+  return list;
+}
+
+}  // namespace insitu

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "renderer/formats/model_textures.h"
+
+#include <algorithm>
+#include <string>
+#include <string_view>
+
+#include "calibration/files/error.h"
+#include "calibration/files/whole_file.h"
+
+namespace insitu {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string EndingOf(std::string_view image) {
+  if (image.starts_with("\x89PNG")) return ".png";
+  if (image.starts_with("\xFF\xD8\xFF")) return ".jpg";
+  return "";
+}
+
+// The file of an image "*0" that the model holds; empty: none that is read.
+std::string WrittenImage(const SitePaths& site, const fs::path& file, const std::string& name,
+                         const Model& model) {
+  const auto image = model.images.find(name);
+  const std::string ending = image == model.images.end() ? "" : EndingOf(image->second);
+  if (ending.empty()) return "";
+  const fs::path folder = fs::absolute(site.root / "work/building_textures").lexically_normal();
+  const fs::path path = folder / (file.filename().string() + "_" + name.substr(1) + ending);
+  WriteWhole(path, image->second);
+  return path.string();
+}
+
+}  // namespace
+
+void LocateTextures(const SitePaths& site, const fs::path& file, Model* model) {
+  for (SurfaceNames& names : model->mesh.surfaces) {
+    if (names.texture.empty()) continue;
+    if (!names.texture.starts_with('*')) {
+      std::ranges::replace(names.texture, '\\', '/');
+      names.texture = (file.parent_path() / names.texture).lexically_normal().string();
+      continue;
+    }
+    names.texture = WrittenImage(site, file, names.texture, *model);
+    if (!names.texture.empty()) continue;
+    model->warnings.push_back(InputError(file, "the texture inside it of material \"" +
+                                                   names.material +
+                                                   "\" is neither PNG nor JPEG: left out")
+                                  .what());
+  }
+}
+
+}  // namespace insitu

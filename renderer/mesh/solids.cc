@@ -1,0 +1,336 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "renderer/mesh/solids.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <numeric>
+#include <optional>
+#include <tuple>
+#include <utility>
+
+#include "renderer/mesh/face_triangles.h"
+
+namespace insitu {
+namespace {
+
+using Eigen::Vector3d;
+using Eigen::Vector3i;
+
+uint64_t Mixed(uint64_t hash, uint64_t value) {
+  hash ^= value + 0x9e3779b97f4a7c15u + (hash << 6) + (hash >> 2);
+  hash *= 0xff51afd7ed558ccdu;
+  return hash ^ hash >> 32;
+}
+
+// Indices by the hash of their key; the caller compares keys. Open addressing takes half the memory
+// of std::unordered_map and a fraction of its time, which 5 million triangles need.
+class IndexTable {
+ public:
+  explicit IndexTable(size_t count) : slots_(std::bit_ceil(2 * count + 16), kFree) {}
+
+  template <typename Equal>
+  std::optional<int> Find(uint64_t hash, const Equal& equal) const {
+    for (size_t slot = hash & Mask(); slots_[slot] != kFree; slot = (slot + 1) & Mask()) {
+      if (equal(slots_[slot])) return slots_[slot];
+    }
+    return std::nullopt;
+  }
+  void Add(uint64_t hash, int index) {
+    size_t slot = hash & Mask();
+    while (slots_[slot] != kFree) slot = (slot + 1) & Mask();
+    slots_[slot] = index;
+  }
+
+ private:
+  static constexpr int kFree = -1;
+  size_t Mask() const { return slots_.size() - 1; }
+  std::vector<int> slots_;
+};
+
+// For each vertex the first of those with equal coordinates.
+std::vector<int> FirstOfEqual(const std::vector<Vector3d>& vertices) {
+  IndexTable table(vertices.size());
+  std::vector<int> first(vertices.size());
+  for (size_t i = 0; i < vertices.size(); ++i) {
+    uint64_t hash = 0;
+    for (const double x : vertices[i]) hash = Mixed(hash, std::bit_cast<uint64_t>(x + 0.0));
+    const auto found = table.Find(hash, [&](int j) { return vertices[j] == vertices[i]; });
+    first[i] = found.value_or(static_cast<int>(i));
+    if (!found) table.Add(hash, static_cast<int>(i));
+  }
+  return first;
+}
+
+// For each vertex the first of those nearer than `tolerance`.
+std::vector<int> FirstOfNear(const std::vector<Vector3d>& vertices, double tolerance) {
+  IndexTable table(vertices.size());
+  std::vector<int> first(vertices.size());
+  const auto hash_at = [cell = 4 * tolerance](const Vector3d& place) {
+    uint64_t hash = 0;
+    for (const double x : place) {
+      hash = Mixed(hash, static_cast<uint64_t>(static_cast<int64_t>(std::floor(x / cell))));
+    }
+    return hash;
+  };
+  for (size_t i = 0; i < vertices.size(); ++i) {
+    const auto is_near = [&](int j) { return (vertices[j] - vertices[i]).norm() <= tolerance; };
+    std::optional<int> found;
+    uint64_t before = 0;
+    for (int side = 0; side < 8 && !found; ++side) {  // the cells that the tolerance reaches into
+      const Vector3d reach(side & 1 ? 1 : -1, side & 2 ? 1 : -1, side & 4 ? 1 : -1);
+      const uint64_t hash = hash_at(vertices[i] + tolerance * reach);
+      if (side == 0 || hash != before) found = table.Find(hash, is_near);
+      before = hash;
+    }
+    first[i] = found.value_or(static_cast<int>(i));
+    if (!found) table.Add(hash_at(vertices[i]), static_cast<int>(i));
+  }
+  return first;
+}
+
+// Keeps the triangles for which `keep` is set, with what belongs to them.
+void KeepTriangles(const std::vector<bool>& keep, ModelMesh* mesh) {
+  size_t kept = 0;
+  for (size_t t = 0; t < keep.size(); ++t) {
+    if (!keep[t]) continue;
+    mesh->triangles[kept] = mesh->triangles[t];
+    mesh->surface_of_triangle[kept] = mesh->surface_of_triangle[t];
+    for (size_t c = 0; c < 3; ++c) {
+      if (!mesh->corner_normals.empty()) {
+        mesh->corner_normals[3 * kept + c] = mesh->corner_normals[3 * t + c];
+      }
+      if (!mesh->corner_uvs.empty()) mesh->corner_uvs[3 * kept + c] = mesh->corner_uvs[3 * t + c];
+    }
+    ++kept;
+  }
+  mesh->triangles.resize(kept);
+  mesh->surface_of_triangle.resize(kept);
+  if (!mesh->corner_normals.empty()) mesh->corner_normals.resize(3 * kept);
+  if (!mesh->corner_uvs.empty()) mesh->corner_uvs.resize(3 * kept);
+}
+
+Vector3i Sorted(Vector3i corners) {
+  std::sort(corners.begin(), corners.end());
+  return corners;
+}
+
+void DropFaultyFaces(ModelMesh* mesh, SolidsReport* report) {
+  IndexTable table(mesh->triangles.size());
+  std::vector<bool> keep(mesh->triangles.size(), true);
+  for (size_t t = 0; t < keep.size(); ++t) {
+    const Vector3i corners = Sorted(mesh->triangles[t]);
+    if (IsDegenerate(mesh->vertices[corners[0]], mesh->vertices[corners[1]],
+                     mesh->vertices[corners[2]])) {
+      keep[t] = false;
+      ++report->degenerate_faces;
+      continue;
+    }
+    uint64_t hash = 0;
+    for (const int corner : corners) hash = Mixed(hash, static_cast<uint64_t>(corner));
+    bool coincides = false;
+    const auto same = table.Find(hash, [&](int other) {
+      if (Sorted(mesh->triangles[other]) != corners) return false;
+      coincides = true;
+      return mesh->surface_of_triangle[other] == mesh->surface_of_triangle[t];
+    });
+    keep[t] = !same;
+    if (same) {
+      ++report->duplicate_faces;
+    } else {
+      report->coincident_faces += coincides;
+      table.Add(hash, static_cast<int>(t));
+    }
+  }
+  KeepTriangles(keep, mesh);
+}
+
+// Which triangles hang together, and which way round each lies with respect to its body's first.
+class Bodies {
+ public:
+  explicit Bodies(size_t triangles) : parent_(triangles), turned_(triangles, false) {
+    std::iota(parent_.begin(), parent_.end(), 0);
+  }
+
+  struct Root {
+    int body;
+    bool turned;
+  };
+  Root Find(int triangle) {
+    bool turned = false;
+    int root = triangle;
+    while (parent_[root] != root) {
+      turned ^= turned_[root];
+      root = parent_[root];
+    }
+    bool rest = turned;  // the path becomes direct, for the next call
+    while (parent_[triangle] != root) {
+      const int up = parent_[triangle];
+      const bool own = turned_[triangle];
+      parent_[triangle] = root;
+      turned_[triangle] = rest;
+      rest ^= own;
+      triangle = up;
+    }
+    return {root, turned};
+  }
+  // False: the two are joined already, the other way round.
+  bool Join(int a, int b, bool turned) {
+    const Root root_a = Find(a), root_b = Find(b);
+    if (root_a.body == root_b.body) return (root_a.turned ^ root_b.turned) == turned;
+    const auto [low, high] = std::minmax(root_a.body, root_b.body);
+    parent_[high] = low;
+    turned_[high] = root_a.turned ^ root_b.turned ^ turned;
+    return true;
+  }
+
+ private:
+  std::vector<int> parent_;
+  std::vector<bool> turned_;  // against its parent
+};
+
+struct HalfEdge {
+  int low, high;  // vertices
+  int triangle;
+  bool ascending;  // runs from low to high
+};
+
+std::vector<HalfEdge> SortedHalfEdges(const ModelMesh& mesh, double tolerance) {
+  const std::vector<int> first = FirstOfNear(mesh.vertices, tolerance);
+  std::vector<HalfEdge> edges;
+  edges.reserve(3 * mesh.triangles.size());
+  for (size_t t = 0; t < mesh.triangles.size(); ++t) {
+    for (int c = 0; c < 3; ++c) {
+      const int a = first[mesh.triangles[t][c]], b = first[mesh.triangles[t][(c + 1) % 3]];
+      if (a != b) edges.push_back({std::min(a, b), std::max(a, b), static_cast<int>(t), a < b});
+    }
+  }
+  std::ranges::sort(edges, [](const HalfEdge& a, const HalfEdge& b) {
+    return std::tie(a.low, a.high, a.triangle) < std::tie(b.low, b.high, b.triangle);
+  });
+  return edges;
+}
+
+struct BodyState {
+  int faces = 0, turned = 0;
+  bool open = false, one_sided = false;
+  double volume = 0;  // of the faces turned alike
+  double area = 0;
+
+  // Two sheets back to back hold nothing: they have no outside.
+  bool IsSolid() const {
+    return !open && !one_sided && std::abs(volume) > 1e-9 * area * std::sqrt(area);
+  }
+};
+
+class BodyCheck {
+ public:
+  BodyCheck(ModelMesh* mesh, SolidsReport* report)
+      : mesh_(*mesh),
+        report_(*report),
+        bodies_(mesh->triangles.size()),
+        state_(mesh->triangles.size()) {}
+
+  void Run(double tolerance) {
+    const std::vector<HalfEdge> edges = SortedHalfEdges(mesh_, tolerance);
+    for (size_t begin = 0, end = 0; begin < edges.size(); begin = end) {
+      while (end < edges.size() && edges[end].low == edges[begin].low &&
+             edges[end].high == edges[begin].high) {
+        ++end;
+      }
+      Meet(&edges[begin], end - begin);
+    }
+    Gather();
+    Mend();
+  }
+
+ private:
+  // The faces at one edge.
+  void Meet(const HalfEdge* edges, size_t count) {
+    if (count == 1) {
+      ++report_.open_edges;
+      open_.push_back(edges[0].triangle);
+    } else if (count > 2) {
+      ++report_.crowded_edges;
+      if (count % 2 == 1) open_.push_back(edges[0].triangle);
+    } else if (!bodies_.Join(edges[0].triangle, edges[1].triangle,
+                             edges[0].ascending == edges[1].ascending)) {
+      one_sided_.push_back(edges[0].triangle);
+    }
+  }
+
+  void Gather() {
+    const Vector3d origin = mesh_.vertices.empty() ? Vector3d::Zero() : mesh_.vertices[0];
+    for (size_t t = 0; t < mesh_.triangles.size(); ++t) {
+      const auto [body, turned] = bodies_.Find(static_cast<int>(t));
+      BodyState& state = state_[body];
+      const Vector3i& corners = mesh_.triangles[t];
+      const Vector3d a = mesh_.vertices[corners[0]] - origin;
+      const double volume =
+          a.dot((mesh_.vertices[corners[1]] - origin).cross(mesh_.vertices[corners[2]] - origin)) /
+          6;
+      ++state.faces;
+      state.turned += turned;
+      state.volume += turned ? -volume : volume;
+      state.area += (mesh_.vertices[corners[1]] - mesh_.vertices[corners[0]])
+                        .cross(mesh_.vertices[corners[2]] - mesh_.vertices[corners[0]])
+                        .norm() /
+                    2;
+    }
+    for (const int t : open_) state_[bodies_.Find(t).body].open = true;
+    for (const int t : one_sided_) state_[bodies_.Find(t).body].one_sided = true;
+    for (const BodyState& state : state_) {
+      if (state.faces == 0) continue;
+      ++report_.bodies;
+      report_.one_sided_bodies += state.one_sided;
+      report_.closed_bodies += state.IsSolid();
+      if (state.open && !state.one_sided) {
+        report_.unmended_faces += std::min(state.turned, state.faces - state.turned);
+      }
+    }
+  }
+
+  void Mend() {
+    for (size_t t = 0; t < mesh_.triangles.size(); ++t) {
+      const auto [body, turned] = bodies_.Find(static_cast<int>(t));
+      const BodyState& state = state_[body];
+      if (!state.IsSolid()) continue;
+      if (turned != (state.volume < 0)) Flip(t);
+    }
+  }
+
+  void Flip(size_t t) {
+    ++report_.flipped_faces;
+    std::swap(mesh_.triangles[t][1], mesh_.triangles[t][2]);
+    if (!mesh_.corner_uvs.empty()) {
+      std::swap(mesh_.corner_uvs[3 * t + 1], mesh_.corner_uvs[3 * t + 2]);
+    }
+    if (mesh_.corner_normals.empty()) return;
+    std::swap(mesh_.corner_normals[3 * t + 1], mesh_.corner_normals[3 * t + 2]);
+    for (size_t c = 0; c < 3; ++c) mesh_.corner_normals[3 * t + c] *= -1;
+  }
+
+  ModelMesh& mesh_;
+  SolidsReport& report_;
+  Bodies bodies_;
+  std::vector<BodyState> state_;
+  std::vector<int> open_, one_sided_;
+};
+
+}  // namespace
+
+SolidsReport MendSolids(ModelMesh* mesh, double tolerance) {
+  SolidsReport report;
+  const std::vector<int> first = FirstOfEqual(mesh->vertices);
+  for (Vector3i& triangle : mesh->triangles) {
+    for (int& corner : triangle) corner = first[corner];
+  }
+  DropFaultyFaces(mesh, &report);
+  BodyCheck(mesh, &report).Run(tolerance);
+  DropUnused(mesh);
+  return report;
+}
+
+}  // namespace insitu

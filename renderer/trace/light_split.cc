@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "renderer/trace/light_split.h"
+
+#include <array>
+#include <bitset>
+#include <cmath>
+#include <numbers>
+#include <span>
+
+#include "renderer/trace/profile.h"
+
+namespace insitu {
+namespace {
+
+constexpr int kPacket = 16;
+
+bool IsBlocked(const RayScene& rays, const Ray& ray) {
+  const PhaseScope phase(Phase::kEmbree);
+  return rays.IsOccluded(ray);
+}
+
+uint16_t BlockedOf(const RayScene& rays, const Eigen::Vector3d& origin,
+                   std::span<const Eigen::Vector3f> directions) {
+  const PhaseScope phase(Phase::kEmbree);
+  return rays.OcclusionMask(origin, directions, 0);
+}
+
+// Up to 16 sky facets with the weight that each has at a surface.
+struct FacetPacket {
+  std::array<Eigen::Vector3f, kPacket> directions;
+  std::array<double, kPacket> cosines;
+  std::array<int, kPacket> facets;
+  int size = 0;
+
+  void Add(int facet, const Eigen::Vector3f& direction, double cosine) {
+    directions[size] = direction;
+    cosines[size] = cosine;
+    facets[size++] = facet;
+  }
+  std::span<const Eigen::Vector3f> Span() const {
+    return {directions.data(), static_cast<size_t>(size)};
+  }
+};
+
+// Calls visit(packet) for the facets of this ray that face the surface and pass `wanted(facet)`.
+template <typename Wanted, typename Visit>
+void ForFacets(const MontageScene& scene, const SurfacePoint& surface,
+               const LightDirections& directions, const Wanted& wanted, const Visit& visit) {
+  FacetPacket packet;
+  const int count = static_cast<int>(scene.facet_directions.size());
+  for (int i = directions.first; i < count; i += directions.stride) {
+    const double cosine = surface.normal.dot(scene.facets.directions[i]);
+    if (cosine <= 0 || !wanted(i)) continue;
+    packet.Add(i, scene.facet_directions[i], cosine);
+    if (packet.size < kPacket) continue;
+    visit(packet);
+    packet.size = 0;
+  }
+  if (packet.size > 0) visit(packet);
+}
+
+double FacetWeight(const MontageScene& scene, const LightDirections& directions) {
+  return scene.facets.solid_angle * directions.stride;
+}
+
+double SunCosine(const MontageScene& scene, const SurfacePoint& surface,
+                 const LightDirections& directions) {
+  const Daylight& light = scene.natural.light;
+  const bool is_up = light.zenith_direction.dot(directions.sun) > 0;
+  return is_up ? std::max(0.0, surface.normal.dot(directions.sun)) : 0;
+}
+
+bool MayMeetBuilding(const MontageScene& scene, const Eigen::Vector3d& origin,
+                     const Eigen::Vector3d& direction) {
+  return !scene.building_box.IsEmpty() &&
+         scene.building_box.MayMeet(origin.cast<float>().array(),
+                                    direction.cast<float>().array().inverse());
+}
+
+using FacetSet = std::bitset<kMostFacets>;
+
+// The facets of this ray that the building hides.
+FacetSet FacetsBehindBuilding(const MontageScene& scene, const SurfacePoint& surface,
+                              const Eigen::Vector3d& origin, const LightDirections& directions) {
+  FacetSet hidden;
+  if (scene.building_box.IsEmpty()) return hidden;
+  const Eigen::Array3f start = origin.cast<float>().array();
+  ForFacets(
+      scene, surface, directions,
+      [&](int i) { return scene.building_box.MayMeet(start, scene.inverse_facet_directions[i]); },
+      [&](const FacetPacket& packet) {
+        const unsigned blocked = BlockedOf(scene.artificial_rays, origin, packet.Span());
+        for (int i = 0; i < packet.size; ++i) hidden[packet.facets[i]] = blocked >> i & 1;
+      });
+  return hidden;
+}
+
+}  // namespace
+
+LightDirections ChooseLightDirections(const MontageScene& scene, const Eigen::Vector2d& disc,
+                                      int ray) {
+  const Eigen::Vector3d d_s = scene.natural.light.sun_direction;
+  const Eigen::Vector3d u = d_s.unitOrthogonal();
+  const Eigen::Vector3d v = d_s.cross(u);
+  const double radius = scene.solar_disc_radius * std::sqrt(disc.x());
+  const double angle = 2 * std::numbers::pi * disc.y();
+  const Eigen::Vector3d sun =
+      (d_s + radius * (std::cos(angle) * u + std::sin(angle) * v)).normalized();
+  // Fewer than 16 facets a ray would be too coarse to take turns.
+  const int stride = scene.facet_directions.size() >= 64 ? 4 : 1;
+  return {sun, ray % stride, stride};
+}
+
+SplitLight SplitDaylight(const MontageScene& scene, const SurfacePoint& surface,
+                         const LightDirections& directions, bool natural_needed) {
+  SplitLight light;
+  const Eigen::Vector3d origin = surface.position + kSurveyClearance * surface.normal;
+  const double sun_cosine = SunCosine(scene, surface, directions);
+  const bool sun_blocked = sun_cosine > 0 && MayMeetBuilding(scene, origin, directions.sun) &&
+                           IsBlocked(scene.artificial_rays, {origin, directions.sun});
+  const FacetSet hidden = FacetsBehindBuilding(scene, surface, origin, directions);
+  if (!natural_needed && !sun_blocked && hidden.none()) return light;
+  light.natural.ambient = std::numbers::pi;
+  if (sun_cosine > 0 && !IsBlocked(scene.natural_rays, {origin, directions.sun})) {
+    light.natural.sun = sun_cosine * scene.natural.light.sun_solid_angle;
+    if (sun_blocked) light.blocked.sun = light.natural.sun;
+  }
+  double visible = 0, blocked = 0;
+  ForFacets(
+      scene, surface, directions, [](int) { return true; },
+      [&](const FacetPacket& packet) {
+        const unsigned covered = BlockedOf(scene.natural_rays, origin, packet.Span());
+        for (int i = 0; i < packet.size; ++i) {
+          if (covered >> i & 1) continue;
+          visible += packet.cosines[i];
+          if (hidden[packet.facets[i]]) blocked += packet.cosines[i];
+        }
+      });
+  light.natural.sky = visible * FacetWeight(scene, directions);
+  light.blocked.sky = blocked * FacetWeight(scene, directions);
+  return light;
+}
+
+LightGeometry DaylightOnBuilding(const MontageScene& scene, const SurfacePoint& surface,
+                                 const LightDirections& directions) {
+  LightGeometry light;
+  light.ambient = std::numbers::pi;
+  const Eigen::Vector3d origin = surface.position + kBuildingClearance * surface.normal;
+  const double sun_cosine = SunCosine(scene, surface, directions);
+  const Ray to_sun = {origin, directions.sun};
+  if (sun_cosine > 0 && !IsBlocked(scene.artificial_rays, to_sun) &&
+      !IsBlocked(scene.natural_rays, to_sun)) {
+    light.sun = sun_cosine * scene.natural.light.sun_solid_angle;
+  }
+  const FacetSet hidden = FacetsBehindBuilding(scene, surface, origin, directions);
+  double visible = 0;
+  ForFacets(
+      scene, surface, directions, [&](int i) { return !hidden[i]; },
+      [&](const FacetPacket& packet) {
+        const unsigned covered = BlockedOf(scene.natural_rays, origin, packet.Span());
+        for (int i = 0; i < packet.size; ++i) {
+          if (!(covered >> i & 1)) visible += packet.cosines[i];
+        }
+      });
+  light.sky = visible * FacetWeight(scene, directions);
+  return light;
+}
+
+Spectrum LampIrradiance(const MontageScene& scene, const SurfacePoint& surface) {
+  Spectrum irradiance = Spectrum::Zero();
+  const Eigen::Vector3d origin = surface.position + kSurveyClearance * surface.normal;
+  for (const LampSpectrum& lamp : scene.lamps) {
+    const Eigen::Vector3d path = lamp.position - origin;
+    const double distance = path.norm();
+    const double cosine = surface.normal.dot(path) / distance;
+    if (cosine <= 0) continue;
+    const double share = lamp.distribution ? lamp.distribution->At(-path / distance) : 1;
+    if (share <= 0) continue;
+    const Ray ray = {origin, path / distance, 0, distance};
+    if (IsBlocked(scene.artificial_rays, ray) || IsBlocked(scene.natural_rays, ray)) continue;
+    irradiance += lamp.intensity * (share * cosine / (distance * distance));
+  }
+  return irradiance;
+}
+
+}  // namespace insitu

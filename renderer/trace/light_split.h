@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Which part of the daylight reaches a point, and which part of it the building cuts off.
+#pragma once
+
+#include <Eigen/Core>
+
+#include "radiometry/light/daylight.h"
+#include "renderer/trace/montage_scene.h"
+
+namespace insitu {
+
+// The light directions of one camera ray: a point of the sun's disc and every `stride`-th sky facet
+// from `first`. Four rays a pixel with stride 4 together use every facet once.
+struct LightDirections {
+  Eigen::Vector3d sun;  // unit; any point of the disc
+  int first = 0;
+  int stride = 1;
+};
+
+// `disc` is uniform in [0, 1)^2; `ray` counts the rays of a pixel.
+LightDirections ChooseLightDirections(const MontageScene& scene, const Eigen::Vector2d& disc,
+                                      int ray);
+
+// Light at a point of the existing site. `natural` is what reached it before; `blocked` the part of
+// that which the building cuts off, from the same directions, so that 0 <= blocked <= natural.
+// `natural` is left zero where nothing is blocked and `natural_needed` is false: most of a photo.
+struct SplitLight {
+  LightGeometry natural, blocked;
+  bool IsChanged() const { return blocked.sun > 0 || blocked.sky > 0; }
+};
+SplitLight SplitDaylight(const MontageScene& scene, const SurfacePoint& surface,
+                         const LightDirections& directions, bool natural_needed);
+
+// Light at a point of the building: what neither the site nor the building itself blocks.
+LightGeometry DaylightOnBuilding(const MontageScene& scene, const SurfacePoint& surface,
+                                 const LightDirections& directions);
+
+// Irradiance of the lamps, what stands between taken into account.
+Spectrum LampIrradiance(const MontageScene& scene, const SurfacePoint& surface);
+
+// Light rays start this far off the building's faces, which are exact [m].
+constexpr double kBuildingClearance = 0.001;
+
+}  // namespace insitu

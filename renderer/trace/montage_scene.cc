@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "renderer/trace/montage_scene.h"
+
+#include <cmath>
+#include <numbers>
+
+#include "calibration/files/error.h"
+#include "renderer/building/spectral_table.h"
+#include "renderer/trace/mean_brdf.h"
+
+namespace insitu {
+namespace {
+
+TriangleMesh LocalMesh(const ArtificialEnvironment& building, const Eigen::Vector3d& origin) {
+  TriangleMesh mesh;
+  mesh.triangles = building.triangles;
+  mesh.vertices.reserve(building.vertices.size());
+  for (const Eigen::Vector3d& vertex : building.vertices) {
+    mesh.vertices.push_back((vertex - origin).cast<float>());
+  }
+  return mesh;
+}
+
+std::vector<Eigen::Vector3d> TriangleNormals(const ArtificialEnvironment& building) {
+  std::vector<Eigen::Vector3d> normals;
+  normals.reserve(building.triangles.size());
+  for (const Eigen::Vector3i& t : building.triangles) {
+    const Eigen::Vector3d& a = building.vertices[t[0]];
+    normals.push_back(
+        (building.vertices[t[1]] - a).cross(building.vertices[t[2]] - a).normalized());
+  }
+  return normals;
+}
+
+InfluenceBox BoxAround(const TriangleMesh& mesh) {
+  InfluenceBox box;
+  if (mesh.vertices.empty()) return box;
+  box.low = box.high = mesh.vertices[0].array();
+  for (const Eigen::Vector3f& vertex : mesh.vertices) {
+    box.low = box.low.min(vertex.array());
+    box.high = box.high.max(vertex.array());
+  }
+  // Embree's robust mode may report hits this far outside.
+  box.low -= 1e-3f;
+  box.high += 1e-3f;
+  return box;
+}
+
+SpectralMaterial NaturalSurface(const NaturalEnvironment& natural, const Polygon& polygon) {
+  const auto found = natural.materials.find(polygon.material);
+  if (found == natural.materials.end()) return {};
+  return {found->second.diffuse_weight, Spectrum::Zero(), found->second.specular};
+}
+
+SpectralMaterial ArtificialSurface(const SpectralBasis& spectra, const SurfaceMaterial& material) {
+  const Spectrum albedo = material.reflectance.empty()
+                              ? spectra.ReflectanceFromRgb(material.diffuse_rgb)
+                              : Sampled(material.reflectance, spectra.bins());
+  return {material.diffuse_weight, albedo / std::numbers::pi, material.specular};
+}
+
+// The lamp's own spectrum has its shape, its intensity the luminance.
+Spectrum LampIntensity(const SpectralBasis& spectra, const PointLight& lamp) {
+  const Spectrum from_rgb = spectra.SpectrumFromRgb(lamp.intensity_rgb);
+  if (lamp.spectrum.empty() || lamp.intensity_rgb.maxCoeff() <= 0) return from_rgb;
+  const Spectrum shape = Sampled(lamp.spectrum, spectra.bins());
+  const double luminance = Tristimulus(from_rgb, spectra.bins()).y();
+  return shape * (luminance / Tristimulus(shape, spectra.bins()).y());
+}
+
+// Within ten degrees of level.
+bool IsLevel(const SceneGeometry& scene, const Polygon& polygon) {
+  return polygon.normal.dot(scene.zenith.unit) > std::cos(10 * std::numbers::pi / 180);
+}
+
+double Area(const Polygon& polygon) {
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  const std::vector<Eigen::Vector3d>& v = polygon.vertices;
+  for (size_t i = 2; i < v.size(); ++i) sum += (v[i - 1] - v[0]).cross(v[i] - v[0]);
+  return sum.norm() / 2;
+}
+
+std::optional<int> LargestLevelPolygon(const SceneGeometry& scene) {
+  std::optional<int> largest;
+  for (size_t i = 0; i < scene.polygons.size(); ++i) {
+    if (!IsLevel(scene, scene.polygons[i])) continue;
+    const bool larger = !largest || Area(scene.polygons[i]) > Area(scene.polygons[*largest]);
+    if (larger) largest = static_cast<int>(i);
+  }
+  return largest;
+}
+
+}  // namespace
+
+MontageScene MakeMontageScene(NaturalEnvironment natural, const ArtificialEnvironment& artificial,
+                              const std::vector<Camera>& pinholes, std::vector<Raster> images) {
+  INSITU_CHECK(images.size() == natural.scene.cameras.size());
+  INSITU_CHECK(pinholes.size() == images.size());
+  const Eigen::Vector3d origin = natural.scene.origin;
+  PolygonMesh polygons = MeshOfPolygons(natural.scene);
+  const TriangleMesh building = LocalMesh(artificial, origin);
+  MontageScene scene{.natural = std::move(natural),
+                     .natural_rays = RayScene(polygons.mesh),
+                     .polygon_of_triangle = std::move(polygons.polygon_of_triangle),
+                     .material_of_polygon = {},
+                     .ground = {},
+                     .artificial_rays = RayScene(building),
+                     .artificial_normals = TriangleNormals(artificial),
+                     .material_of_triangle = artificial.material_of_triangle,
+                     .artificial_materials = {},
+                     .building_box = BoxAround(building),
+                     .lamps = {},
+                     .facets = {},
+                     .facet_directions = {},
+                     .inverse_facet_directions = {},
+                     .solar_disc_radius = 0,
+                     .input_images = std::move(images),
+                     .images = {},
+                     .mean_brdf_of_polygon = {}};
+  const NaturalEnvironment& site = scene.natural;
+  scene.ground = LargestLevelPolygon(site.scene);
+  for (const Polygon& polygon : site.scene.polygons) {
+    scene.material_of_polygon.push_back(NaturalSurface(site, polygon));
+  }
+  for (const SurfaceMaterial& material : artificial.materials) {
+    scene.artificial_materials.push_back(ArtificialSurface(site.spectra, material));
+  }
+  for (const PointLight& lamp : artificial.lights) {
+    scene.lamps.push_back(
+        {lamp.position - origin, LampIntensity(site.spectra, lamp), lamp.distribution});
+  }
+  scene.facets = MakeSkyFacets(site.light.zenith_direction, site.light.polar_facets);
+  INSITU_CHECK(scene.facets.directions.size() <= kMostFacets);
+  for (const Eigen::Vector3d& direction : scene.facets.directions) {
+    scene.facet_directions.push_back(direction.cast<float>());
+    scene.inverse_facet_directions.push_back(direction.cast<float>().array().inverse());
+  }
+  // A cone of half angle a holds 2 pi (1 - cos a) steradians.
+  const double cosine = 1 - site.light.sun_solid_angle / (2 * std::numbers::pi);
+  scene.solar_disc_radius = std::sqrt(1 - cosine * cosine) / cosine;
+  for (size_t i = 0; i < scene.input_images.size(); ++i) {
+    PosedCamera camera = site.scene.cameras[i];
+    camera.camera = pinholes[i];
+    scene.images.emplace_back(camera, origin, scene.input_images[i]);
+  }
+  scene.mean_brdf_of_polygon = MeanBrdfOfPolygons(scene);
+  return scene;
+}
+
+}  // namespace insitu

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Both environments made ready for rays: two Embree scenes about one local origin, materials as
+// spectra, sky facets, and the input images that natural surfaces take their colour from.
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <vector>
+
+#include "calibration/photo/raster.h"
+#include "radiometry/light/photographed_color.h"
+#include "radiometry/natural_environment.h"
+#include "reconstruction/geometry/ray_scene.h"
+#include "renderer/building/artificial_environment.h"
+
+namespace insitu {
+
+// A surface as the illumination model sees it.
+struct SpectralMaterial {
+  double diffuse_weight = 1;
+  Spectrum brdf = Spectrum::Zero();  // rho [1/sr]; zero for natural surfaces: it is in the photo
+  std::optional<Specular> specular;
+};
+
+struct LampSpectrum {
+  Eigen::Vector3d position;  // [m], local
+  Spectrum intensity;        // radiance unit times m^2
+  std::optional<LightDistribution> distribution = {};
+};
+
+// An axis-aligned box about the planned building; a light ray that misses it is not blocked by it.
+struct InfluenceBox {
+  Eigen::Array3f low = Eigen::Array3f::Constant(1);
+  Eigen::Array3f high = Eigen::Array3f::Constant(-1);
+
+  bool IsEmpty() const { return (low > high).any(); }
+  // Slab test of the half line from `origin`; `inverse_direction` may hold infinities.
+  bool MayMeet(const Eigen::Array3f& origin, const Eigen::Array3f& inverse_direction) const {
+    const Eigen::Array3f a = (low - origin) * inverse_direction;
+    const Eigen::Array3f b = (high - origin) * inverse_direction;
+    const float near = a.min(b).maxCoeff();
+    const float far = a.max(b).minCoeff();
+    return near <= far && far >= 0;
+  }
+};
+
+constexpr int kMostFacets = 4 * kMostPolarFacets * kMostPolarFacets;
+
+struct MontageScene {
+  NaturalEnvironment natural;
+  RayScene natural_rays;
+  std::vector<int> polygon_of_triangle;
+  std::vector<SpectralMaterial> material_of_polygon;
+  std::optional<int> ground;  // the largest polygon that lies level; its plane goes on beyond it
+
+  RayScene artificial_rays;
+  std::vector<Eigen::Vector3d> artificial_normals;  // of each triangle, unit
+  std::vector<int> material_of_triangle;
+  std::vector<SpectralMaterial> artificial_materials;
+  InfluenceBox building_box;
+  std::vector<LampSpectrum> lamps;
+
+  SkyFacets facets;
+  std::vector<Eigen::Vector3f> facet_directions;         // the same, for packets
+  std::vector<Eigen::Array3f> inverse_facet_directions;  // for the slab test
+  double solar_disc_radius = 0;                          // tangent of the sun's half angle
+
+  std::vector<Raster> input_images;  // in the order of natural.scene.cameras [Durisch92, §4.1]
+  std::vector<LocalImage> images;    // the same with their pinhole cameras
+  // Mean BRDF of each polygon's material over the photographs, for polygons that none shows.
+  std::vector<Spectrum> mean_brdf_of_polygon;
+
+  PhotographedSite Photographed() const {
+    return {natural.scene, natural_rays, polygon_of_triangle, images, natural.air, natural.spectra};
+  }
+};
+
+// `artificial` may be empty: the site as it is. `images` are the input images, in the order of
+// natural.scene.cameras, as are the pinhole cameras that see them.
+MontageScene MakeMontageScene(NaturalEnvironment natural, const ArtificialEnvironment& artificial,
+                              const std::vector<Camera>& pinholes, std::vector<Raster> images);
+
+}  // namespace insitu

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// RENDER: one photograph becomes a montage, tile by tile. [Durisch92, §6]
+#pragma once
+
+#include <functional>
+
+#include "calibration/photo/raster.h"
+#include "renderer/trace/montage_scene.h"
+
+namespace insitu {
+
+struct RenderOptions {
+  int fewest_rays = 4;       // a pixel, a multiple of 4
+  int most_rays = 16;        // a pixel, a multiple of 4
+  double tolerance = 0.004;  // standard error of a pixel in sRGB units (1 = white) that is enough
+  int threads = 0;           // 0: as many as there are cores
+};
+
+struct RenderResult {
+  Raster linear;
+  long building_pixels = 0;  // some ray hits the building
+  long changed_pixels = 0;   // other pixels that differ from the photograph
+  double mean_rays = 0;      // a pixel
+};
+
+// `camera` and `photo` are one view: a photograph with its lens, or an input image with the
+// pinhole. Pixels that the building does not influence are those of `photo`, bit for bit. The
+// result does not depend on the number of threads. `tile_done`, if given, is called from any
+// thread.
+RenderResult RenderMontage(const MontageScene& scene, const PosedCamera& camera,
+                           const Raster& photo, const RenderOptions& options = {},
+                           const std::function<void()>& tile_done = {});
+
+constexpr int kTileSize = 32;  // [px]
+int TileCount(const Raster& photo);
+
+}  // namespace insitu

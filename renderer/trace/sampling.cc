@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "renderer/trace/sampling.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "calibration/photo/photograph.h"
+
+namespace insitu {
+namespace {
+
+// SplitMix64 (Steele, Lea & Flood 2014), one step.
+uint64_t Scramble(uint64_t state) {
+  state += 0x9e3779b97f4a7c15u;
+  state = (state ^ (state >> 30)) * 0xbf58476d1ce4e5b9u;
+  state = (state ^ (state >> 27)) * 0x94d049bb133111ebu;
+  return state ^ (state >> 31);
+}
+
+double UnitInterval(uint64_t bits) { return static_cast<double>(bits >> 11) * 0x1p-53; }
+
+// The R2 sequence of Roberts (2018), shifted modulo 1.
+Eigen::Vector2d SpreadPoint(const Eigen::Vector2d& shift, int index) {
+  constexpr double kGolden = 1.32471795724474602596;  // real root of x^3 = x + 1
+  const double a = shift.x() + index / kGolden;
+  const double b = shift.y() + index / (kGolden * kGolden);
+  return {a - std::floor(a), b - std::floor(b)};
+}
+
+}  // namespace
+
+PixelSampler::PixelSampler(int x, int y) {
+  uint64_t state = Scramble(static_cast<uint64_t>(y) << 32 | static_cast<uint32_t>(x));
+  const auto next = [&state] { return UnitInterval(state = Scramble(state)); };
+  pixel_shift_.x() = next();
+  pixel_shift_.y() = next();
+  disc_shift_.x() = next();
+  disc_shift_.y() = next();
+}
+
+Eigen::Vector2d PixelSampler::InPixel(int ray) const {
+  return SpreadPoint(pixel_shift_, ray) - Eigen::Vector2d::Constant(0.5);
+}
+
+Eigen::Vector2d PixelSampler::OnDisc(int ray) const { return SpreadPoint(disc_shift_, ray); }
+
+void ColorStatistics::Add(const Eigen::Vector3d& linear_rgb) {
+  Eigen::Array3d encoded;
+  for (int c = 0; c < 3; ++c) encoded[c] = SrgbFromLinear(std::clamp(linear_rgb[c], 0.0, 1.0));
+  ++count_;
+  sum_ += encoded;
+  sum_of_squares_ += encoded.square();
+}
+
+double ColorStatistics::StandardError() const {
+  const Eigen::Array3d mean = sum_ / count_;
+  const Eigen::Array3d variance = (sum_of_squares_ / count_ - mean.square()).max(0);
+  return std::sqrt(variance.maxCoeff() / (count_ - 1));
+}
+
+}  // namespace insitu

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The cases of [Durisch92, §6.2]: what one ray of the current camera brings.
+#pragma once
+
+#include <Eigen/Core>
+
+#include "renderer/trace/light_split.h"
+#include "renderer/trace/montage_scene.h"
+
+namespace insitu {
+
+// A primary ray with what the photograph shows there.
+struct PrimaryRay {
+  Ray ray;                       // local frame, from the centre of projection
+  Eigen::Vector3d apparent_rgb;  // the current photograph's pixel, linear
+  LightDirections light;
+};
+
+struct RayOutcome {
+  bool hits_building = false;
+  // hits_building: the radiance, linear RGB. Otherwise the change to the photograph's pixel;
+  // exactly zero where the building has no influence.
+  Eigen::Vector3d rgb = Eigen::Vector3d::Zero();
+};
+
+// Cases A (no object: no change), C (the building) and D (the site: D1, D2, D3).
+RayOutcome TracePrimary(const MontageScene& scene, const PrimaryRay& primary);
+
+enum class World { kSiteOnly, kWithBuilding };
+
+// Apparent radiance along a secondary ray: cases B, C and D. `depth` counts the mirrors before it;
+// beyond kMaxMirrors the horizon colour is returned.
+constexpr int kMaxMirrors = 4;
+Spectrum TraceSecondary(const MontageScene& scene, const Ray& ray, const LightDirections& light,
+                        World world, int depth);
+
+// Case C: true colour of the building at a point, looked at from `to_viewer` (unit).
+Spectrum BuildingColor(const MontageScene& scene, const SurfacePoint& surface,
+                       const SpectralMaterial& material, const Eigen::Vector3d& to_viewer,
+                       const LightDirections& light, int depth);
+
+// Cases D1 and D3: the change of a diffuse natural surface of true colour L_0 by the lamps' light
+// that comes and the daylight that the building cuts off, the latter as a negative irradiance.
+// D2 is its being zero. Never below -L_0; at most 0 without lamps. `diffuse_weight` is k_d.
+Spectrum DiffuseChange(const MontageScene& scene, const SurfacePoint& surface,
+                       const Spectrum& true_color, double diffuse_weight,
+                       const LightDirections& light);
+
+}  // namespace insitu

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "calibration/program/program.h"
+
+#include <gtest/gtest.h>
+
+#include <stdexcept>
+
+#include "calibration/files/error.h"
+
+namespace insitu {
+namespace {
+
+struct Outcome {
+  int status = -1;
+  std::string out, err;
+};
+
+Outcome RunNothing(std::vector<std::string> arguments, const std::function<void()>& run) {
+  CLI::App app("does nothing", "insitu-nothing");
+  std::string site;
+  app.add_option("SITE", site)->required();
+  app.footer("Example: insitu-nothing gallery");
+  arguments.insert(arguments.begin(), "insitu-nothing");
+  std::vector<char*> argv;
+  for (std::string& argument : arguments) argv.push_back(argument.data());
+  testing::internal::CaptureStdout();
+  testing::internal::CaptureStderr();
+  Outcome outcome;
+  outcome.status = RunProgram(app, static_cast<int>(argv.size()), argv.data(), run);
+  outcome.out = testing::internal::GetCapturedStdout();
+  outcome.err = testing::internal::GetCapturedStderr();
+  return outcome;
+}
+
+TEST(Program, Success) {
+  const Outcome outcome = RunNothing({"site"}, [] {});
+  EXPECT_EQ(outcome.status, 0);
+  EXPECT_EQ(outcome.err, "");
+}
+
+TEST(Program, HelpHasTheExampleAndVersionTheName) {
+  const Outcome help = RunNothing({"--help"}, [] { FAIL(); });
+  EXPECT_EQ(help.status, 0);
+  EXPECT_NE(help.out.find("Example: insitu-nothing gallery"), std::string::npos);
+  const Outcome version = RunNothing({"--version"}, [] { FAIL(); });
+  EXPECT_EQ(version.status, 0);
+  EXPECT_EQ(version.out, "insitu-nothing " INSITU_VERSION "\n");
+}
+
+TEST(Program, BadInputIsTwoAndItsMessageAsItIs) {
+  const Outcome outcome = RunNothing({"site"}, [] { throw InputError("a.csv", 7, "bad"); });
+  EXPECT_EQ(outcome.status, 2);
+  EXPECT_EQ(outcome.err, "a.csv:7: bad\n");
+}
+
+TEST(Program, WrongOptionsAreTwo) {
+  EXPECT_EQ(RunNothing({}, [] { FAIL(); }).err, "insitu-nothing: SITE is required (see --help)\n");
+  EXPECT_EQ(RunNothing({"site", "--what"}, [] { FAIL(); }).status, 2);
+}
+
+TEST(Program, AnyOtherFailureIsOne) {
+  const Outcome outcome = RunNothing({"site"}, [] { throw std::runtime_error("disk full"); });
+  EXPECT_EQ(outcome.status, 1);
+  EXPECT_EQ(outcome.err, "insitu-nothing: disk full\n");
+  EXPECT_EQ(RunNothing({"site"}, [] { INSITU_CHECK(1 > 2); }).status, 1);
+}
+
+TEST(Program, ProgressIsSilentWithoutATerminal) {
+  testing::internal::CaptureStderr();
+  {
+    Progress progress("working", 3);
+    for (int i = 0; i < 3; ++i) progress.Step();
+  }
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+}
+
+TEST(CommandLine, SaysWhatWasAskedForWithoutFolders) {
+  CLI::App app("does nothing", "insitu-nothing");
+  std::string site, start;
+  double sigma = 1, unused = 2;
+  bool is_hard = false;
+  app.add_option("SITE", site)->required();
+  app.add_option("--sigma", sigma);
+  app.add_option("--unused", unused);
+  app.add_option("--start", start);
+  app.add_flag("--hard", is_hard);
+  std::vector<std::string> arguments = {
+      "/home/me/start.json", "--start", "--hard", "0.5", "--sigma",
+      "/home/me/site"};  // CLI11 takes them reversed
+  app.parse(arguments);
+  EXPECT_EQ(CommandLine(app), "insitu-nothing SITE --sigma 0.5 --start start.json --hard");
+}
+
+}  // namespace
+}  // namespace insitu

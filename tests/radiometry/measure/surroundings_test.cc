@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "radiometry/measure/surroundings.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "tests/radiometry/measure/synthetic_site.h"
+
+namespace insitu {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+const Eigen::Vector3d kRadiance(0.3, 0.2, 0.1);
+
+// The synthetic site's ground and wall, photographed in one colour.
+class SurroundingsTest : public testing::Test {
+ protected:
+  void SetUp() override {
+    scene_ = MakeSyntheticSite(std::string("surroundings_") +
+                               testing::UnitTest::GetInstance()->current_test_info()->name())
+                 .scene;
+    photos_.resize(2);
+    for (Photograph& photo : photos_) {
+      photo.linear = Raster(900, 600);
+      for (int y = 0; y < 600; ++y) {
+        for (int x = 0; x < 900; ++x) photo.linear.SetRgb(x, y, kRadiance);
+      }
+    }
+  }
+
+  std::vector<Spectrum> Gather(const std::vector<SurfacePoint>& points,
+                               const Atmosphere& air = {}) const {
+    const PolygonMesh polygons = MeshOfPolygons(scene_);
+    const RayScene rays(polygons.mesh);
+    std::vector<LocalImage> images;
+    for (size_t i = 0; i < photos_.size(); ++i) {
+      images.emplace_back(scene_.cameras[i], scene_.origin, photos_[i].linear);
+    }
+    return GatherSurroundings(points,
+                              {scene_, rays, polygons.polygon_of_triangle, images, air, spectra_});
+  }
+
+  SurfacePoint OnGround(double x, double y) const {
+    return {Eigen::Vector3d(x, y, 0), Eigen::Vector3d::UnitZ()};
+  }
+  SurfacePoint OnWall(double x, double z) const {
+    return {Eigen::Vector3d(x, 10, z), -Eigen::Vector3d::UnitY()};
+  }
+
+  double RelativeError(const Spectrum& irradiance, double solid_angle) const {
+    const Eigen::Vector3d expected = solid_angle * kRadiance;
+    return (spectra_.RgbFromSpectrum(irradiance) - expected).norm() / expected.norm();
+  }
+
+  SceneGeometry scene_;
+  std::vector<Photograph> photos_;
+  SpectralBasis spectra_;
+};
+
+TEST_F(SurroundingsTest, AWallReceivesHalfItsLightFromTheGround) {
+  EXPECT_LT(RelativeError(Gather({OnWall(0, 2)})[0], kPi / 2), 0.01);
+}
+
+TEST_F(SurroundingsTest, GroundReceivesWhatTheWallHidesOfTheSky) {
+  for (const double to_wall : {4.0, 8.0}) {
+    const double elevation = std::atan(6 / to_wall);
+    const double hidden = kPi * (1 - std::cos(elevation)) / 2;
+    EXPECT_LT(RelativeError(Gather({OnGround(0, 10 - to_wall)})[0], hidden), 0.06) << to_wall;
+  }
+}
+
+TEST_F(SurroundingsTest, HazeIsTakenOff) {
+  Atmosphere air;
+  air.horizon = 2 * spectra_.SpectrumFromRgb(kRadiance);
+  air.transmittance.setConstant(0.99);
+  const Spectrum hazy = Gather({OnWall(0, 2)}, air)[0];
+  EXPECT_LT((hazy / Gather({OnWall(0, 2)})[0]).maxCoeff(), 0.95);
+}
+
+TEST_F(SurroundingsTest, WhatNoPhotographShowsCountsAsTheMean) {
+  // From behind the wall nothing is seen but its unphotographed back.
+  const SurfacePoint behind = OnGround(0, 14);
+  EXPECT_TRUE(Gather({behind}).empty());
+  const double hidden = kPi * (1 - std::cos(std::atan(6 / 4.0))) / 2;
+  EXPECT_LT(RelativeError(Gather({behind, OnWall(0, 2)})[0], hidden), 0.06);
+}
+
+}  // namespace
+}  // namespace insitu

@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "renderer/building/artificial_environment.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "calibration/files/error.h"
+#include "calibration/files/whole_file.h"
+#include "tests/calibration/files/scratch_folder.h"
+
+namespace insitu {
+namespace {
+
+using testing::HasSubstr;
+
+ArtificialEnvironment GlazedTriangle() {
+  ArtificialEnvironment environment;
+  environment.materials = {{"WALL", {0.1, 1.0 / 3, 0.7}, 0.9, std::nullopt, {}, 0, 0, "wall.png"},
+                           {"GLASS", {0.03, 0.03, 0.03}, 1, Specular{0.8, 1.52}, {}, 0.1, 0.9, ""},
+                           {"MIRROR", {0, 0, 0}, 1, Specular{1, std::nullopt}, {}, 0, 0, ""}};
+  environment.vertices = {
+      {2600000.1, 1200000.2, 400.3}, {2600001, 1200000, 1.0 / 3}, {0, -1, 1e-9}};
+  environment.triangles = {{0, 1, 2}, {2, 1, 0}};
+  environment.material_of_triangle = {2, 0};
+  environment.lights = {{"lamp", {1, 2, 3}, {0.5, 0, 1e-7}, {}, {}, 0}};
+  return environment;
+}
+
+// What reading a site's description says; empty if it is read.
+std::string Complaint(const SitePaths& site) {
+  try {
+    ReadArtificialEnvironment(site);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+// Puts `with` in the place of `what` in building.json.
+void Edit(const SitePaths& site, const std::string& what, const std::string& with) {
+  std::string json = ReadWhole(site.artificial());
+  ASSERT_NE(json.find(what), std::string::npos) << json;
+  WriteWhole(site.artificial(), json.replace(json.find(what), what.size(), with));
+}
+
+TEST(ArtificialEnvironment, ReturnsFromItsFilesToTheLastBit) {
+  const ScratchFolder folder;
+  const SitePaths site{folder.path()};
+  const ArtificialEnvironment written = GlazedTriangle();
+  WriteArtificialEnvironment(site, written);
+  const ArtificialEnvironment read = ReadArtificialEnvironment(site);
+  EXPECT_EQ(read.vertices, written.vertices);
+  EXPECT_EQ(read.triangles, written.triangles);
+  EXPECT_EQ(read.material_of_triangle, written.material_of_triangle);
+  ASSERT_EQ(read.materials.size(), 3u);
+  for (int m = 0; m < 3; ++m) {
+    EXPECT_EQ(read.materials[m].name, written.materials[m].name);
+    EXPECT_EQ(read.materials[m].diffuse_rgb, written.materials[m].diffuse_rgb);
+    EXPECT_EQ(read.materials[m].diffuse_weight, written.materials[m].diffuse_weight);
+  }
+  EXPECT_FALSE(read.materials[0].specular);
+  EXPECT_EQ(read.materials[1].specular->weight, 0.8);
+  EXPECT_EQ(read.materials[1].specular->index, 1.52);
+  EXPECT_EQ(read.materials[2].specular->index, std::nullopt);
+  ASSERT_EQ(read.lights.size(), 1u);
+  EXPECT_EQ(read.lights[0].name, "lamp");
+  EXPECT_EQ(read.lights[0].position, written.lights[0].position);
+  EXPECT_EQ(read.lights[0].intensity_rgb, written.lights[0].intensity_rgb);
+}
+
+TEST(ArtificialEnvironment, KeepsWhatTheRendererDoesNotShow) {
+  const ScratchFolder folder;
+  ArtificialEnvironment written = GlazedTriangle();
+  written.materials[2].reflectance = {{400, 0.1}, {700, 0.9}};
+  written.corner_normals.assign(6, Eigen::Vector3f(0, 0.6f, 0.8f));
+  written.corner_uvs = {{0, 0}, {1, 0}, {0, 1}, {0.5f, 0.25f}, {2, 2}, {-1, 3}};
+  written.lights[0].distribution =
+      LightDistribution{Eigen::Matrix3d::Identity(), {0, 30, 90}, {0, 90}, {1, 0.5, 0, 1, 0.4, 0}};
+  written.lights[0].spectrum = {{380, 1}, {780, 2}};
+  written.lights[0].candela = 120;
+  WriteArtificialEnvironment({folder.path()}, written);
+  const ArtificialEnvironment read = ReadArtificialEnvironment({folder.path()});
+  EXPECT_EQ(read.materials[0].texture, "wall.png");
+  EXPECT_EQ(read.materials[1].roughness, 0.1);
+  EXPECT_EQ(read.materials[1].transmission, 0.9);
+  EXPECT_EQ(read.materials[2].reflectance, written.materials[2].reflectance);
+  EXPECT_EQ(read.corner_normals, written.corner_normals);
+  EXPECT_EQ(read.corner_uvs, written.corner_uvs);
+  ASSERT_TRUE(read.lights[0].distribution);
+  EXPECT_EQ(read.lights[0].distribution->values, written.lights[0].distribution->values);
+  EXPECT_EQ(read.lights[0].spectrum, written.lights[0].spectrum);
+  EXPECT_EQ(read.lights[0].candela, 120);
+  EXPECT_EQ(NotShown(read).size(), 3u);
+}
+
+TEST(ArtificialEnvironment, SameInputSameBytes) {
+  const ScratchFolder one, two;
+  for (const ScratchFolder* folder : {&one, &two}) {
+    WriteArtificialEnvironment({folder->path()}, GlazedTriangle());
+  }
+  for (const char* name : {"work/building.json", "work/building.bin"}) {
+    EXPECT_EQ(ReadWhole(one.path() / name), ReadWhole(two.path() / name));
+  }
+}
+
+TEST(ArtificialEnvironment, EmptyBuildingIsOne) {
+  const ScratchFolder folder;
+  WriteArtificialEnvironment({folder.path()}, {});
+  EXPECT_TRUE(ReadArtificialEnvironment({folder.path()}).triangles.empty());
+}
+
+TEST(ArtificialEnvironment, FilesThatDoNotBelongTogether) {
+  const ScratchFolder folder;
+  const SitePaths site{folder.path()};
+  WriteArtificialEnvironment(site, GlazedTriangle());
+  std::string mesh = ReadWhole(folder.path() / "work/building.bin");
+  WriteWhole(folder.path() / "work/building.bin", mesh.substr(0, mesh.size() - 1));
+  EXPECT_THAT(Complaint(site), HasSubstr("building.bin: does not belong to building.json"));
+  mesh[5] ^= 1;
+  WriteWhole(folder.path() / "work/building.bin", mesh);
+  EXPECT_THAT(Complaint(site), HasSubstr("building.bin: does not belong to building.json"));
+  std::filesystem::remove(folder.path() / "work/building.bin");
+  EXPECT_THAT(Complaint(site), HasSubstr("building.bin"));
+}
+
+TEST(ArtificialEnvironment, BadInput) {
+  const ScratchFolder folder;
+  const SitePaths site{folder.path()};
+  EXPECT_THAT(Complaint(site), HasSubstr("building.json"));
+  WriteArtificialEnvironment(site, GlazedTriangle());
+  Edit(site, "\"vertices\" : 3", "\"vertices\" : -3");
+  EXPECT_THAT(Complaint(site), HasSubstr("is negative, expected a count"));
+  WriteArtificialEnvironment(site, GlazedTriangle());
+  Edit(site, "\"version\" : 2", "\"version\" : 7");
+  EXPECT_THAT(Complaint(site), HasSubstr("is not a version this program reads, expected 2"));
+}
+
+TEST(ArtificialEnvironment, IndicesOutOfRange) {
+  const ScratchFolder folder;
+  const SitePaths site{folder.path()};
+  ArtificialEnvironment faulty = GlazedTriangle();
+  faulty.triangles[1][2] = 3;
+  WriteArtificialEnvironment(site, faulty);
+  EXPECT_THAT(Complaint(site), HasSubstr("triangle 1 names a vertex or a material"));
+  faulty = GlazedTriangle();
+  faulty.material_of_triangle[0] = -1;
+  WriteArtificialEnvironment(site, faulty);
+  EXPECT_THAT(Complaint(site), HasSubstr("triangle 0 names a vertex or a material"));
+}
+
+}  // namespace
+}  // namespace insitu

@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "renderer/trace/trace.h"
+
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+#include "tests/renderer/trace/small_site.h"
+
+namespace insitu {
+namespace {
+
+const SurfacePoint kLawnOrigin = {Eigen::Vector3d::Zero(), Eigen::Vector3d::UnitZ()};
+
+LightDirections WholeSky(const MontageScene& scene) {
+  return {scene.natural.light.sun_direction, 0, 1};
+}
+
+SurfaceMaterial Grey(double albedo) {
+  return {"grey", Eigen::Vector3d::Constant(albedo), 1, std::nullopt};
+}
+
+SurfaceMaterial BareMirror() {
+  return {"mirror", Eigen::Vector3d::Zero(), 1, Specular{1, std::nullopt}};
+}
+
+PrimaryRay Primary(const MontageScene& scene, const Eigen::Vector3d& origin,
+                   const Eigen::Vector3d& target) {
+  return {{origin, (target - origin).normalized()},
+          Eigen::Vector3d::Constant(kLawnRadiance),
+          WholeSky(scene)};
+}
+
+double Red(const MontageScene& scene, const Spectrum& stimulus) {
+  return scene.natural.spectra.RgbFromSpectrum(stimulus).x();
+}
+
+TEST(CaseA, RayIntoTheSkyChangesNothing) {
+  const SmallSite site = MakeSmallSite();
+  const MontageScene scene = site.With(Plate(site, {0, 0, 2}, 1, Grey(0.5)));
+  const RayOutcome outcome = TracePrimary(scene, Primary(scene, {0, -10, 3}, {0, 0, 20}));
+  EXPECT_FALSE(outcome.hits_building);
+  EXPECT_TRUE(outcome.rgb.isZero(0));
+}
+
+TEST(CaseB, SecondaryRayIntoTheSkyReturnsTheHorizonColor) {
+  const MontageScene scene = MakeSmallSite().With({});
+  const Spectrum L =
+      TraceSecondary(scene, {{0, 0, 1}, {0, 0, 1}}, WholeSky(scene), World::kWithBuilding, 1);
+  EXPECT_TRUE((L == scene.natural.air.horizon).all());
+}
+
+TEST(CaseB, BelowTheHorizonTheGroundGoesOnBeyondItsPolygon) {
+  const MontageScene scene = MakeSmallSite().With({});
+  const Ray ray = {{150, 0, 2}, Eigen::Vector3d(1, 0, -0.1).normalized()};  // lawn ends at 100 m
+  const Spectrum L = TraceSecondary(scene, ray, WholeSky(scene), World::kWithBuilding, 1);
+  EXPECT_NEAR(Red(scene, L), kLawnRadiance, 0.02);  // no photo shows it: its material's mean
+}
+
+// Open plate: sun 2 cos 45, sky pi 0.3, ambient pi 0.05, albedo over pi.
+TEST(CaseC, OpenHorizontalPlateHasItsClosedForm) {
+  const SmallSite site = MakeSmallSite();
+  const MontageScene scene = site.With(Plate(site, {0, 0, 2}, 1, Grey(0.4)));
+  const RayOutcome outcome = TracePrimary(scene, Primary(scene, {0, -3, 8}, {0, 0, 2}));
+  ASSERT_TRUE(outcome.hits_building);
+  const double E = 2 * std::sqrt(0.5) + std::numbers::pi * 0.35;
+  EXPECT_NEAR(outcome.rgb.x(), 0.4 / std::numbers::pi * E, 1e-4);
+  EXPECT_NEAR(outcome.rgb.y(), outcome.rgb.x(), 1e-9);
+}
+
+TEST(CaseC, HazeLiesBeforeTheBuilding) {
+  SmallSite site = MakeSmallSite();
+  site.natural.air.transmittance = 0.9 * site.natural.spectra.Ones();
+  const MontageScene scene = site.With(Plate(site, {0, 0, 2}, 1, Grey(0)));
+  const RayOutcome outcome = TracePrimary(scene, Primary(scene, {0, -3, 6}, {0, 0, 2}));
+  ASSERT_TRUE(outcome.hits_building);
+  EXPECT_NEAR(outcome.rgb.x(), 0.5 * (1 - std::pow(0.9, 5)), 1e-4);
+}
+
+TEST(CaseC, MirrorShowsThePhotographedLawn) {
+  const SmallSite site = MakeSmallSite();
+  // A standing mirror north of the lawn's origin throws the view back onto the lawn.
+  const MontageScene scene = site.With(Box(site, {-1, 1, 0}, {1, 2, 2}, BareMirror()));
+  const RayOutcome outcome = TracePrimary(scene, Primary(scene, {0, -10, 3}, {0, 1, 1}));
+  ASSERT_TRUE(outcome.hits_building);
+  EXPECT_NEAR(outcome.rgb.x(), kLawnRadiance, 1e-3);
+}
+
+TEST(CaseC, LampLightsTheBuilding) {
+  const SmallSite site = MakeSmallSite();
+  ArtificialEnvironment plate = Plate(site, {0, 0, 2}, 1, Grey(0.4));
+  const MontageScene dark = site.With(plate);
+  plate.lights = {{"lamp", site.natural.scene.origin + Eigen::Vector3d(0, 0, 4.02),
+                   Eigen::Vector3d::Constant(4 * std::numbers::pi)}};
+  const MontageScene lit = site.With(plate);
+  const auto red = [](const MontageScene& scene) {
+    return TracePrimary(scene, Primary(scene, {0, -3, 8}, {0, 0, 2})).rgb.x();
+  };
+  EXPECT_NEAR(red(lit) - red(dark), 0.4, 1e-4);  // 0.4 / pi * 4 pi / 2^2
+}
+
+TEST(CaseD1, BlackLampEqualsD2) {
+  const SmallSite site = MakeSmallSite();
+  ArtificialEnvironment lamp;
+  lamp.lights = {
+      {"black", site.natural.scene.origin + Eigen::Vector3d(0, 0, 2), Eigen::Vector3d::Zero()}};
+  const MontageScene scene = site.With(lamp);
+  const RayOutcome outcome = TracePrimary(scene, Primary(scene, {0, -10, 3}, {0, 0, 0}));
+  EXPECT_TRUE(outcome.rgb.isZero(0));
+}
+
+TEST(CaseD1, LampAddsInProportionToItsIrradiance) {
+  const SmallSite site = MakeSmallSite();
+  ArtificialEnvironment lamp;
+  lamp.lights = {{"lamp", site.natural.scene.origin + Eigen::Vector3d(0, 0, 2 + kSurveyClearance),
+                  Eigen::Vector3d::Constant(4)}};
+  const MontageScene scene = site.With(lamp);
+  const RayOutcome outcome = TracePrimary(scene, Primary(scene, {0, -10, 3}, {0, 0, 0}));
+  const double E_natural = 2 * std::sqrt(0.5) + std::numbers::pi * 0.35;
+  EXPECT_NEAR(outcome.rgb.x(), kLawnRadiance * 1.0 / E_natural, 1e-4);  // E_lamp = 4 / 2^2
+}
+
+TEST(CaseD2, LitByTheSameLightAsBeforeIsExactlyUnchanged) {
+  const SmallSite site = MakeSmallSite();
+  const MontageScene scene = site.With(Plate(site, {0, 0, -3}, 1, Grey(0.5)));
+  EXPECT_TRUE(TracePrimary(scene, Primary(scene, {0, -10, 3}, {0, 0, 0})).rgb.isZero(0));
+}
+
+TEST(CaseD3, BlockedSunIsTheQuotientOfIrradiances) {
+  SmallSite site = MakeSmallSite();
+  site.natural.light.sky_radiance.setZero();
+  // A small plate far along the sun's direction hides the sun and nothing else.
+  const MontageScene scene = site.With(Plate(site, {20, 0, 20}, 2, Grey(0.5)));
+  const RayOutcome outcome = TracePrimary(scene, Primary(scene, {0, -10, 3}, {0, 0, 0}));
+  const double E_s = 2 * std::sqrt(0.5), E_u = std::numbers::pi * 0.05;
+  EXPECT_NEAR(kLawnRadiance + outcome.rgb.x(), kLawnRadiance * E_u / (E_s + E_u), 1e-6);
+}
+
+TEST(CaseD3, NeverNegativeNeverBrighterAndSunlessUnderACover) {
+  SmallSite site = MakeSmallSite();
+  site.natural.light.ambient_radiance.setZero();
+  const MontageScene scene = site.With(Plate(site, {0, 0, 0.5}, 50, Grey(0.5)));
+  for (int i = 0; i < 200; ++i) {
+    const SurfacePoint p = {{0.4 * i - 60, 0.1 * i, 0}, Eigen::Vector3d::UnitZ()};
+    const Spectrum L0 = scene.natural.spectra.SpectrumFromRgb(Eigen::Vector3d(0.1, 0.002 * i, 0.3));
+    const Spectrum change = DiffuseChange(scene, p, L0, 1, WholeSky(scene));
+    EXPECT_TRUE((change <= 0).all());
+    EXPECT_TRUE((L0 + change >= 0).all());
+  }
+}
+
+TEST(NaturalMirror, WaterShowsTheBuildingOnlyWhereItsReflectionFalls) {
+  SmallSite site = MakeSmallSite();
+  site.natural.materials["lawn"].specular = Specular{1, 1.33};
+  site.natural.light.sky_radiance.setZero();
+  site.natural.light.sun_radiance.setZero();  // no shadows: only the mirror changes anything
+  const MontageScene scene = site.With(Box(site, {-1, 5, 0.5}, {1, 6, 4}, Grey(0)));
+  const RayOutcome meets = TracePrimary(scene, Primary(scene, {0, -10, 3}, {0, 2, 0}));
+  EXPECT_LT(meets.rgb.x(), -0.01);  // black instead of horizon
+  const RayOutcome misses = TracePrimary(scene, Primary(scene, {0, -10, 3}, {-9, 2, 0}));
+  EXPECT_TRUE(misses.rgb.isZero(0));
+}
+
+TEST(TraceSecondary, WithoutInfluenceBothWorldsAreBitEqual) {
+  const SmallSite site = MakeSmallSite();
+  const MontageScene scene = site.With(Plate(site, {0, 0, -3}, 1, Grey(0.5)));
+  const Ray ray = {{0, -5, 2}, Eigen::Vector3d(0.1, 0.6, -0.4).normalized()};
+  const Spectrum a = TraceSecondary(scene, ray, WholeSky(scene), World::kSiteOnly, 1);
+  const Spectrum b = TraceSecondary(scene, ray, WholeSky(scene), World::kWithBuilding, 1);
+  EXPECT_TRUE((a == b).all());
+  EXPECT_NEAR(Red(scene, a), kLawnRadiance, 1e-6);
+}
+
+}  // namespace
+}  // namespace insitu
