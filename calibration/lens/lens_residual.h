@@ -4,11 +4,15 @@
 
 #include <Eigen/Core>
 #include <string>
+#include <variant>
 #include <vector>
 
-#include "reconstruction/network/network.h"
+#include "calibration/lens/camera.h"
+#include "calibration/lens/metric_camera.h"
 
 namespace insitu {
+
+using Lens = std::variant<Camera, MetricCamera>;
 
 // The lens's parameters as they stand: mrcal's intrinsics, or MetricCamera::parameters.
 std::vector<double> LensParameters(const Lens& lens);

@@ -9,14 +9,11 @@
 #include <variant>
 #include <vector>
 
-#include "calibration/lens/camera.h"
-#include "calibration/lens/metric_camera.h"
+#include "calibration/lens/lens_residual.h"
 
 namespace insitu {
 
 // ---- unknowns ------------------------------------------------------------------------------
-
-using Lens = std::variant<Camera, MetricCamera>;
 
 // An interior orientation, shared by photos.
 struct NetworkCamera {

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "calibration/lens/lens_residual.h"
+#include "reconstruction/network/network.h"
 
 namespace insitu {
 
