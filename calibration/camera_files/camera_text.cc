@@ -110,27 +110,6 @@ Fisheye FisheyeOf(const std::string& model, const std::vector<double>& p) {
   return lens;
 }
 
-// ---- AICON ---------------------------------------------------------------------------------
-
-constexpr size_t kAiconNumbers = 17;
-
-MetricCamera AiconCamera(const fs::path& path, const std::vector<Word>& words, size_t first) {
-  std::vector<double> n;
-  for (size_t i = 0; i < kAiconNumbers; ++i) n.push_back(Number(path, words[first + i]));
-  // number, -999, c xh yh A1 A2 r0, A3, B1 B2, C1 C2, width height [mm], width height [px]
-  MetricCamera camera;
-  camera.model = MetricModel::kBalancedRadial;
-  camera.width = static_cast<int>(n[15]);
-  camera.height = static_cast<int>(n[16]);
-  camera.pixel_mm = {n[13] / n[15], n[14] / n[16]};
-  camera.origin_px = {(n[15] - 1) / 2, (n[16] - 1) / 2};
-  camera.balanced_radius_mm = n[7];
-  camera.parameters = {-n[2], n[3], n[4], n[5], n[6], n[8], n[9], n[10], n[11], n[12]};
-  if (n[2] < 0 && n[13] > 0 && n[14] > 0 && n[15] > 0 && n[16] > 0) return camera;
-  throw InputError(path, words[first].line,
-                   "expected a negative principal distance and a sensor with its pixels");
-}
-
 }  // namespace
 
 CameraFile ReadColmapCamera(const fs::path& path, const CameraFileOptions& options) {
@@ -164,22 +143,6 @@ CameraFile ReadColmapCamera(const fs::path& path, const CameraFileOptions& optio
   return FittedCamera(
       path, line, format, [&](const Eigen::Vector2d& pixel) { return FovSight(p, pixel); },
       lens.width, lens.height);
-}
-
-CameraFile ReadAiconCamera(const fs::path& path, const CameraFileOptions& options) {
-  const std::vector<Word> words = Words(path);
-  if (words.empty() || words.size() % kAiconNumbers != 0) {
-    throw InputError(path, std::to_string(words.size()) +
-                               " numbers, expected 17 a camera (number, -999, Ck, Xh, Yh, A1, A2, "
-                               "R0, A3, B1, B2, C1, C2, sensor width and height, pixels)");
-  }
-  for (size_t first = 0; first < words.size(); first += kAiconNumbers) {
-    if (words.size() > kAiconNumbers && words[first].text != options.camera) continue;
-    return MetricCameraFile(path, words[first].line, "AICON .ior", AiconCamera(path, words, first));
-  }
-  throw InputError(path, "holds " + std::to_string(words.size() / kAiconNumbers) +
-                             " cameras, expected one, or to stand in a folder named after its "
-                             "number");
 }
 
 }  // namespace insitu

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <map>
 
-#include "reconstruction/exchange/import_project.h"
+#include "calibration/camera_files/aicon_camera.h"
 #include "reconstruction/exchange/survey_readers.h"
 
 namespace insitu {
@@ -112,15 +112,14 @@ void ReadAiconMarks(const SurveyText& text, SurveyFile* file) {
     throw InputError(
         text.path, "marks in mm need the camera beside them, \"" + ior.filename().string() + "\"");
   }
-  const std::vector<NetworkCamera> cameras = ReadAiconCameras(ior);
+  const std::vector<AiconCamera> cameras = ReadAiconCameras(ior);
   if (cameras.size() != 1) throw InputError(ior, "expected one camera for the marks of all photos");
-  const auto& lens = std::get<MetricCamera>(cameras[0].lens);
   int flagged = 0;
   for (const TextRow& row : text.rows) {
     const Eigen::Vector2d mm(row.Number(2, "x"), row.Number(3, "y"));
     if (row.Integer(9, "flag") == 0 && ++flagged) continue;
-    file->marks.push_back({row.Text(0, "photo"), row.Text(1, "point"), AiconPixel(lens, mm),
-                           std::nullopt, PlaceOf(row)});
+    file->marks.push_back({row.Text(0, "photo"), row.Text(1, "point"),
+                           AiconPixel(cameras[0].lens, mm), std::nullopt, PlaceOf(row)});
   }
   if (flagged) file->remarks.push_back(std::to_string(flagged) + " marks are flagged as unused");
 }
