@@ -31,6 +31,10 @@ void ListOptions(const CLI::App& app) {
 
 }  // namespace
 
+void AddSite(CLI::App* app, SitePaths* site) {
+  app->add_option("SITE", site->root, "site folder")->required()->check(CLI::ExistingDirectory);
+}
+
 int RunProgram(CLI::App& app, int argc, char** argv, const std::function<void()>& run) {
   app.set_version_flag("--version", app.get_name() + " " INSITU_VERSION);
   if (argc == 2 && std::string_view(argv[1]) == kListOptions) {
