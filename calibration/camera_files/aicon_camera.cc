@@ -48,7 +48,7 @@ MetricCamera LensOf(const TextRow* words) {
                                        "sensor width",
                                        "sensor height"};
   std::vector<double> n(std::size(kNames), 0);
-  for (size_t i = 2; i < n.size(); ++i) n[i] = words[i].Number(0, kNames[i]);
+  for (size_t i = 0; i < n.size(); ++i) n[i] = words[i].Number(0, kNames[i]);
   if (!(n[2] < 0)) {
     throw words[2].Error("ck is not negative, as AICON's principal distances are");
   }
