@@ -1,80 +1,71 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <charconv>
+#include "calibration/camera_files/colmap_cameras.h"
+
 #include <cmath>
-#include <map>
+#include <limits>
 #include <set>
-#include <sstream>
 
 #include "calibration/camera_files/camera_file_formats.h"
-#include "calibration/files/whole_file.h"
-#include "calibration/lens/colmap_lens.h"
+#include "calibration/files/text_table.h"
 
 namespace insitu {
 namespace fs = std::filesystem;
 namespace {
 
-struct Word {
-  int line;
-  std::string text;
-};
+// ---- the table -----------------------------------------------------------------------------
 
-std::vector<Word> Words(const fs::path& path) {
-  std::istringstream stream(ReadWhole(path));
-  std::vector<Word> words;
-  std::string text;
-  for (int line = 1; std::getline(stream, text); ++line) {
-    std::istringstream cells(text);
-    for (std::string word; cells >> word && !word.starts_with('#');) words.push_back({line, word});
+uint32_t IdOf(const TextRow& row) {
+  const double id = row.Number(0, "the camera's id");
+  if (id >= 0 && id <= std::numeric_limits<uint32_t>::max() && id == std::floor(id)) {
+    return static_cast<uint32_t>(id);
   }
-  return words;
+  throw row.Error("camera id is \"" + row.words[0] + "\", expected a whole number");
 }
 
-double Number(const fs::path& path, const Word& word) {
-  double value = 0;
-  const char* end = word.text.data() + word.text.size();
-  const auto parsed = std::from_chars(word.text.data(), end, value);
-  if (parsed.ec == std::errc() && parsed.ptr == end && std::isfinite(value)) return value;
-  throw InputError(path, word.line, "\"" + word.text + "\", expected a finite number");
-}
-
-// ---- COLMAP --------------------------------------------------------------------------------
-// [colmap.github.io/cameras.html, src/colmap/sensor/models.h]
-
-struct ColmapLine {
-  int line = 0;
-  std::string id;
+ColmapLens LensOf(const TextRow& row) {
+  if (row.words.size() < 5) {
+    throw row.Error("cut short, expected CAMERA_ID MODEL WIDTH HEIGHT PARAMS");
+  }
   ColmapLens lens;
-};
-
-std::vector<ColmapLine> ReadColmapLines(const fs::path& path) {
-  std::map<int, std::vector<Word>> lines;
-  for (const Word& word : Words(path)) lines[word.line].push_back(word);
-  std::vector<ColmapLine> cameras;
-  for (const auto& [line, words] : lines) {
-    if (words.size() < 5) {
-      throw InputError(path, line, "cut short, expected CAMERA_ID MODEL WIDTH HEIGHT PARAMS");
-    }
-    ColmapLine camera{line,
-                      words[0].text,
-                      {words[1].text,
-                       static_cast<int>(Number(path, words[2])),
-                       static_cast<int>(Number(path, words[3])),
-                       {}}};
-    for (size_t i = 4; i < words.size(); ++i) {
-      camera.lens.params.push_back(Number(path, words[i]));
-    }
-    cameras.push_back(camera);
+  lens.model = row.words[1];
+  const auto model = FindColmapLensModel(lens.model);
+  if (!model) throw row.Error("lens model '" + lens.model + "' is not one of COLMAP's");
+  lens.width = row.Integer(2, "the width");
+  lens.height = row.Integer(3, "the height");
+  if (lens.width <= 0 || lens.height <= 0) {
+    throw row.Error("a frame without pixels, expected WIDTH and HEIGHT");
   }
-  return cameras;
+  for (size_t i = 4; i < row.words.size(); ++i) {
+    lens.params.push_back(row.Number(i, "a parameter of the lens"));
+  }
+  if (static_cast<size_t>(model->params) == lens.params.size()) return lens;
+  throw row.Error(std::to_string(lens.params.size()) + " parameters, expected " +
+                  std::to_string(model->params) + " of " + lens.model);
 }
 
-ColmapLine ChooseColmapLine(const fs::path& path, const std::string& id) {
-  const std::vector<ColmapLine> cameras = ReadColmapLines(path);
-  if (cameras.size() == 1) return cameras.front();
+// "# Number of cameras: 3" at its head tells a file cut short.
+void RequireCount(const fs::path& path, const std::string& content, size_t cameras) {
+  constexpr std::string_view kHead = "# Number of cameras: ";
+  const size_t head = content.find(kHead);
+  if (head == std::string::npos) return;
+  const size_t begin = head + kHead.size();
+  const std::vector<std::string> words =
+      SplitAtBlanks(content.substr(begin, content.find('\n', begin) - begin));
+  const auto count = words.empty() ? std::nullopt : ParseNumber(words[0]);
+  if (!count || *count == static_cast<double>(cameras)) return;
+  throw InputError(path, "ends after " + std::to_string(cameras) + " entries, expected " +
+                             words[0] + " as its head says");
+}
+
+// ---- as a camera file ----------------------------------------------------------------------
+
+ColmapCamera ChooseCamera(const fs::path& path, const std::string& id) {
+  const std::map<uint32_t, ColmapCamera> cameras = ReadColmapCameras(path);
+  if (cameras.size() == 1) return cameras.begin()->second;
   std::string ids;
-  for (const ColmapLine& camera : cameras) {
-    if (camera.id == id) return camera;
-    ids += " " + camera.id;
+  for (const auto& [number, camera] : cameras) {
+    if (std::to_string(number) == id) return camera;
+    ids += " " + std::to_string(number);
   }
   throw InputError(path, "holds " + std::to_string(cameras.size()) + " cameras," + ids +
                              ", expected one, or to stand in a folder named after its number");
@@ -112,36 +103,37 @@ Fisheye FisheyeOf(const std::string& model, const std::vector<double>& p) {
 
 }  // namespace
 
+std::map<uint32_t, ColmapCamera> ReadColmapCameras(const fs::path& path) {
+  const std::string content = ReadTextFile(path);
+  std::map<uint32_t, ColmapCamera> cameras;
+  for (const TextRow& row : SplitTextRows(path, content, WordSeparator::kBlanks)) {
+    const uint32_t id = IdOf(row);
+    if (cameras.emplace(id, ColmapCamera{LensOf(row), {path, row.line}}).second) continue;
+    throw row.Error("camera " + std::to_string(id) + " occurs twice");
+  }
+  RequireCount(path, content, cameras.size());
+  return cameras;
+}
+
 CameraFile ReadColmapCamera(const fs::path& path, const CameraFileOptions& options) {
-  const auto [line, id, lens] = ChooseColmapLine(path, options.camera);
-  const auto model = FindColmapLensModel(lens.model);
-  const auto error = [&, line = line](const std::string& message) {
-    return InputError(path, line, message);
-  };
-  if (model && static_cast<size_t>(model->params) != lens.params.size()) {
-    throw error(std::to_string(lens.params.size()) + " parameters, expected " +
-                std::to_string(model->params) + " of " + lens.model);
-  }
-  if (lens.width <= 0 || lens.height <= 0) {
-    throw error("a frame without pixels, expected WIDTH and HEIGHT");
-  }
+  const auto [lens, place] = ChooseCamera(path, options.camera);
   const std::string format = "COLMAP " + lens.model;
-  if (model) {
-    if (const auto camera = CameraFromColmap(lens)) return {*camera, format, 0, std::nullopt};
-  }
+  if (const auto camera = CameraFromColmap(lens)) return {*camera, format, 0, std::nullopt};
   static const std::set<std::string> kFitted = {"SIMPLE_RADIAL_FISHEYE", "RADIAL_FISHEYE",
                                                 "OPENCV_FISHEYE", "THIN_PRISM_FISHEYE", "FOV"};
-  if (!model || !kFitted.contains(lens.model)) {
-    throw error("model " + lens.model +
-                " is not read, or its numbers are not a lens's; expected "
-                "one of COLMAP 3.8, e.g. OPENCV");
+  if (!kFitted.contains(lens.model)) {
+    throw InputError(path, place.line,
+                     "model " + lens.model +
+                         " is not read, or its numbers are not a lens's; expected "
+                         "one of COLMAP 3.8, e.g. OPENCV");
   }
   const std::vector<double> p = WithTwoFocalLengths(lens);
   if (lens.model != "FOV") {
-    return FisheyeCamera(path, line, format, FisheyeOf(lens.model, p), lens.width, lens.height);
+    return FisheyeCamera(path, place.line, format, FisheyeOf(lens.model, p), lens.width,
+                         lens.height);
   }
   return FittedCamera(
-      path, line, format, [&](const Eigen::Vector2d& pixel) { return FovSight(p, pixel); },
+      path, place.line, format, [&](const Eigen::Vector2d& pixel) { return FovSight(p, pixel); },
       lens.width, lens.height);
 }
 

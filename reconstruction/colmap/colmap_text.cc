@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <string_view>
 
+#include "calibration/camera_files/colmap_cameras.h"
 #include "calibration/files/whole_file.h"
 #include "reconstruction/colmap/colmap_files.h"
 
@@ -145,26 +146,9 @@ class TextFile {
 };
 
 void ReadCameras(ColmapFiles* files) {
-  TextFile file(files->cameras_path);
-  while (auto words = file.NextEntry()) {
-    const auto id = words->Whole<uint32_t>("camera id");
-    ColmapLens lens;
-    lens.model = words->Word("lens model");
-    const auto model = FindColmapLensModel(lens.model);
-    if (!model) throw words->Error("lens model '" + lens.model + "' is not one of COLMAP's");
-    lens.width = words->Whole<int>("width");
-    lens.height = words->Whole<int>("height");
-    if (lens.width <= 0 || lens.height <= 0) throw words->Error("expected a size above 0");
-    for (int i = 0; i < model->params; ++i) lens.params.push_back(words->Number("lens parameter"));
-    if (!words->IsAtEnd()) {
-      throw words->Error("expected " + std::to_string(model->params) + " parameters of " +
-                         lens.model);
-    }
-    if (!files->model.cameras.emplace(id, lens).second) {
-      throw words->Error("camera " + std::to_string(id) + " occurs twice");
-    }
+  for (const auto& [id, camera] : ReadColmapCameras(files->cameras_path)) {
+    files->model.cameras.emplace(id, camera.lens);
   }
-  file.RequireCount(files->model.cameras.size());
 }
 
 Rigid3 ReadPose(Words* words) {
