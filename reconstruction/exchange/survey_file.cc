@@ -2,7 +2,7 @@
 #include "reconstruction/exchange/survey_file.h"
 
 #include "calibration/program/site.h"
-#include "reconstruction/exchange/survey_readers.h"
+#include "reconstruction/exchange/survey_file_formats.h"
 
 namespace insitu {
 namespace {

@@ -6,7 +6,7 @@
 #include <set>
 #include <sstream>
 
-#include "reconstruction/exchange/survey_readers.h"
+#include "reconstruction/exchange/survey_file_formats.h"
 
 namespace insitu {
 namespace {

@@ -6,7 +6,7 @@
 #include <map>
 
 #include "calibration/camera_files/aicon_camera.h"
-#include "reconstruction/exchange/survey_readers.h"
+#include "reconstruction/exchange/survey_file_formats.h"
 
 namespace insitu {
 namespace {

@@ -3,7 +3,7 @@
 #include <map>
 
 #include "reconstruction/exchange/dbat_script.h"
-#include "reconstruction/exchange/survey_readers.h"
+#include "reconstruction/exchange/survey_file_formats.h"
 
 namespace insitu {
 namespace {
