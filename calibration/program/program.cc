@@ -20,6 +20,10 @@ constexpr int kFailure = 1;
 
 }  // namespace
 
+void AddSite(CLI::App* app, SitePaths* site) {
+  app->add_option("SITE", site->root, "site folder")->required()->check(CLI::ExistingDirectory);
+}
+
 int RunProgram(CLI::App& app, int argc, char** argv, const std::function<void()>& run) {
   app.set_version_flag("--version", app.get_name() + " " INSITU_VERSION);
   try {

@@ -7,7 +7,12 @@
 #include <memory>
 #include <string>
 
+#include "calibration/program/site.h"
+
 namespace insitu {
+
+// The argument SITE, which every program on a site takes first: a folder that is there.
+void AddSite(CLI::App* app, SitePaths* site);
 
 // Parses the command line with `app` and calls `run`. Status 0; 2 for bad input (InputError, wrong
 // options), 1 for any other failure, with one line on stderr.
