@@ -6,6 +6,7 @@
 #include <cstdio>
 
 #include "reconstruction/geometry/plane.h"
+#include "reconstruction/geometry/triangulate.h"
 
 namespace insitu {
 namespace {
