@@ -19,48 +19,48 @@ class RowNamer {
   explicit RowNamer(const Network& network) : network_(network) {}
 
   ObservationResidual Name(const ObservationRow& row, std::optional<int>* point) const {
-    if (row.kind == ObservationKind::kLens) return {"lens", "", Parameter(row)};
+    if (row.kind == ObservationRow::Kind::kLens) return {"lens", "", Parameter(row)};
     const std::string axis(1, "xyz"[row.component]);
     switch (row.kind) {
-      case ObservationKind::kMark: {
+      case ObservationRow::Kind::kMark: {
         const MarkObservation& mark = network_.marks[row.index];
         *point = mark.point;
         return {"image " + axis, Photo(mark.photo), Point(mark.point), mark.pixel[row.component]};
       }
-      case ObservationKind::kEdge: {
+      case ObservationRow::Kind::kEdge: {
         const EdgeObservation& edge = network_.edges[row.index];
         return {"edge", Photo(edge.photo), Pair(edge.from, edge.to)};
       }
-      case ObservationKind::kControl: {
+      case ObservationRow::Kind::kControl: {
         const ControlObservation& control = network_.control[row.index];
         *point = control.point;
         return {"control " + axis, "", Point(control.point),
                 control.position[row.component] + network_.origin[row.component]};
       }
-      case ObservationKind::kCenter: {
+      case ObservationRow::Kind::kCenter: {
         const CenterObservation& center = network_.centers[row.index];
         return {"camera " + axis, Photo(center.photo), Photo(center.photo),
                 center.position[row.component] + network_.origin[row.component]};
       }
-      case ObservationKind::kPlane: {
+      case ObservationRow::Kind::kPlane: {
         const PlaneObservation& on_plane = network_.on_planes[row.index];
         *point = on_plane.point;
         return {"plane", "", network_.planes[on_plane.plane].name + " " + Point(on_plane.point)};
       }
-      case ObservationKind::kDirection: {
+      case ObservationRow::Kind::kDirection: {
         const DirectionObservation& pair = network_.along_directions[row.index];
         return {network_.directions[pair.direction].name, "", Pair(pair.from, pair.to)};
       }
-      case ObservationKind::kDistance: {
+      case ObservationRow::Kind::kDistance: {
         const DistanceObservation& d = network_.distances[row.index];
         return {"distance", "", Pair(d.from, d.to), d.distance};
       }
-      case ObservationKind::kHeight: {
+      case ObservationRow::Kind::kHeight: {
         const HeightObservation& h = network_.heights[row.index];
         return {"height", "", Pair(h.from, h.to), h.height};
       }
-      case ObservationKind::kLens:
-      case ObservationKind::kAngle:
+      case ObservationRow::Kind::kLens:
+      case ObservationRow::Kind::kAngle:
         break;
     }
     const AngleObservation& angle = network_.angles[row.index];

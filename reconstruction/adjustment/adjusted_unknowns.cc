@@ -172,7 +172,7 @@ std::vector<AdjustedPose> AdjustedPoses(const Network& network, const NetworkSol
   std::vector<double> squares(poses.size(), 0);
   std::vector<std::vector<cv::Point2f>> marks(poses.size());
   for (size_t row = 0; row < solution.rows.size(); ++row) {
-    if (solution.rows[row].kind != ObservationKind::kMark) continue;
+    if (solution.rows[row].kind != ObservationRow::Kind::kMark) continue;
     const MarkObservation& mark = network.marks[solution.rows[row].index];
     const double residual = solution.residuals[static_cast<Eigen::Index>(row)];
     squares[mark.photo] += residual * residual;
@@ -232,7 +232,7 @@ std::vector<AdjustedPoint> AdjustedPoints(const Network& network, const NetworkS
     points.push_back(adjusted);
   }
   for (size_t row = 0; row < solution.rows.size(); ++row) {
-    if (solution.rows[row].kind != ObservationKind::kMark) continue;
+    if (solution.rows[row].kind != ObservationRow::Kind::kMark) continue;
     const int point = network.marks[solution.rows[row].index].point;
     squares[point] += std::pow(solution.residuals[static_cast<Eigen::Index>(row)], 2);
     if (solution.rows[row].component == 0) ++points[point].rays;

@@ -73,7 +73,7 @@ InputError RankDefectError(const RankDefect& defect, const Network& network, con
 InputError NoSolutionError(const NoSolution& failure, const Network& network,
                            const Survey& survey) {
   const FilePlace place = PlaceOfObservations(survey);
-  if (!failure.row || failure.row->kind != ObservationKind::kMark) {
+  if (!failure.row || failure.row->kind != ObservationRow::Kind::kMark) {
     return InputError(place.path, "the adjustment fails: " + std::string(failure.what()) +
                                       ", expected marks that fit their points");
   }
