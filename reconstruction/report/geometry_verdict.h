@@ -9,8 +9,8 @@
 
 namespace insitu {
 
-// Appends to `objections`.
+// Appends to `findings`.
 void JudgeGeometry(const Adjustment& adjustment, const ReportContext& context,
-                   std::vector<Objection>* objections);
+                   std::vector<Finding>* findings);
 
 }  // namespace insitu
