@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "reconstruction/adjustment/adjusted_unknowns.h"
+
 #include <ceres/sphere_manifold.h>
 
 #include <algorithm>
@@ -6,7 +8,6 @@
 #include <opencv2/imgproc.hpp>
 
 #include "calibration/lens/lens_residual.h"
-#include "reconstruction/adjustment/adjusted_observations.h"
 
 namespace insitu {
 namespace {
@@ -91,8 +92,6 @@ Eigen::MatrixXd LensCorrelation(const Network& network, const NetworkSolution& s
   return pose.covariance.diagonal().cwiseSqrt().cwiseInverse().asDiagonal() * joint *
          lens_sigma.cwiseInverse().asDiagonal();
 }
-
-// Names the columns of one unknown.
 
 }  // namespace
 

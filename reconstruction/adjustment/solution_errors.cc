@@ -4,7 +4,7 @@
 #include <set>
 
 #include "calibration/files/wording.h"
-#include "reconstruction/adjustment/adjusted_observations.h"
+#include "reconstruction/adjustment/adjusted_unknowns.h"
 
 namespace insitu {
 namespace {

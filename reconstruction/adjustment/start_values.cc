@@ -26,8 +26,9 @@ constexpr double kWeakAngle = 1e-3;    // [rad]
 class StartFinder {
  public:
   StartFinder(const Survey& survey, const std::vector<std::string>& photos,
-              const std::vector<Camera>& cameras, const AdjustmentOptions& options)
-      : survey_(survey), options_(options) {
+              const std::vector<Camera>& cameras,
+              const std::map<std::string, Rigid3>& initial_cam_from_world)
+      : survey_(survey), initial_cam_from_world_(initial_cam_from_world) {
     for (size_t i = 0; i < photos.size(); ++i) {
       result_.cameras.push_back({photos[i], cameras[i], {}});
       index_of_photo_[photos[i]] = i;
@@ -222,8 +223,8 @@ class StartFinder {
                          const FilePlace& place) {
     PosedCamera& posed = result_.cameras[photo];
     std::optional<Rigid3> initial;
-    if (const auto given = options_.initial_cam_from_world.find(posed.photo);
-        given != options_.initial_cam_from_world.end()) {
+    if (const auto given = initial_cam_from_world_.find(posed.photo);
+        given != initial_cam_from_world_.end()) {
       initial = given->second;
     }
     const auto resection = insitu::Resect(posed.camera, points, initial);
@@ -352,7 +353,7 @@ class StartFinder {
   }
 
   const Survey& survey_;
-  const AdjustmentOptions& options_;
+  const std::map<std::string, Rigid3>& initial_cam_from_world_;
   StartValues result_;
   std::map<std::string, size_t> index_of_photo_;
   std::vector<bool> is_posed_;
@@ -363,9 +364,10 @@ class StartFinder {
 }  // namespace
 
 StartValues FindStartValues(const Survey& survey, const std::vector<std::string>& photos,
-                            const std::vector<Camera>& cameras, const AdjustmentOptions& options) {
+                            const std::vector<Camera>& cameras,
+                            const std::map<std::string, Rigid3>& initial_cam_from_world) {
   INSITU_CHECK(photos.size() == cameras.size());
-  return StartFinder(survey, photos, cameras, options).Find();
+  return StartFinder(survey, photos, cameras, initial_cam_from_world).Find();
 }
 
 }  // namespace insitu

@@ -246,7 +246,8 @@ void NetworkProblem::AddAngle(int index) {
   std::vector<double*> blocks;
   for (const UnitReference* reference : {&angle.first, &angle.second}) {
     if (const auto* edge = std::get_if<EdgeUnit>(reference)) {
-      blocks.insert(blocks.end(), {values_.Point(edge->from), values_.Point(edge->to)});
+      blocks.push_back(values_.Point(edge->from));
+      blocks.push_back(values_.Point(edge->to));
     } else {
       blocks.push_back(values_.Unit(*reference));
     }

@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "reconstruction/adjustment/adjustment.h"
+#include "reconstruction/adjustment/adjusted_survey.h"
 
 namespace insitu {
 

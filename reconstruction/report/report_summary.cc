@@ -15,7 +15,7 @@ std::string EigenVersion() {
          std::to_string(EIGEN_MINOR_VERSION);
 }
 
-Json::Value Options(const AdjustmentOptions& options) {
+Json::Value Options(const AdjustmentOptions& options, int start_estimates) {
   Json::Value json;
   json["plane_sigma_m"] = options.plane_sigma;
   json["hard_planes"] = options.has_hard_planes;
@@ -23,7 +23,7 @@ Json::Value Options(const AdjustmentOptions& options) {
   json["sun_sigma_m"] = options.sun_sigma;
   json["self_calibration"] = options.is_self_calibrating;
   json["significance"] = options.significance;
-  json["start_estimates"] = static_cast<Json::UInt64>(options.initial_cam_from_world.size());
+  json["start_estimates"] = start_estimates;
   return json;
 }
 
@@ -56,7 +56,7 @@ double ImageSigma(const Adjustment& adjustment) {
 Json::Value IdentitySection(const Adjustment& adjustment, const ReportContext& context) {
   Json::Value json;
   json["command"] = context.command;
-  json["options"] = Options(context.options);
+  json["options"] = Options(context.options, context.start_estimates);
   json["inputs"] = Json::Value(Json::arrayValue);
   for (const InputFile& input : context.inputs) {
     Json::Value file;

@@ -11,7 +11,9 @@
 #include <string>
 #include <vector>
 
-#include "reconstruction/adjustment/adjustment.h"
+#include "reconstruction/adjustment/adjusted_survey.h"
+#include "reconstruction/adjustment/adjustment_options.h"
+#include "reconstruction/survey/survey.h"
 
 namespace insitu {
 
@@ -41,6 +43,7 @@ bool IsCalibratedAt(const CameraContext& camera, const Eigen::Vector2d& pixel);
 // What the report says besides the adjustment; everything may be missing, and is then said to be.
 struct ReportContext {
   AdjustmentOptions options;
+  int start_estimates = 0;  // photos that the user placed
   std::string command;  // with its options, without paths
   std::vector<InputFile> inputs;
   std::map<std::string, std::string> programs;    // version of other programs used, by name

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "reconstruction/adjustment/adjust.h"
 #include "reconstruction/report/verdict.h"
 #include "tests/reconstruction/survey/synthetic_network.h"
 

@@ -12,6 +12,7 @@
 
 #include "calibration/files/json_file.h"
 #include "calibration/files/whole_file.h"
+#include "reconstruction/adjustment/adjust.h"
 #include "tests/calibration/program/embedded_report.h"
 #include "tests/reconstruction/survey/synthetic_network.h"
 

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "reconstruction/adjustment/adjust.h"
 #include "reconstruction/report/advice.h"
 #include "tests/reconstruction/survey/synthetic_network.h"
 
@@ -16,8 +17,9 @@ class Verdict : public testing::Test {
     options.plane_sigma = options.zenith_sigma = options.sun_sigma = 1e-4;
     const size_t count = network_.cameras[0].intrinsics().size();
     const Eigen::VectorXd sigma = Eigen::VectorXd::Constant(count, 1e-6);
-    options.lenses.assign(network_.photos.size(), {"camera", sigma.cwiseAbs2().asDiagonal()});
-    return Adjust(survey_, network_.photos, network_.cameras, options);
+    const PhotoLens lens{"camera", sigma.cwiseAbs2().asDiagonal()};
+    return Adjust(survey_, network_.photos, network_.cameras, options,
+                  std::vector<PhotoLens>(network_.photos.size(), lens));
   }
   // "single" is a vertex that one photo shows; surveyed, nothing is weak any more.
   void SurveyThePointOfOneRay() {

@@ -11,6 +11,7 @@
 
 #include "calibration/files/error.h"
 #include "calibration/files/whole_file.h"
+#include "reconstruction/adjustment/adjust.h"
 #include "reconstruction/adjustment/align_tie_points.h"
 #include "reconstruction/adjustment/start_values.h"
 #include "reconstruction/colmap/select_tie_points.h"
@@ -69,7 +70,7 @@ double LargestCenterError(const SyntheticNetwork& network,
 }
 
 StartValues Start(const SyntheticNetwork& network, const Survey& survey) {
-  return FindStartValues(survey, network.photos, network.cameras, {});
+  return FindStartValues(survey, network.photos, network.cameras);
 }
 
 class TiePointsFile : public testing::Test {

@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "reconstruction/adjustment/adjustment.h"
+#include "reconstruction/adjustment/adjust.h"
 
 #include <ceres/sphere_manifold.h>
 
 #include <algorithm>
 #include <cmath>
-#include <cstdarg>
-#include <cstdio>
 #include <set>
 #include <utility>
 
+#include "calibration/files/error.h"
+#include "calibration/files/wording.h"
 #include "reconstruction/adjustment/adjusted_observations.h"
+#include "reconstruction/adjustment/adjusted_unknowns.h"
 #include "reconstruction/adjustment/planarity.h"
 #include "reconstruction/adjustment/plane_effect.h"
 #include "reconstruction/adjustment/polygon_covariance.h"
@@ -132,16 +133,6 @@ std::map<std::string, StartPoint> JudgedPoints(const std::vector<AdjustedPoint>&
   return judged;
 }
 
-std::string Format(const char* format, ...) __attribute__((format(printf, 1, 2)));
-std::string Format(const char* format, ...) {
-  char line[256];
-  va_list arguments;
-  va_start(arguments, format);
-  std::vsnprintf(line, sizeof line, format, arguments);
-  va_end(arguments);
-  return line;
-}
-
 void WarnOfMasks(const Survey& survey, Adjustment* adjustment) {
   for (const PolygonOutline& polygon : survey.polygons) {
     if (!polygon.mask) continue;
@@ -171,7 +162,7 @@ void WarnOfMisnamedControl(const Survey& survey, Adjustment* adjustment) {
       if (distance > kSamePlace + 3 * sigma || sigma > 1) continue;
       adjustment->warnings.push_back(
           beginning + ", and point '" + there.name +
-          Format("', %.0f mm from it, has no coordinates: are they one? Expected: one name in all "
+          Number("', %.0f mm from it, has no coordinates: are they one? Expected: one name in all "
                  "files",
                  1000 * distance));
     }
@@ -242,13 +233,15 @@ NetworkSolution Solve(const Survey& survey, Network* network) {
   }
 }
 
-// Start values of a survey that does not contradict itself; what else looks odd becomes a warning.
+// Start values of a survey that does not contradict itself.
 StartValues FindSoundStart(const Survey& survey, const std::vector<std::string>& photos,
-                           const std::vector<Camera>& cameras, const AdjustmentOptions& options) {
+                           const std::vector<Camera>& cameras,
+                           const std::map<std::string, Rigid3>& initial_cam_from_world,
+                           double plane_sigma) {
   const std::vector<Diagnosis> diagnoses = RequireSound(survey, photos, cameras);
   try {
-    StartValues start = FindStartValues(survey, photos, cameras, options);
-    RequirePlanar(survey, start.points, options.plane_sigma);
+    StartValues start = FindStartValues(survey, photos, cameras, initial_cam_from_world);
+    RequirePlanar(survey, start.points, plane_sigma);
     for (const Diagnosis& diagnosis : diagnoses) start.warnings.push_back(Text(diagnosis));
     return start;
   } catch (const InputError& symptom) {
@@ -259,11 +252,14 @@ StartValues FindSoundStart(const Survey& survey, const std::vector<std::string>&
 }  // namespace
 
 Adjustment Adjust(const Survey& survey, const std::vector<std::string>& photos,
-                  const std::vector<Camera>& cameras, const AdjustmentOptions& options) {
-  INSITU_CHECK(options.plane_sigma > 0 && options.zenith_sigma > 0 && options.sun_sigma > 0);
-  INSITU_CHECK(options.lenses.empty() || options.lenses.size() == photos.size());
-  const StartValues start = FindSoundStart(survey, photos, cameras, options);
-  SurveyNetwork survey_network = MakeSurveyNetwork(survey, start, options);
+                  const std::vector<Camera>& cameras, const AdjustmentOptions& options,
+                  const std::vector<PhotoLens>& lenses,
+                  const std::map<std::string, Rigid3>& initial_cam_from_world) {
+  options.Check();
+  INSITU_CHECK(lenses.empty() || lenses.size() == photos.size());
+  const StartValues start =
+      FindSoundStart(survey, photos, cameras, initial_cam_from_world, options.plane_sigma);
+  SurveyNetwork survey_network = MakeSurveyNetwork(survey, start, lenses, options);
   const NetworkSolution solution = Solve(survey, &survey_network.network);
   const Network& network = survey_network.network;
 
@@ -290,31 +286,6 @@ Adjustment Adjust(const Survey& survey, const std::vector<std::string>& photos,
   RequireSimpleOutlines(survey, JudgedPoints(adjustment.points));
   adjustment.scene = AdjustedScene(survey, survey_network, solution, adjustment);
   return adjustment;
-}
-
-std::string Adjustment::BriefReport() const {
-  std::string text = Format(
-      "%zu photos, %zu points, %zu polygons: %d observations, %d unknowns, redundancy %d\n",
-      poses.size(), points.size(), scene.polygons.size(), observations, unknowns, redundancy);
-  text += Format("sigma0 %.3f (1 expected; p of the global test %.3f), %d iterations\n", sigma0,
-                 chi_square_p, iterations);
-  for (const AdjustedPose& pose : poses) {
-    const Eigen::Vector3d sigma = pose.covariance.diagonal().tail<3>().cwiseSqrt();
-    text += Format("photo %s: %d points, RMS %.2f px, camera to %.1f mm\n", pose.photo.c_str(),
-                   pose.points, pose.rms_px, 1000 * sigma.norm());
-  }
-  if (check.empty()) {
-    text += "no check points: accuracy not verified\n";
-    if (!left_out.empty()) {
-      text += Format("leaving out one control point at a time: RMS %.2f of the expected sigma\n",
-                     left_out_rms_over_sigma);
-    }
-  } else {
-    text += Format("check points: %zu, RMS %.2f of their combined sigma\n", check.size(),
-                   check_rms_over_sigma);
-  }
-  for (const std::string& warning : warnings) text += "warning: " + warning + "\n";
-  return text;
 }
 
 }  // namespace insitu

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A survey adjusted: from its files' content to posed cameras, points, planes, sun and zenith, with
-// every statistic of the residual report. Control is observed with its sigma; check points never.
+// An adjusted survey: posed cameras, points, planes, sun and zenith, with every statistic of the
+// residual report.
 #pragma once
 
 #include <Eigen/Core>
@@ -9,27 +9,10 @@
 #include <string>
 #include <vector>
 
+#include "calibration/lens/rigid3.h"
 #include "reconstruction/geometry/scene_geometry.h"
-#include "reconstruction/survey/survey.h"
 
 namespace insitu {
-
-// What is known of a photo's lens besides its intrinsics.
-struct PhotoLens {
-  std::string camera = "camera";  // photos of one camera share their lens
-  Eigen::MatrixXd covariance;     // of its intrinsics, from its calibration; empty: exact
-};
-
-struct AdjustmentOptions {
-  double plane_sigma = 0.005;        // [m], distance of a vertex from its polygon's plane
-  bool has_hard_planes = false;      // planes hold their vertices to a hundredth of a millimetre
-  double zenith_sigma = 0.005;       // [m], across, of a vertical edge's ends
-  double sun_sigma = 0.02;           // [m], across, of a shadow point from the line to the sun
-  bool is_self_calibrating = false;  // the lens parameters are unknowns too
-  double significance = 0.001;       // alpha0 of each w-test (Baarda); its power is 80 %
-  std::vector<PhotoLens> lenses;     // as `photos`; empty: one exact camera
-  std::map<std::string, Rigid3> initial_cam_from_world;  // user's estimates, by photo; none needed
-};
 
 // One scalar observation after the adjustment; residual = adjusted - observed, in sigma's unit.
 struct ObservationResidual {
@@ -167,12 +150,5 @@ struct Adjustment {
   std::vector<std::string> warnings;
   std::string BriefReport() const;
 };
-
-// Resects, intersects, then adjusts. Throws InputError, at the survey line concerned: a photo that
-// nothing places, a point that nothing determines, a polygon whose vertices are far from planar
-// (over 20 sigma and 0.1 m), a rank defect (its parameters named). `cameras` and `photos` go
-// together.
-Adjustment Adjust(const Survey& survey, const std::vector<std::string>& photos,
-                  const std::vector<Camera>& cameras, const AdjustmentOptions& options = {});
 
 }  // namespace insitu
