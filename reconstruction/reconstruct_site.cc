@@ -11,6 +11,8 @@
 #include "reconstruction/adjustment/adjust.h"
 #include "reconstruction/report/input_files.h"
 #include "reconstruction/report/montage_points.h"
+#include "reconstruction/report/residual_csv.h"
+#include "reconstruction/report/residual_page.h"
 #include "reconstruction/report/residual_report.h"
 #include "reconstruction/site_photos.h"
 

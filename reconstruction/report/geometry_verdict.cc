@@ -7,7 +7,7 @@
 #include <set>
 
 #include "calibration/files/wording.h"
-#include "reconstruction/geometry/plane.h"
+#include "reconstruction/report/image_marks.h"
 
 namespace insitu {
 namespace {

@@ -5,11 +5,13 @@
 
 #include <vector>
 
-#include "reconstruction/report/verdict.h"
+#include "calibration/program/finding.h"
+#include "reconstruction/adjustment/adjusted_survey.h"
+#include "reconstruction/report/report_context.h"
 
 namespace insitu {
 
-// Appends to `findings`.
+// Adds to `findings`.
 void JudgeGeometry(const Adjustment& adjustment, const ReportContext& context,
                    std::vector<Finding>* findings);
 

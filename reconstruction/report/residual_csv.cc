@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <charconv>
+#include "reconstruction/report/residual_csv.h"
 
-#include "reconstruction/report/residual_report.h"
+#include <charconv>
+#include <optional>
 
 namespace insitu {
 namespace {

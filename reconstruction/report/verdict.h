@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "calibration/program/finding.h"
-#include "reconstruction/report/image_marks.h"
-#include "reconstruction/report/residual_report.h"
+#include "reconstruction/adjustment/adjusted_survey.h"
+#include "reconstruction/report/report_context.h"
 
 namespace insitu {
 

@@ -13,6 +13,8 @@
 #include "calibration/files/json_file.h"
 #include "calibration/files/whole_file.h"
 #include "reconstruction/adjustment/adjust.h"
+#include "reconstruction/report/residual_csv.h"
+#include "reconstruction/report/residual_page.h"
 #include "tests/calibration/program/embedded_report.h"
 #include "tests/reconstruction/survey/synthetic_network.h"
 
