@@ -142,26 +142,23 @@ void WarnOfMasks(const Survey& survey, Adjustment* adjustment) {
 }
 
 // A control point that took no part although it lies where a point without coordinates is.
-void WarnOfMisnamedControl(const Survey& survey, Adjustment* adjustment) {
-  constexpr double kSamePlace = 0.05;  // [m], besides their sigmas
-  std::set<std::string> surveyed, used;
+void WarnOfMisnamedControl(const Survey& survey, const std::vector<Diagnosis>& diagnoses,
+                           Adjustment* adjustment) {
+  constexpr double kSamePlace = 0.05;       // [m], besides their sigmas
+  std::set<std::string> surveyed, settled;  // settled: used, or told of already
   for (const ControlPoint& point : survey.control_points) surveyed.insert(point.name);
-  for (const AdjustedPoint& point : adjustment->points) used.insert(point.name);
+  for (const AdjustedPoint& point : adjustment->points) settled.insert(point.name);
+  for (const Diagnosis& diagnosis : diagnoses) settled.insert(diagnosis.unused_control);
   for (const ControlPoint& point : survey.control_points) {
-    const std::string beginning = point.place.path.filename().string() + ":" +
-                                  std::to_string(point.place.line) + ": point '" + point.name +
-                                  "' is marked on no photo";
-    const bool is_said =
-        std::any_of(adjustment->warnings.begin(), adjustment->warnings.end(),
-                    [&](const std::string& warning) { return warning.starts_with(beginning); });
-    if (used.contains(point.name) || is_said) continue;
+    if (settled.contains(point.name)) continue;
     for (const AdjustedPoint& there : adjustment->points) {
       if (there.is_tie_point || surveyed.contains(there.name)) continue;
       const double sigma = std::sqrt(there.covariance.trace() + point.sigma.squaredNorm());
       const double distance = (there.position - point.position).norm();
       if (distance > kSamePlace + 3 * sigma || sigma > 1) continue;
       adjustment->warnings.push_back(
-          beginning + ", and point '" + there.name +
+          point.place.path.filename().string() + ":" + std::to_string(point.place.line) +
+          ": point '" + point.name + "' is marked on no photo, and point '" + there.name +
           Number("', %.0f mm from it, has no coordinates: are they one? Expected: one name in all "
                  "files",
                  1000 * distance));
@@ -213,39 +210,44 @@ std::map<std::string, int> CountUnknowns(const Network& network, const NetworkCo
   return counts;
 }
 
-void Warn(const NetworkSolution& solution, const SurveyNetwork& survey_network,
-          Adjustment* adjustment) {
-  if (survey_network.network.directions[*survey_network.zenith].is_fixed) {
-    adjustment->warnings.push_back("no zenith pairs: the z axis was taken for the zenith");
-  }
-  if (solution.datum.defect() > 0) {
-    adjustment->warnings.push_back("the datum is " + adjustment->datum);
-  }
-}
-
-NetworkSolution Solve(const Survey& survey, Network* network) {
+NetworkSolution Solve(const Survey& survey, SurveyNetwork* survey_network) {
   try {
-    return SolveNetwork(network);
+    return SolveNetwork(&survey_network->network);
   } catch (const NoSolution& failure) {
-    throw NoSolutionError(failure, *network, survey);
+    throw NoSolutionError(failure, survey_network->network, survey);
   } catch (const RankDefect& defect) {
-    throw RankDefectError(defect, *network, survey);
+    throw RankDefectError(defect, *survey_network, survey);
   }
 }
 
-// Start values of a survey that does not contradict itself.
-StartValues FindSoundStart(const Survey& survey, const std::vector<std::string>& photos,
-                           const std::vector<Camera>& cameras,
-                           const std::map<std::string, Rigid3>& initial_cam_from_world,
-                           double plane_sigma) {
-  const std::vector<Diagnosis> diagnoses = RequireSound(survey, photos, cameras);
+// Start values of a survey that does not contradict itself, with what looks odd in it nevertheless.
+struct SoundStart {
+  StartValues values;
+  std::vector<Diagnosis> diagnoses;
+};
+
+SoundStart FindSoundStart(const Survey& survey, const std::vector<std::string>& photos,
+                          const std::vector<Camera>& cameras,
+                          const std::map<std::string, Rigid3>& initial_cam_from_world,
+                          double plane_sigma) {
+  SoundStart start;
+  start.diagnoses = RequireSound(survey, photos, cameras);
   try {
-    StartValues start = FindStartValues(survey, photos, cameras, initial_cam_from_world);
-    RequirePlanar(survey, start.points, plane_sigma);
-    for (const Diagnosis& diagnosis : diagnoses) start.warnings.push_back(Text(diagnosis));
+    start.values = FindStartValues(survey, photos, cameras, initial_cam_from_world);
+    RequirePlanar(survey, start.values.points, plane_sigma);
     return start;
   } catch (const InputError& symptom) {
-    ThrowDiagnosed(diagnoses, symptom);
+    ThrowDiagnosed(start.diagnoses, symptom);
+  }
+}
+
+void WarnOfStart(const SoundStart& start, const Survey& survey, Adjustment* adjustment) {
+  adjustment->warnings = start.values.warnings;
+  for (const Diagnosis& diagnosis : start.diagnoses) {
+    adjustment->warnings.push_back(Text(diagnosis));
+  }
+  if (survey.zenith_pairs.empty()) {
+    adjustment->warnings.push_back("no zenith pairs: the z axis was taken for the zenith");
   }
 }
 
@@ -257,17 +259,16 @@ Adjustment Adjust(const Survey& survey, const std::vector<std::string>& photos,
                   const std::map<std::string, Rigid3>& initial_cam_from_world) {
   options.Check();
   INSITU_CHECK(lenses.empty() || lenses.size() == photos.size());
-  const StartValues start =
+  const SoundStart start =
       FindSoundStart(survey, photos, cameras, initial_cam_from_world, options.plane_sigma);
-  SurveyNetwork survey_network = MakeSurveyNetwork(survey, start, lenses, options);
-  const NetworkSolution solution = Solve(survey, &survey_network.network);
+  SurveyNetwork survey_network = MakeSurveyNetwork(survey, start.values, lenses, options);
+  const NetworkSolution solution = Solve(survey, &survey_network);
   const Network& network = survey_network.network;
 
   Adjustment adjustment;
-  adjustment.warnings = start.warnings;
   AddStatistics(solution, options, &adjustment);
   adjustment.unknowns_of = CountUnknowns(network, solution.columns);
-  Warn(solution, survey_network, &adjustment);
+  WarnOfStart(start, survey, &adjustment);
   WarnOfMasks(survey, &adjustment);
   adjustment.residuals = AdjustedObservations(survey_network, solution, options.significance);
   adjustment.cameras = AdjustedCameras(network, solution);
@@ -278,7 +279,7 @@ Adjustment Adjust(const Survey& survey, const std::vector<std::string>& photos,
   adjustment.polygon_covariance = PolygonCovariances(survey, survey_network, solution);
   adjustment.correlations = HighCorrelations(network, solution);
   CompareWithSurvey(survey, &adjustment);
-  WarnOfMisnamedControl(survey, &adjustment);
+  WarnOfMisnamedControl(survey, start.diagnoses, &adjustment);
   adjustment.left_out = LeaveOneOut(survey_network, solution);
   adjustment.check_rms_over_sigma = RmsOverSigma(adjustment.check);
   adjustment.left_out_rms_over_sigma = RmsOverSigma(adjustment.left_out);

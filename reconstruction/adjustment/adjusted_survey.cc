@@ -27,6 +27,7 @@ std::string Adjustment::BriefReport() const {
                       check_rms_over_sigma);
   }
   for (const std::string& warning : warnings) text += "warning: " + warning + "\n";
+  if (datum_defect > 0) text += "warning: the datum is " + datum + "\n";
   return text;
 }
 

@@ -14,12 +14,27 @@
 
 namespace insitu {
 
+// What an observation is of.
+enum class ObservationKind {
+  kImage,  // a mark, x and y
+  kEdge,
+  kControl,         // a surveyed point, x, y and z
+  kCameraPosition,  // a surveyed centre of projection, x, y and z
+  kLens,            // a parameter, from its calibration
+  kPlane,           // a vertex on its polygon's plane
+  kSun,
+  kZenith,
+  kDistance,
+  kHeight,
+  kAngle,
+};
+
 // One scalar observation after the adjustment; residual = adjusted - observed, in sigma's unit.
 struct ObservationResidual {
-  std::string group;    // "image x", "image y", "edge", "control x" ..., "camera x" ..., "lens",
-                        // "plane", "sun", "zenith", "distance", "height", "angle"
-  std::string photo;    // of image observations and camera positions, else empty
-  std::string subject;  // point, polygon or pair
+  ObservationKind kind = ObservationKind::kImage;
+  int axis = 0;         // 0, 1, 2: x, y, z of what has several; else 0
+  std::string photo;    // of image observations, edges and camera positions, else empty
+  std::string subject;  // point, pair of points, photo, parameter; both sides of an angle
   double observed = 0, residual = 0, sigma = 0;
   double redundancy = 0;                     // its redundancy number, 0..1
   std::optional<double> w = {};              // test value, standard normal; nullopt: not controlled
@@ -28,6 +43,7 @@ struct ObservationResidual {
                                              // function's sigmas: delta0 sqrt((1 - r) / r)
   std::optional<double> point_shift_m = {};  // its effect on the position of the point concerned
   bool is_tie_point = false;                 // of a point that COLMAP found, not a surveyor
+  std::string polygon = {};                  // of the plane on which the vertex `subject` lies
 };
 
 // An interior orientation after the adjustment.
@@ -99,9 +115,15 @@ struct GlobalTest {
   double p = 1;  // two-sided
 };
 
+// Correlations above this are told.
+inline constexpr double kHighCorrelation = 0.95;
+
+// Between two unknowns of one camera, photo or point.
 struct Correlation {
+  enum class Of { kCamera, kPhoto, kPoint };
+  Of of = Of::kPhoto;
   std::string first, second;  // "photo IMG_1 center x", ...
-  double value = 0;           // |value| > 0.95
+  double value = 0;           // |value| > kHighCorrelation
 };
 
 // The solution with planes against that without: do the planes hold, and what do they move?
@@ -146,8 +168,8 @@ struct Adjustment {
       left_out;                     // each control point predicted without its own coordinates
   double check_rms_over_sigma = 0;  // sqrt(mean((difference/sigma)^2)) over the check coordinates
   double left_out_rms_over_sigma = 0;     // the same over left_out
-  std::vector<Correlation> correlations;  // above 0.95, largest first
-  std::vector<std::string> warnings;
+  std::vector<Correlation> correlations;  // largest first
+  std::vector<std::string> warnings;      // besides a datum that is free
   std::string BriefReport() const;
 };
 

@@ -25,9 +25,8 @@ std::vector<AdjustedPoint> AdjustedPoints(const Network& network, const NetworkS
 std::vector<AdjustedPlane> AdjustedPlanes(const SurveyNetwork& survey_network,
                                           const NetworkSolution& solution);
 
-// Of one unknown with another of the same camera, photo or point, above `limit`; largest first.
-std::vector<Correlation> HighCorrelations(const Network& network, const NetworkSolution& solution,
-                                          double limit = 0.95);
+// Largest first.
+std::vector<Correlation> HighCorrelations(const Network& network, const NetworkSolution& solution);
 
 // The columns of an unknown in words: "photo IMG_1 center x".
 std::vector<std::string> ColumnNames(const Network& network, const Unknown& unknown);

@@ -154,7 +154,7 @@ std::vector<Diagnosis> UnusedControl(const Survey& survey) {
     diagnoses.push_back({point.place,
                          "point '" + point.name + "' is marked on no photo and in no polygon" +
                              meant + " Expected: one name for one point in all files",
-                         Diagnosis::Kind::kMisfit});
+                         Diagnosis::Kind::kMisfit, point.name});
   }
   return diagnoses;
 }

@@ -20,6 +20,7 @@ struct Diagnosis {
   FilePlace place;
   std::string message;  // what is wrong, what shows it, what to do
   Kind kind = Kind::kFault;
+  std::string unused_control = {};  // the control point, where it is one that nothing refers to
 };
 
 // Faults first, then misfits, then questions; the best explanation first; none for a survey that

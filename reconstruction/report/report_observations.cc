@@ -20,9 +20,9 @@ Json::Value OrNull(const std::optional<double>& value) {
 Json::Value RowReport(const ObservationResidual& row, double critical_w) {
   Json::Value json;
   json["observation"] = Describe(row);
-  json["group"] = row.group;
+  json["group"] = Group(row);
   if (!row.photo.empty()) json["photo"] = row.photo;
-  json["subject"] = row.subject;
+  json["subject"] = Subject(row);
   json["observed"] = row.observed;
   json["residual"] = row.residual;
   json["sigma"] = row.sigma;

@@ -5,6 +5,7 @@
 #include <map>
 
 #include "calibration/files/json_file.h"
+#include "reconstruction/report/advice.h"
 #include "reconstruction/report/report_sections.h"
 
 namespace insitu {
@@ -44,7 +45,7 @@ double ImageSigma(const Adjustment& adjustment) {
   double squares = 0;
   int rows = 0;
   for (const ObservationResidual& row : adjustment.residuals) {
-    if (!row.group.starts_with("image")) continue;
+    if (row.kind != ObservationKind::kImage) continue;
     squares += row.sigma * row.sigma;
     ++rows;
   }
@@ -109,7 +110,7 @@ Json::Value GroupsSection(const Adjustment& adjustment) {
   };
   std::map<std::string, Sums> groups;
   for (const ObservationResidual& row : adjustment.residuals) {
-    Sums& sums = groups[row.group + (row.is_tie_point ? ", tie points" : "")];
+    Sums& sums = groups[Group(row) + (row.is_tie_point ? ", tie points" : "")];
     sums.count += 1;
     sums.redundancy += row.redundancy;
     sums.squares += std::pow(row.residual / row.sigma, 2);

@@ -4,6 +4,8 @@
 #include <charconv>
 #include <optional>
 
+#include "reconstruction/report/advice.h"
+
 namespace insitu {
 namespace {
 
@@ -38,7 +40,7 @@ std::string ObservationsCsv(const Adjustment& adjustment) {
       "group,photo,subject,is_tie_point,observed,residual,sigma,redundancy,w,detectable,external,"
       "point_shift_m\n";
   for (const ObservationResidual& row : adjustment.residuals) {
-    csv += Line(row.group, row.photo, row.subject, std::string(row.is_tie_point ? "1" : "0"),
+    csv += Line(Group(row), row.photo, Subject(row), std::string(row.is_tie_point ? "1" : "0"),
                 row.observed, row.residual, row.sigma, row.redundancy, row.w, row.detectable,
                 row.external, row.point_shift_m);
   }

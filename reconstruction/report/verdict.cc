@@ -93,7 +93,7 @@ void JudgeTiePoints(const Adjustment& adjustment, std::vector<Finding>* findings
 void JudgeControl(const Adjustment& adjustment, std::vector<Finding>* findings) {
   int weak = 0, marks = 0;
   for (const ObservationResidual& row : adjustment.residuals) {
-    if (!row.group.starts_with("image")) continue;
+    if (row.kind != ObservationKind::kImage) continue;
     ++marks;
     weak += row.redundancy < kWeaklyControlled;
   }
@@ -114,12 +114,13 @@ void JudgeCorrelations(const Adjustment& adjustment, std::vector<Finding>* findi
   Severity severity = Severity::kNote;
   bool is_of_lens = false;
   for (const Correlation& pair : adjustment.correlations) {
-    is_of_lens |= pair.first.starts_with("camera ");
+    is_of_lens |= pair.of == Correlation::Of::kCamera;
     pairs.push_back(pair.first + " with " + pair.second + " " + Number("%.3f", pair.value));
-    const bool is_point = pair.first.starts_with("point ");
-    if (!is_point && std::abs(pair.value) > kInseparable) severity = Severity::kReview;
+    if (pair.of != Correlation::Of::kPoint && std::abs(pair.value) > kInseparable)
+      severity = Severity::kReview;
   }
-  findings->push_back({severity, Listing("correlations above 0.95", pairs, 3),
+  findings->push_back({severity,
+                       Listing("correlations above " + Number("%.2f", kHighCorrelation), pairs, 3),
                        std::string("where that matters, take photos from other sides, some "
                                    "turned by 90 degrees, and spread control in depth") +
                            (is_of_lens ? "; of a lens, calibrate a model of fewer parameters "
@@ -240,8 +241,7 @@ void JudgeCalibration(const AdjustedCamera& camera, const Json::Value& calibrati
 
 void PassOnWarnings(const Adjustment& adjustment, std::vector<Finding>* findings) {
   for (const std::string& warning : adjustment.warnings) {
-    const bool is_said = warning == "the datum is " + adjustment.datum;
-    if (!is_said) findings->push_back({Severity::kReview, warning, ""});
+    findings->push_back({Severity::kReview, warning, ""});
   }
 }
 

@@ -229,7 +229,9 @@ TEST(Adjust, SelfCalibrationObservesTheCalibration) {
                                       {"wide", sigma.cwiseAbs2().asDiagonal()});
   const Adjustment adjustment =
       AdjustNetwork(network, WithNoise(network.survey, 4), options, lenses);
-  const auto is_lens = [](const ObservationResidual& row) { return row.group == "lens"; };
+  const auto is_lens = [](const ObservationResidual& row) {
+    return row.kind == ObservationKind::kLens;
+  };
   EXPECT_EQ(std::count_if(adjustment.residuals.begin(), adjustment.residuals.end(), is_lens), 12);
   const auto first =
       std::find_if(adjustment.residuals.begin(), adjustment.residuals.end(), is_lens);

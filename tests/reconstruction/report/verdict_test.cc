@@ -135,10 +135,10 @@ TEST_F(Verdict, FailsWhenCheckPointsAreFarOff) {
 
 TEST_F(Verdict, NamesCorrelationsAndAFreeDatumWithTheirRemedies) {
   Adjustment adjustment = Adjusted();
-  adjustment.correlations = {{"photo P1 center x", "photo P1 rotation y", -0.997}};
+  adjustment.correlations = {
+      {Correlation::Of::kPhoto, "photo P1 center x", "photo P1 rotation y", -0.997}};
   adjustment.datum_defect = 7;
   adjustment.datum = "free in 7 of 7";
-  adjustment.warnings = {"the datum is free in 7 of 7"};
   const auto findings = Judge(adjustment);
   const Finding* correlated = Find(findings, "photo P1 center x with photo P1 rotation y -0.997");
   ASSERT_TRUE(correlated);
@@ -235,7 +235,7 @@ TEST_F(Verdict, ReviewsALensThatCountsAsExact) {
 // Names of tie points are others at the next run, and no option leaves one out.
 TEST(Advice, OfATiePointIsWhatCanBeDone) {
   ObservationResidual row;
-  row.group = "image x";
+  row.kind = ObservationKind::kImage;
   row.subject = "tie_000123";
   row.photo = "P";
   row.is_tie_point = true;
@@ -244,15 +244,33 @@ TEST(Advice, OfATiePointIsWhatCanBeDone) {
 }
 
 TEST(Advice, TellsWhatToDoForEveryKindOfObservation) {
-  for (const char* group : {"image x", "edge", "control y", "camera z", "lens", "plane", "sun",
-                            "zenith", "distance", "height", "angle"}) {
+  using Kind = ObservationKind;
+  const std::pair<Kind, const char*> groups[] = {
+      {Kind::kImage, "image y"},     {Kind::kEdge, "edge"},
+      {Kind::kControl, "control y"}, {Kind::kCameraPosition, "camera y"},
+      {Kind::kLens, "lens"},         {Kind::kPlane, "plane"},
+      {Kind::kSun, "sun"},           {Kind::kZenith, "zenith"},
+      {Kind::kDistance, "distance"}, {Kind::kHeight, "height"},
+      {Kind::kAngle, "angle"}};
+  for (const auto& [kind, group] : groups) {
     ObservationResidual row;
-    row.group = group;
+    row.kind = kind;
+    row.axis = 1;
     row.subject = "S";
     row.photo = "P";
+    EXPECT_EQ(Group(row), group);
     EXPECT_NE(Advice(row), "") << group;
     EXPECT_NE(Describe(row), "") << group;
   }
+}
+
+TEST(Advice, NamesAVertexWithItsPolygon) {
+  ObservationResidual row;
+  row.kind = ObservationKind::kPlane;
+  row.polygon = "south wall";
+  row.subject = "a3";
+  EXPECT_EQ(Subject(row), "south wall a3");
+  EXPECT_EQ(Describe(row), "plane 'south wall a3'");
 }
 
 }  // namespace
