@@ -5,7 +5,6 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 #include <optional>
 #include <set>
@@ -141,9 +140,7 @@ class StartFinder {
     result_.tie_point_sigma_px = source.sigma_px;
     size_t far = 0;
     for (size_t i = 0; i < source.points.size(); ++i) {
-      char name[32];
-      std::snprintf(name, sizeof(name), "tie_%06zu", i + 1);
-      StartTiePoint point{name, source.points[i].position, {}};
+      StartTiePoint point{TiePointName(i), source.points[i].position, {}};
       std::vector<Sight> sights;
       for (const TiePointMark& mark : source.points[i].marks) {
         const size_t photo = index_of_photo_.at(mark.photo);

@@ -25,7 +25,7 @@ struct StartTiePoint {
     int photo = 0;  // index into StartValues::cameras
     Eigen::Vector2d pixel;
   };
-  std::string name;          // "tie_000001", by its place in TiePoints::points
+  std::string name;          // TiePointName of its place in TiePoints::points
   Eigen::Vector3d position;  // [m], world
   std::vector<Mark> marks;   // two or more
 };

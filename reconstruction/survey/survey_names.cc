@@ -92,13 +92,6 @@ void RequireFoundEnds(const std::vector<JoinedPoints>& joined, const Names& foun
   }
 }
 
-// As start_values.cc names them.
-bool IsTiePointsName(const std::string& name) {
-  const std::string start = "tie_";
-  return name.size() >= start.size() + 6 && name.starts_with(start) &&
-         std::all_of(name.begin() + 4, name.end(), [](char c) { return c >= '0' && c <= '9'; });
-}
-
 }  // namespace
 
 std::optional<std::string> FaultOfPhoto(const std::string& photo,
@@ -126,7 +119,7 @@ void RequireNoNamesOfTiePoints(const Survey& survey) {
   Names names = PointsInUse(survey);
   names.merge(Surveyed(survey));
   for (const std::string& name : names) {
-    if (!IsTiePointsName(name)) continue;
+    if (!IsTiePointName(name)) continue;
     const FilePlace place = PlaceOfPoint(survey, name);
     throw InputError(place.path, place.line,
                      "point '" + name +

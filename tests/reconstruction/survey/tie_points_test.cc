@@ -139,6 +139,16 @@ TEST_F(TiePointsFile, RefusesPlacesThatNoPhotoHas) {
   }
 }
 
+TEST(TiePointName, IsRecognised) {
+  EXPECT_EQ(TiePointName(0), "tie_000001");
+  for (const size_t index : {0, 999998, 999999, 12345678}) {
+    EXPECT_TRUE(IsTiePointName(TiePointName(index))) << index;
+  }
+  for (const char* name : {"tie_", "tie_12345", "tie_12345a", "tie_point", "Tie_000001", "a1"}) {
+    EXPECT_FALSE(IsTiePointName(name)) << name;
+  }
+}
+
 TEST(AlignTiePoints, PutsTheModelWhereControlHasIt) {
   const SyntheticNetwork network = MakeSyntheticNetwork();
   TiePoints tie_points = ModelOf(network, 30);
