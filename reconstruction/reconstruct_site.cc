@@ -15,6 +15,7 @@
 #include "reconstruction/report/residual_page.h"
 #include "reconstruction/report/residual_report.h"
 #include "reconstruction/site_photos.h"
+#include "reconstruction/survey/read_survey.h"
 
 namespace insitu {
 namespace {

@@ -2,6 +2,7 @@
 #include "reconstruction/tie_points_site.h"
 
 #include <algorithm>
+#include <map>
 #include <set>
 
 #include "calibration/files/error.h"
@@ -10,6 +11,7 @@
 #include "calibration/photo/photograph.h"
 #include "reconstruction/adjustment/align_tie_points.h"
 #include "reconstruction/site_photos.h"
+#include "reconstruction/survey/read_survey.h"
 #include "reconstruction/survey/survey.h"
 
 namespace insitu {
