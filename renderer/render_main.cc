@@ -4,13 +4,13 @@
 #include <memory>
 
 #include "calibration/program/program.h"
-#include "renderer/montage.h"
+#include "renderer/render_site.h"
 #include "renderer/trace/profile.h"
 
 namespace insitu {
 namespace {
 
-void PrintReport(const MontageReport& report) {
+void PrintReport(const RenderSiteReport& report) {
   const Raster& picture = report.result.linear;
   const double pixels = static_cast<double>(picture.width) * picture.height;
   std::printf("%s: building %.1f %%, changed %.1f %% of the pixels, %.2f rays a pixel, %.1f s\n",
@@ -31,7 +31,7 @@ int RunRender(int argc, char** argv) {
       "Reads work/environment.json, work/building.json and work/input_images/;\n"
       "writes montages/<photo>.exr, .png and .jpg.");
   SitePaths site;
-  MontageOptions options;
+  RenderSiteOptions options;
   bool no_building = false, timing = false;
   app.add_option("SITE", site.root, "site folder")->required();
   app.add_option("--photo", options.photos, "only this photograph (may be repeated)");
@@ -48,7 +48,7 @@ int RunRender(int argc, char** argv) {
   return RunProgram(app, argc, argv, [&] {
     options.with_building = !no_building;
     const auto profile = timing ? std::make_unique<Profile>() : nullptr;
-    for (const MontageReport& report : MakeMontages(site, options)) PrintReport(report);
+    for (const RenderSiteReport& report : RenderSite(site, options)) PrintReport(report);
     if (profile) std::fputs(profile->Report().c_str(), stdout);
   });
 }

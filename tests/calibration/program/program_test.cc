@@ -88,6 +88,13 @@ TEST(Program, ProgressIsSilentWithoutATerminal) {
   EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
 }
 
+TEST(DurationText, IsInTheUnitThatFits) {
+  EXPECT_EQ(DurationText(0.4), "0 s");
+  EXPECT_EQ(DurationText(99), "99 s");
+  EXPECT_EQ(DurationText(150), "3 min");
+  EXPECT_EQ(DurationText(7200), "2 h");
+}
+
 TEST(CommandLine, SaysWhatWasAskedForWithoutFolders) {
   CLI::App app("does nothing", "insitu-nothing");
   std::string site, start;

@@ -18,14 +18,14 @@ enum class Frame {
   kPinhole
 };  // the original photograph's pixel grid, or the input image's
 
-struct MontageOptions {
+struct RenderSiteOptions {
   Frame frame = Frame::kPhoto;
   bool with_building = true;
   std::vector<std::string> photos;  // names; empty: every photo of the site
   RenderOptions render;
 };
 
-struct MontageReport {
+struct RenderSiteReport {
   std::string photo;
   RenderResult result;                            // its picture is written already
   double seconds = 0;                             // rendering, files apart
@@ -37,6 +37,6 @@ struct MontageReport {
 // montages/<photo>.exr, .png and .jpg, and how well the building's corners are known in
 // <photo>.uncertainty.csv. Throws InputError: a stage before is missing, an unknown
 // photo, a photograph whose size is not its camera's.
-std::vector<MontageReport> MakeMontages(const SitePaths& site, const MontageOptions& options);
+std::vector<RenderSiteReport> RenderSite(const SitePaths& site, const RenderSiteOptions& options);
 
 }  // namespace insitu

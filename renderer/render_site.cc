@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "renderer/montage.h"
+#include "renderer/render_site.h"
 
 #include <algorithm>
 #include <chrono>
@@ -128,17 +128,17 @@ std::map<std::string, UncertaintySummary> WriteUncertainties(const SitePaths& si
 
 }  // namespace
 
-std::vector<MontageReport> MakeMontages(const SitePaths& site, const MontageOptions& options) {
+std::vector<RenderSiteReport> RenderSite(const SitePaths& site, const RenderSiteOptions& options) {
   const std::vector<std::filesystem::path> photographs = ChoosePhotographs(site, options.photos);
   const MontageScene scene = LoadScene(site, options.with_building);
   std::map<std::string, UncertaintySummary> uncertainties;
   if (options.with_building) uncertainties = WriteUncertainties(site);
-  std::vector<MontageReport> reports;
+  std::vector<RenderSiteReport> reports;
   for (const std::filesystem::path& photograph : photographs) {
     const View view = LoadView(site, scene, photograph, options.frame);
     Progress progress(photograph.stem().string(), TileCount(view.photo.linear));
     const auto start = std::chrono::steady_clock::now();
-    MontageReport report;
+    RenderSiteReport report;
     report.photo = photograph.stem().string();
     const auto uncertainty = uncertainties.find(report.photo);
     if (uncertainty != uncertainties.end()) report.uncertainty = uncertainty->second;
