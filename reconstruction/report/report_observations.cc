@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "reconstruction/report/report_observations.h"
+
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 
-#include "reconstruction/report/advice.h"
-#include "reconstruction/report/report_sections.h"
-#include "reconstruction/report/verdict.h"
+#include "reconstruction/verdict/advice.h"
+#include "reconstruction/verdict/verdict.h"
 
 namespace insitu {
 namespace {

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "reconstruction/report/report_polygons.h"
+
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -9,10 +11,11 @@
 
 #include "calibration/files/json_file.h"
 #include "reconstruction/report/polygon_measures.h"
-#include "reconstruction/report/report_sections.h"
 
 namespace insitu {
 namespace {
+
+constexpr double kDegree = M_PI / 180;
 
 constexpr double kNearlySquare = 10 * kDegree, kNearlyLevel = 22.5 * kDegree;
 

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "reconstruction/report/report_summary.h"
+
 #include <ceres/version.h>
 
 #include <cmath>
 #include <map>
 
 #include "calibration/files/json_file.h"
-#include "reconstruction/report/advice.h"
-#include "reconstruction/report/report_sections.h"
+#include "reconstruction/verdict/advice.h"
 
 namespace insitu {
 namespace {

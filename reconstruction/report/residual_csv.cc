@@ -4,7 +4,7 @@
 #include <charconv>
 #include <optional>
 
-#include "reconstruction/report/advice.h"
+#include "reconstruction/verdict/advice.h"
 
 namespace insitu {
 namespace {

@@ -4,9 +4,15 @@
 #include <cmath>
 
 #include "calibration/program/finding.h"
-#include "reconstruction/report/image_marks.h"
-#include "reconstruction/report/report_sections.h"
-#include "reconstruction/report/verdict.h"
+#include "reconstruction/report/report_lens_residuals.h"
+#include "reconstruction/report/report_montage.h"
+#include "reconstruction/report/report_observations.h"
+#include "reconstruction/report/report_orientations.h"
+#include "reconstruction/report/report_points.h"
+#include "reconstruction/report/report_polygons.h"
+#include "reconstruction/report/report_summary.h"
+#include "reconstruction/verdict/image_marks.h"
+#include "reconstruction/verdict/verdict.h"
 
 namespace insitu {
 namespace {
@@ -45,7 +51,7 @@ Json::Value ResidualReport(const Adjustment& adjustment, const Survey& survey,
   const std::vector<ImageMark> marks = ImageMarks(adjustment);
   Json::Value report;
   report["format"] = "insitu residual report 2";
-  report["verdict"] = VerdictReport(Judge(adjustment, context));
+  report["verdict"] = VerdictReport(Judge(adjustment, context.cameras));
   report["identity"] = IdentitySection(adjustment, context);
   report["conventions"] = Conventions();
   report["summary"] = SummarySection(adjustment, marks);

@@ -8,7 +8,7 @@
 #include <cmath>
 
 #include "reconstruction/adjustment/adjust.h"
-#include "reconstruction/report/verdict.h"
+#include "reconstruction/verdict/verdict.h"
 #include "tests/reconstruction/survey/synthetic_network.h"
 
 namespace insitu {

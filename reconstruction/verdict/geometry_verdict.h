@@ -7,12 +7,12 @@
 
 #include "calibration/program/finding.h"
 #include "reconstruction/adjustment/adjusted_survey.h"
-#include "reconstruction/report/report_context.h"
+#include "reconstruction/verdict/camera_context.h"
 
 namespace insitu {
 
 // Adds to `findings`.
-void JudgeGeometry(const Adjustment& adjustment, const ReportContext& context,
+void JudgeGeometry(const Adjustment& adjustment, const CameraContexts& cameras,
                    std::vector<Finding>* findings);
 
 }  // namespace insitu

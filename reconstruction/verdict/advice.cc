@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "reconstruction/report/advice.h"
+#include "reconstruction/verdict/advice.h"
 
 namespace insitu {
 namespace {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "reconstruction/report/verdict.h"
+#include "reconstruction/verdict/verdict.h"
 
 #include <gtest/gtest.h>
 
 #include "reconstruction/adjustment/adjust.h"
-#include "reconstruction/report/advice.h"
+#include "reconstruction/verdict/advice.h"
 #include "tests/reconstruction/survey/synthetic_network.h"
 
 namespace insitu {
@@ -166,10 +166,10 @@ TEST_F(Verdict, SeesControlOnOneLineAndPhotosFromOnePlace) {
 }
 
 TEST_F(Verdict, NamesMarksWhereNoBoardWasPhotographed) {
-  ReportContext context;
-  CameraContext& camera = context.cameras[0];
+  CameraContexts cameras;
+  CameraContext& camera = cameras[0];
   camera.calibrated_region = {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}};  // mrcal's, the only word on it
-  const auto findings = Judge(Adjusted(), context);
+  const auto findings = Judge(Adjusted(), cameras);
   const Finding* outside = Find(findings, "no board was photographed");
   ASSERT_TRUE(outside);
   EXPECT_EQ(outside->severity, Severity::kReview);
@@ -177,7 +177,7 @@ TEST_F(Verdict, NamesMarksWhereNoBoardWasPhotographed) {
   camera.calibration["height"] = network_.cameras[0].height();
   Json::Value& counts = camera.calibration["cells"]["counts"];
   counts[0][0] = counts[0][1] = counts[1][0] = counts[1][1] = 5;
-  EXPECT_FALSE(Find(Judge(Adjusted(), context), "no board was photographed"));
+  EXPECT_FALSE(Find(Judge(Adjusted(), cameras), "no board was photographed"));
 }
 
 TEST(IsCalibratedAt, CountsCellsFromTheFramesCorner) {
@@ -195,26 +195,26 @@ TEST(IsCalibratedAt, CountsCellsFromTheFramesCorner) {
 }
 
 TEST_F(Verdict, PassesOnWhatTheCalibrationObjectsTo) {
-  ReportContext context;
+  CameraContexts cameras;
   Json::Value reason;
   reason["severity"] = "fail";
   reason["reason"] = "NOT CALIBRATED";
   reason["remedy"] = "Photograph a chessboard.";
-  context.cameras[0].calibration["verdict"]["reasons"].append(reason);
+  cameras[0].calibration["verdict"]["reasons"].append(reason);
   Adjustment adjustment = Adjusted();
-  const auto findings = Judge(adjustment, context);
+  const auto findings = Judge(adjustment, cameras);
   const Finding* finding = Find(findings, "NOT CALIBRATED");
   ASSERT_TRUE(finding);
   EXPECT_EQ(finding->severity, Severity::kFail);
   EXPECT_EQ(finding->remedy, "Photograph a chessboard.");
   adjustment.cameras[0].parameters[0].is_adjusted = true;
-  EXPECT_EQ(Find(Judge(adjustment, context), "NOT CALIBRATED")->severity, Severity::kReview);
-  context.cameras[0].calibration["verdict"]["reasons"][0]["severity"] = "review";
-  EXPECT_EQ(Find(Judge(adjustment, context), "NOT CALIBRATED")->severity, Severity::kNote);
+  EXPECT_EQ(Find(Judge(adjustment, cameras), "NOT CALIBRATED")->severity, Severity::kReview);
+  cameras[0].calibration["verdict"]["reasons"][0]["severity"] = "review";
+  EXPECT_EQ(Find(Judge(adjustment, cameras), "NOT CALIBRATED")->severity, Severity::kNote);
   adjustment.cameras[0].parameters[0].is_adjusted = false;
-  EXPECT_EQ(Find(Judge(adjustment, context), "NOT CALIBRATED")->severity, Severity::kReview);
-  context.cameras[0].calibration["verdict"]["reasons"][0]["severity"] = "note";
-  EXPECT_EQ(Find(Judge(adjustment, context), "NOT CALIBRATED")->severity, Severity::kNote);
+  EXPECT_EQ(Find(Judge(adjustment, cameras), "NOT CALIBRATED")->severity, Severity::kReview);
+  cameras[0].calibration["verdict"]["reasons"][0]["severity"] = "note";
+  EXPECT_EQ(Find(Judge(adjustment, cameras), "NOT CALIBRATED")->severity, Severity::kNote);
 }
 
 TEST_F(Verdict, ReviewsALensThatCountsAsExact) {

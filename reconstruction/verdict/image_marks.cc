@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "reconstruction/report/image_marks.h"
+#include "reconstruction/verdict/image_marks.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>

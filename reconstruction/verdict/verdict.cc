@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "reconstruction/report/verdict.h"
+#include "reconstruction/verdict/verdict.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include "calibration/files/wording.h"
-#include "reconstruction/report/advice.h"
-#include "reconstruction/report/geometry_verdict.h"
+#include "reconstruction/verdict/advice.h"
+#include "reconstruction/verdict/geometry_verdict.h"
 
 namespace insitu {
 namespace {
@@ -261,7 +261,7 @@ std::optional<ObservationResidual> Suspect(const Adjustment& adjustment) {
   return std::nullopt;
 }
 
-std::vector<Finding> Judge(const Adjustment& adjustment, const ReportContext& context) {
+std::vector<Finding> Judge(const Adjustment& adjustment, const CameraContexts& cameras) {
   std::vector<Finding> findings;
   JudgeGlobalTest(adjustment, &findings);
   if (!adjustment.is_converged) {
@@ -273,10 +273,10 @@ std::vector<Finding> Judge(const Adjustment& adjustment, const ReportContext& co
   JudgeAccuracy(adjustment, &findings);
   JudgeDatum(adjustment, &findings);
   JudgePlanes(adjustment.plane_effect, adjustment.critical_w, &findings);
-  JudgeGeometry(adjustment, context, &findings);
+  JudgeGeometry(adjustment, cameras, &findings);
   for (size_t i = 0; i < adjustment.cameras.size(); ++i) {
     JudgeExactLens(adjustment.cameras[i], &findings);
-    JudgeCalibration(adjustment.cameras[i], context.OfCamera(static_cast<int>(i)).calibration,
+    JudgeCalibration(adjustment.cameras[i], ContextOf(cameras, static_cast<int>(i)).calibration,
                      &findings);
   }
   JudgeCorrelations(adjustment, &findings);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "reconstruction/report/geometry_verdict.h"
+#include "reconstruction/verdict/geometry_verdict.h"
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
@@ -7,7 +7,7 @@
 #include <set>
 
 #include "calibration/files/wording.h"
-#include "reconstruction/report/image_marks.h"
+#include "reconstruction/verdict/image_marks.h"
 
 namespace insitu {
 namespace {
@@ -90,7 +90,7 @@ void JudgeControlFigure(const Adjustment& adjustment, std::vector<Finding>* find
 }
 
 void JudgeFrames(const Adjustment& adjustment, const std::vector<ImageMark>& marks,
-                 const ReportContext& context, std::vector<Finding>* findings) {
+                 const CameraContexts& cameras, std::vector<Finding>* findings) {
   std::vector<std::string> small, outside;
   size_t count = 0;
   for (const AdjustedPose& pose : adjustment.poses) {
@@ -100,7 +100,7 @@ void JudgeFrames(const Adjustment& adjustment, const std::vector<ImageMark>& mar
   }
   for (const ImageMark& mark : marks) {
     const AdjustedPose& pose = adjustment.poses[mark.photo];
-    const CameraContext& camera = context.OfCamera(pose.camera);
+    const CameraContext& camera = ContextOf(cameras, pose.camera);
     if (mark.is_tie_point) continue;
     ++count;
     if (!IsCalibratedAt(camera, mark.pixel)) outside.push_back(mark.point + " on " + pose.photo);
@@ -120,13 +120,13 @@ void JudgeFrames(const Adjustment& adjustment, const std::vector<ImageMark>& mar
 
 }  // namespace
 
-void JudgeGeometry(const Adjustment& adjustment, const ReportContext& context,
+void JudgeGeometry(const Adjustment& adjustment, const CameraContexts& cameras,
                    std::vector<Finding>* findings) {
   const std::vector<ImageMark> marks = ImageMarks(adjustment);
   JudgeRays(adjustment, marks, findings);
   JudgeBase(adjustment, findings);
   JudgeControlFigure(adjustment, findings);
-  JudgeFrames(adjustment, marks, context, findings);
+  JudgeFrames(adjustment, marks, cameras, findings);
 }
 
 }  // namespace insitu

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "reconstruction/report/report_context.h"
+#include "reconstruction/verdict/camera_context.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +8,7 @@
 
 namespace insitu {
 
-const CameraContext& ReportContext::OfCamera(int camera) const {
+const CameraContext& ContextOf(const CameraContexts& cameras, int camera) {
   static const CameraContext kUnknown;
   const auto found = cameras.find(camera);
   return found == cameras.end() ? kUnknown : found->second;

@@ -7,7 +7,7 @@
 
 #include "calibration/program/finding.h"
 #include "reconstruction/adjustment/adjusted_survey.h"
-#include "reconstruction/report/report_context.h"
+#include "reconstruction/verdict/camera_context.h"
 
 namespace insitu {
 
@@ -15,8 +15,7 @@ namespace insitu {
 inline constexpr double kWeaklyControlled = 0.1;
 
 // The worst first; empty: nothing to object to.
-std::vector<Finding> Judge(const Adjustment& adjustment,
-                           const ReportContext& context = ReportContext());
+std::vector<Finding> Judge(const Adjustment& adjustment, const CameraContexts& cameras = {});
 
 // The observation that data snooping suspects: the largest |w| over the critical value, of what the
 // surveyor measured if any, else of tie points. One at a time, since a gross error spoils the
