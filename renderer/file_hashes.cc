@@ -29,7 +29,8 @@ std::optional<Json::Value> ReadStore(const std::filesystem::path& store) {
   if (!std::filesystem::exists(store)) return std::nullopt;
   try {
     Json::Value json = ReadJson(store);
-    if (json.isObject() && json["version"] == kStoreVersion && json["files"].isObject()) return json;
+    if (json.isObject() && json["version"] == kStoreVersion && json["files"].isObject())
+      return json;
   } catch (const std::exception&) {  // it is only there to save time
   }
   return std::nullopt;

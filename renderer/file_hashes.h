@@ -11,11 +11,12 @@
 namespace insitu {
 
 // Thread-safe. What the file system tells of a file (size, times, inode) only decides whether it is
-// read again, as in git's index: never on a file that changed within two seconds of being read, since
-// file systems' clocks are coarse.
+// read again, as in git's index: never on a file that changed within two seconds of being read,
+// since file systems' clocks are coarse.
 class FileHashes {
  public:
-  // Reads the hashes that an earlier run kept in `store`; whatever is wrong with it, it is left aside.
+  // Reads the hashes that an earlier run kept in `store`; whatever is wrong with it, it is left
+  // aside.
   explicit FileHashes(std::filesystem::path store);
 
   // SHA-256, hexadecimal; "" where there is no such file. Throws InputError if it cannot be read.

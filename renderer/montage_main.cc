@@ -75,9 +75,10 @@ void Montage(MontageCommand* command, const std::string& line, int* status) {
 }
 
 int RunMontage(int argc, char** argv) {
-  CLI::App app("From survey to picture: runs the stages of a site whose results do not hold any "
-               "more, and leaves the montages in SITE/montages.",
-               "insitu-montage");
+  CLI::App app(
+      "From survey to picture: runs the stages of a site whose results do not hold any "
+      "more, and leaves the montages in SITE/montages.",
+      "insitu-montage");
   MontageCommand command;
   command.options.programs = OwnFolder();
   command.options.jobs = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));

@@ -78,9 +78,9 @@ Paths ReconstructionInputs(const MontageRequest& request) {
   const SitePaths& site = request.site;
   Paths inputs = CalibratedCameras(request);
   inputs += {site.photos(), site.description(), site.tie_points()};
-  for (const char* name : {"control_points.csv", "observations.csv", "polygons.json",
-                           "directions.json", "camera_positions.csv", "edges.csv",
-                           "constraints.json"}) {
+  for (const char* name :
+       {"control_points.csv", "observations.csv", "polygons.json", "directions.json",
+        "camera_positions.csv", "edges.csv", "constraints.json"}) {
     inputs.push_back(site.survey() / name);
   }
   return inputs;
@@ -98,10 +98,7 @@ Paths UndistortionInputs(const MontageRequest& request) {
 
 Paths LightInputs(const MontageRequest& request) {
   const SitePaths& site = request.site;
-  return {site.scene(),
-          site.photos(),
-          site.description(),
-          site.survey() / "samples.json",
+  return {site.scene(), site.photos(), site.description(), site.survey() / "samples.json",
           site.survey() / "materials.json"};
 }
 
@@ -201,9 +198,8 @@ const std::vector<MontageStage>& MontageStages() {
 
 size_t StageNamed(const std::string& name) {
   const std::vector<MontageStage>& stages = MontageStages();
-  const auto found =
-      std::find_if(stages.begin(), stages.end(),
-                   [&](const MontageStage& stage) { return stage.name == name; });
+  const auto found = std::find_if(stages.begin(), stages.end(),
+                                  [&](const MontageStage& stage) { return stage.name == name; });
   if (found != stages.end()) return static_cast<size_t>(found - stages.begin());
   std::string names;
   for (const MontageStage& stage : stages) names += (names.empty() ? "" : ", ") + stage.name;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// From survey to picture: the stages in their order, each with what it is made from and what it makes.
+// From survey to picture: the stages in their order, each with what it is made from and what it
+// makes.
 #pragma once
 
 #include <filesystem>

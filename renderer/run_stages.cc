@@ -84,8 +84,8 @@ std::vector<fs::path> FilesOf(const std::vector<fs::path>& paths) {
       files.push_back(path);
       continue;
     }
-    for (const fs::directory_entry& entry : fs::recursive_directory_iterator(
-             path, fs::directory_options::follow_directory_symlink)) {
+    for (const fs::directory_entry& entry :
+         fs::recursive_directory_iterator(path, fs::directory_options::follow_directory_symlink)) {
       const bool is_hidden = entry.path().filename().string().starts_with('.');
       if (!entry.is_directory() && !is_hidden) files.push_back(entry.path());
     }
@@ -93,8 +93,7 @@ std::vector<fs::path> FilesOf(const std::vector<fs::path>& paths) {
   return files;
 }
 
-FileStates StatesOf(const SitePaths& site, const std::vector<fs::path>& paths,
-                    FileHashes* hashes) {
+FileStates StatesOf(const SitePaths& site, const std::vector<fs::path>& paths, FileHashes* hashes) {
   FileStates states;
   for (const fs::path& file : FilesOf(paths)) {
     states[file.lexically_relative(site.root).generic_string()] = hashes->Hash(file);
@@ -238,12 +237,12 @@ class Run {
 
   StageRecord CurrentState(const MontageStage& stage, const fs::path& program) {
     const auto options = request_.options.find(stage.name);
-    return {.version = INSITU_VERSION,
-            .program_hash = hashes_.Hash(program),
-            .options = options == request_.options.end() ? std::vector<std::string>()
-                                                         : options->second,
-            .inputs = StatesOf(request_.site, stage.inputs(request_), &hashes_),
-            .outputs = StatesOf(request_.site, stage.outputs(request_), &hashes_)};
+    return {
+        .version = INSITU_VERSION,
+        .program_hash = hashes_.Hash(program),
+        .options = options == request_.options.end() ? std::vector<std::string>() : options->second,
+        .inputs = StatesOf(request_.site, stage.inputs(request_), &hashes_),
+        .outputs = StatesOf(request_.site, stage.outputs(request_), &hashes_)};
   }
 
   int RunProgramOf(size_t i, const fs::path& program, double last_seconds, StageRecord* record) {

@@ -69,8 +69,8 @@ bool TakesValue(const std::string& argument, const StageOption& option, const fs
   if (found != known.end()) return found->second;
   std::string names;
   for (const auto& [name, takes_value] : known) names += " " + name;
-  throw InputError(argument, "insitu-" + option.stage + " has no such option, expected one of" +
-                                 names);
+  throw InputError(argument,
+                   "insitu-" + option.stage + " has no such option, expected one of" + names);
 }
 
 }  // namespace
@@ -132,14 +132,13 @@ StageRun RunStageProgram(const std::vector<std::string>& command, const fs::path
   run.status = RunChild({.command = command,
                          .environment = {std::string(kProgressVariable) + "=1"},
                          .on_output = keep,
-                         .on_error =
-                             [&](const std::string& line) {
-                               if (line.starts_with(kProgressPrefix)) {
-                                 on_progress(line.substr(std::string_view(kProgressPrefix).size()));
-                               } else if (!keep(line)) {
-                                 on_error(line);
-                               }
-                             }});
+                         .on_error = [&](const std::string& line) {
+                           if (line.starts_with(kProgressPrefix)) {
+                             on_progress(line.substr(std::string_view(kProgressPrefix).size()));
+                           } else if (!keep(line)) {
+                             on_error(line);
+                           }
+                         }});
   return run;
 }
 

@@ -20,9 +20,9 @@ std::filesystem::path FindProgram(const std::filesystem::path& folder, const std
 void RequireSameVersion(const std::filesystem::path& program);
 
 // Takes `--STAGE.OPTION [VALUE]` and `--STAGE.OPTION=VALUE` out of a command line's arguments and
-// returns them, `--OPTION=VALUE` or `--OPTION`, by stage. Which options a stage has and which of them
-// take a value its program in `programs` tells. Throws InputError: no such stage or option, a value
-// missing or not wanted.
+// returns them, `--OPTION=VALUE` or `--OPTION`, by stage. Which options a stage has and which of
+// them take a value its program in `programs` tells. Throws InputError: no such stage or option, a
+// value missing or not wanted.
 std::map<std::string, std::vector<std::string>> TakeStageOptions(
     const std::filesystem::path& programs, std::vector<std::string>* arguments);
 

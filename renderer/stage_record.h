@@ -17,10 +17,10 @@ using FileStates = std::map<std::string, std::string>;
 struct StageRecord {
   std::string version;       // of insitu
   std::string program_hash;  // SHA-256 of the program
-  std::vector<std::string> options;
-  FileStates inputs, outputs;
+  std::vector<std::string> options = {};
+  FileStates inputs = {}, outputs = {};
   double seconds = 0;
-  std::vector<std::string> warnings;  // that the program printed, without "warning: "
+  std::vector<std::string> warnings = {};  // that the program printed, without "warning: "
 };
 
 // Below work/stages/: the record of a stage, and what its program printed.
@@ -34,8 +34,8 @@ void WriteStageRecord(const SitePaths& site, const std::string& stage, const Sta
 // Before a stage runs: from here on its results are not to be trusted.
 void RemoveStageRecord(const SitePaths& site, const std::string& stage);
 
-// Why results made as `then` tells no longer hold, a phrase each: "survey/edges.csv is new". Of `now`
-// the seconds and warnings do not count. Empty: they hold.
+// Why results made as `then` tells no longer hold, a phrase each: "survey/edges.csv is new". Of
+// `now` the seconds and warnings do not count. Empty: they hold.
 std::vector<std::string> WhatChanged(const StageRecord& then, const StageRecord& now);
 
 }  // namespace insitu

@@ -13,11 +13,12 @@ struct ChildProcess {
   std::vector<std::string> command;      // path of the program, then its arguments
   std::vector<std::string> environment;  // NAME=VALUE, besides our own
   // Receive each line without its end, while the child runs.
-  std::function<void(const std::string& line)> on_output, on_error;
+  std::function<void(const std::string&line)> on_output, on_error;
 };
 
-// Runs to the end, in a process group of its own and without standard input. The child's exit status,
-// or 128 + N if signal N ended it; 127: it cannot be run. Of several threads each may run one.
+// Runs to the end, in a process group of its own and without standard input. The child's exit
+// status, or 128 + N if signal N ended it; 127: it cannot be run. Of several threads each may run
+// one.
 int RunChild(const ChildProcess& child);
 
 // From now on SIGINT, SIGTERM and SIGHUP end the groups of all children instead of this process,

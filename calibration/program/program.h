@@ -21,8 +21,8 @@ int RunProgram(CLI::App& app, int argc, char** argv, const std::function<void()>
 // The same for what a program does before its command line is parsed.
 int StatusOf(const std::string& program, const std::function<void()>& run);
 
-// Each option of a program on a line, "--frame VALUE" or "--no-building", is what this option prints,
-// for programs that hand options on.
+// Each option of a program on a line, "--frame VALUE" or "--no-building", is what this option
+// prints, for programs that hand options on.
 inline constexpr char kListOptions[] = "--list-options";
 
 // The command as given, to be repeated elsewhere: the program's name, its positional arguments by
@@ -32,12 +32,13 @@ std::string CommandLine(const CLI::App& app);
 // "12 s", "3 min", "2 h".
 std::string DurationText(double seconds);
 
-// insitu-montage asks its stages for their progress by this variable and knows it by this beginning.
+// insitu-montage asks its stages for their progress by this variable and knows it by this
+// beginning.
 inline constexpr char kProgressVariable[] = "INSITU_PROGRESS";
 inline constexpr char kProgressPrefix[] = "progress: ";
 
-// A progress line with the time left on stderr, only on a terminal and only for work that lasts over
-// two seconds. Under insitu-montage, which sets INSITU_PROGRESS, a line "progress: TEXT" each.
+// A progress line with the time left on stderr, only on a terminal and only for work that lasts
+// over two seconds. Under insitu-montage, which sets INSITU_PROGRESS, a line "progress: TEXT" each.
 // Thread-safe.
 class Progress {
  public:

@@ -57,9 +57,9 @@ SiteLock::SiteLock(const SitePaths& site, const std::string& command)
   }
   const std::string holder = command + " (process " + std::to_string(getpid()) + " on " +
                              HostName() + ", since " + Now() + ")";
-  const bool is_written = ftruncate(descriptor_, 0) == 0 &&
-                          write(descriptor_, holder.data(), holder.size()) ==
-                              static_cast<ssize_t>(holder.size());
+  const bool is_written =
+      ftruncate(descriptor_, 0) == 0 &&
+      write(descriptor_, holder.data(), holder.size()) == static_cast<ssize_t>(holder.size());
   if (is_written) return;
   const std::string reason = std::strerror(errno);
   close(descriptor_);

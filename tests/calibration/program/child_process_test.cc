@@ -33,7 +33,8 @@ TEST(RunChild, HandsOverItsLinesAndStatus) {
 }
 
 TEST(RunChild, LosesNothingOfALongOutput) {
-  const Outcome outcome = RunShell("i=0; while [ $i -lt 20000 ]; do echo line $i; i=$((i+1)); done");
+  const Outcome outcome =
+      RunShell("i=0; while [ $i -lt 20000 ]; do echo line $i; i=$((i+1)); done");
   ASSERT_EQ(outcome.out.size(), 20000);
   EXPECT_EQ(outcome.out.back(), "line 19999");
 }
