@@ -152,8 +152,14 @@ void NameWhatIsMissing(const std::vector<fs::path>& photos, TiePoints* tie_point
 
 }  // namespace
 
+void TiePointsOptions::Check() const {
+  colmap.Check();
+  selection.Check();
+}
+
 SiteTiePoints MakeTiePoints(const SitePaths& site, const std::vector<fs::path>& photos,
                             const std::vector<Camera>& cameras, const TiePointsOptions& options) {
+  options.Check();
   INSITU_CHECK(photos.size() == cameras.size());
   if (photos.size() < 2) throw InputError(site.photos(), "one photograph, expected two or more");
   RequireSizes(photos, cameras);
