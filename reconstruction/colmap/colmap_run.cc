@@ -240,8 +240,15 @@ class Run {
 
 }  // namespace
 
+void ColmapOptions::Check() const {
+  pairs.Check();
+  matching.Check();
+  INSITU_CHECK(max_image_size > 0);
+}
+
 std::vector<MatchedModel> RunColmap(const std::vector<MatchingPhoto>& photos,
                                     const fs::path& folder, const ColmapOptions& options) {
+  options.Check();
   return Run(photos, folder, options).Models();
 }
 
