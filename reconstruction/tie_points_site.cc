@@ -5,6 +5,7 @@
 #include <map>
 #include <set>
 
+#include "reconstruction/colmap/colmap_text.h"
 #include "calibration/files/error.h"
 #include "calibration/files/wording.h"
 #include "calibration/photo/distinct_photographs.h"

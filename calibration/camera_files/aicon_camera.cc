@@ -75,7 +75,7 @@ std::vector<AiconCamera> ReadAiconCameras(const std::filesystem::path& path) {
         std::any_of(cameras.begin(), cameras.end(),
                     [&](const AiconCamera& camera) { return camera.number == number; });
     if (is_known) throw words[first].Error("camera \"" + number + "\" stands twice");
-    cameras.push_back({number, LensOf(&words[first]), {path, words[first].line}});
+    cameras.push_back({number, LensOf(&words[first]), words[first].place()});
   }
   return cameras;
 }

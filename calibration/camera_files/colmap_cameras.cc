@@ -108,7 +108,7 @@ std::map<uint32_t, ColmapCamera> ReadColmapCameras(const fs::path& path) {
   std::map<uint32_t, ColmapCamera> cameras;
   for (const TextRow& row : SplitTextRows(path, content, WordSeparator::kBlanks)) {
     const uint32_t id = IdOf(row);
-    if (cameras.emplace(id, ColmapCamera{LensOf(row), {path, row.line}}).second) continue;
+    if (cameras.emplace(id, ColmapCamera{LensOf(row), row.place()}).second) continue;
     throw row.Error("camera " + std::to_string(id) + " occurs twice");
   }
   RequireCount(path, content, cameras.size());

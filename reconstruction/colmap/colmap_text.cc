@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The text form of COLMAP's model files.
+#include "reconstruction/colmap/colmap_text.h"
+
 #include <charconv>
 #include <cmath>
-#include <cstdio>
 #include <string_view>
 
 #include "calibration/camera_files/colmap_cameras.h"
 #include "calibration/files/whole_file.h"
-#include "reconstruction/colmap/colmap_files.h"
+#include "calibration/files/wording.h"
 
 namespace insitu {
 namespace {
@@ -223,11 +223,7 @@ void ReadPoints(ColmapFiles* files) {
 
 // Numbers with 17 digits, each followed by a blank.
 void Append(std::string* text, std::initializer_list<double> numbers) {
-  char digits[32];
-  for (const double number : numbers) {
-    const int size = std::snprintf(digits, sizeof(digits), "%.17g ", number);
-    text->append(digits, static_cast<size_t>(size));
-  }
+  for (const double number : numbers) *text += Formatted("%.17g ", number);
 }
 
 std::string CamerasText(const ColmapModel& model) {

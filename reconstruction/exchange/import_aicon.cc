@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The columns are known from the files themselves, as those of the camera are.
+#include "reconstruction/exchange/import_aicon.h"
+
 #include <cmath>
 #include <map>
 #include <set>
 
 #include "calibration/camera_files/aicon_camera.h"
 #include "calibration/files/text_table.h"
-#include "reconstruction/exchange/import_project.h"
 #include "reconstruction/geometry/omega_phi_kappa.h"
 
 namespace insitu {
@@ -146,8 +147,10 @@ void ReadScales(const std::filesystem::path& path, const Indices& points, Networ
 
 }  // namespace
 
+void AiconOptions::Check() const { INSITU_CHECK(mark_sigma_mm > 0 && std::isfinite(mark_sigma_mm)); }
+
 ImportedProject ReadAiconProject(const std::filesystem::path& path, const AiconOptions& options) {
-  INSITU_CHECK(options.mark_sigma_mm > 0);
+  options.Check();
   const std::filesystem::path stem = SetStem(path);
   ImportedProject project;
   project.network.cameras = Cameras(File(stem, ".ior"));

@@ -185,7 +185,7 @@ class Line {
     }
     return sigma;
   }
-  FilePlace Place() const { return {row_.path, row_.line}; }
+  FilePlace Place() const { return row_.place(); }
   const TextRow& row() const { return row_; }
 
  private:

@@ -14,8 +14,6 @@ namespace {
 constexpr double kPix4dFirstPixelCenter = 0.5;
 constexpr double kMetresPerMm = 1e-3;
 
-FilePlace PlaceOf(const TextRow& row) { return {row.path, row.line}; }
-
 bool IsNumber(const TextRow& row, size_t index) {
   return index < row.words.size() && ParseNumber(row.words[index]).has_value();
 }
@@ -68,7 +66,7 @@ class OdmPoints {
     }
     if (is_new) {
       file_->points.push_back({named->second, Eigen::Vector3d(place.data()), std::nullopt,
-                               ControlRole::kControl, PlaceOf(row)});
+                               ControlRole::kControl, row.place()});
     }
     return named->second;
   }
@@ -119,7 +117,7 @@ void ReadAiconMarks(const SurveyText& text, SurveyFile* file) {
     const Eigen::Vector2d mm(row.Number(2, "x"), row.Number(3, "y"));
     if (row.Integer(9, "flag") == 0 && ++flagged) continue;
     file->marks.push_back({row.Text(0, "photo"), row.Text(1, "point"),
-                           AiconPixel(cameras[0].lens, mm), std::nullopt, PlaceOf(row)});
+                           AiconPixel(cameras[0].lens, mm), std::nullopt, row.place()});
   }
   if (flagged) file->remarks.push_back(std::to_string(flagged) + " marks are flagged as unused");
 }
@@ -130,7 +128,7 @@ void ReadAiconPoints(const SurveyText& text, SurveyFile* file) {
     if (row.Integer(8, "flag") == 0 && ++unused) continue;
     const Eigen::Vector3d sigma(Sigma(row, 4), Sigma(row, 5), Sigma(row, 6));
     file->points.push_back({row.Text(0, "point"), kMetresPerMm * Position(row, 1),
-                            kMetresPerMm * sigma, ControlRole::kControl, PlaceOf(row)});
+                            kMetresPerMm * sigma, ControlRole::kControl, row.place()});
   }
   if (unused) file->remarks.push_back(std::to_string(unused) + " points are flagged as unused");
 }
@@ -142,7 +140,7 @@ SurveyedPoint ReadPoint(const TextRow& row) {
   SurveyedPoint point;
   point.name = row.Text(0, "the name");
   point.position = Position(row, 1);
-  point.place = PlaceOf(row);
+  point.place = row.place();
   if (row.words.size() == 6) point.sigma = {Sigma(row, 4), Sigma(row, 4), Sigma(row, 5)};
   if (row.words.size() == 7) point.sigma = {Sigma(row, 4), Sigma(row, 5), Sigma(row, 6)};
   if (row.words.size() == 5 || row.words.size() > 7) {
@@ -181,7 +179,7 @@ SurveyFile ReadOdmList(const SurveyText& text) {
     const Eigen::Vector2d pixel(row.Number(3, "px"), row.Number(4, "py"));
     const auto name = points.Add(row, row.words.size() > 6 ? row.words[6] : "");
     if (!name) continue;
-    file.marks.push_back({PhotoName(photo), *name, pixel, std::nullopt, PlaceOf(row)});
+    file.marks.push_back({PhotoName(photo), *name, pixel, std::nullopt, row.place()});
   }
   points.Finish();
   return file;
@@ -226,7 +224,7 @@ SurveyFile ReadMarkList(const SurveyText& text) {
                       row.Text(1 - photo, "the point's name"),
                       {row.Number(2, "x") - shift, row.Number(3, "y") - shift},
                       std::nullopt,
-                      PlaceOf(row)};
+                      row.place()};
     file.marks.push_back(mark);
   }
   if (is_pix4d && text.rows[0].words.size() > 4) {
