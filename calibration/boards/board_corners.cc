@@ -8,10 +8,10 @@
 #include <sstream>
 
 #include "calibration/files/whole_file.h"
+#include "calibration/files/wording.h"
 #include "calibration/photo/photograph.h"
 #include "calibration/program/external_program.h"
 #include "calibration/program/program.h"
-#include "calibration/files/wording.h"
 
 namespace insitu {
 namespace fs = std::filesystem;
@@ -132,7 +132,8 @@ std::optional<std::vector<Eigen::Vector2d>> FindChessboard(const Raster& linear,
   return corners;
 }
 
-fs::path FindBoardCorners(const Board& board, const fs::path& folder) {
+fs::path FindBoardCorners(const Board& board, const fs::path& folder,
+                          const std::function<void()>& while_running) {
   if (board.interior_corners_x != board.interior_corners_y) {
     FindRectangularBoards(board, folder);
     return folder / kCorners;
@@ -142,7 +143,8 @@ fs::path FindBoardCorners(const Board& board, const fs::path& folder) {
                .package = "mrgingham",
                .folder = folder,
                .output = folder / kCorners,
-               .log = folder / "mrgingham.log"});
+               .log = folder / "mrgingham.log",
+               .while_running = while_running});
   SortByPhoto(folder / kCorners);
   return folder / kCorners;
 }

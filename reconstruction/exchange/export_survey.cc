@@ -6,9 +6,9 @@
 #include "calibration/camera_files/dbat_camera.h"
 #include "calibration/files/text_table.h"
 #include "calibration/files/whole_file.h"
+#include "calibration/files/wording.h"
 #include "reconstruction/exchange/fit_brown.h"
 #include "reconstruction/geometry/coordinate_system.h"
-#include "calibration/files/wording.h"
 
 namespace insitu {
 namespace {

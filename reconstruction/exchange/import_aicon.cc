@@ -147,7 +147,9 @@ void ReadScales(const std::filesystem::path& path, const Indices& points, Networ
 
 }  // namespace
 
-void AiconOptions::Check() const { INSITU_CHECK(mark_sigma_mm > 0 && std::isfinite(mark_sigma_mm)); }
+void AiconOptions::Check() const {
+  INSITU_CHECK(mark_sigma_mm > 0 && std::isfinite(mark_sigma_mm));
+}
 
 ImportedProject ReadAiconProject(const std::filesystem::path& path, const AiconOptions& options) {
   options.Check();
