@@ -3,10 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <map>
 #include <sstream>
 
+#include "calibration/boards/calibration_verdict.h"
 #include "calibration/calibration_report.h"
 #include "calibration/files/error.h"
 #include "calibration/files/json_file.h"
@@ -14,6 +14,7 @@
 #include "calibration/photo/exif.h"
 #include "calibration/photo/photograph.h"
 #include "calibration/site_cameras.h"
+#include "calibration/files/wording.h"
 
 namespace insitu {
 namespace fs = std::filesystem;
@@ -21,17 +22,11 @@ namespace {
 
 constexpr double kStatedDeviation_px = 0.1;  // more of a fitted lens is worth a word
 
-std::string Text(const char* format, double a, double b = 0) {
-  char text[256];
-  std::snprintf(text, sizeof(text), format, a, b);
-  return text;
-}
-
 void JudgeDeviation(double deviation_px, CameraCalibration* camera) {
   if (deviation_px <= kStatedDeviation_px) return;
   camera->findings.push_back(
       {deviation_px > 1 ? Severity::kFail : Severity::kReview,
-       Text("mrcal's lens model follows the lens as it was given up to %.2f px only.",
+       Formatted("mrcal's lens model follows the lens as it was given up to %.2f px only.",
             deviation_px),
        "Calibrate the camera with a board."});
 }
@@ -51,7 +46,7 @@ void JudgeFocalLengths(const std::vector<fs::path>& boards, const std::vector<fs
     camera->findings.push_back(
         {Severity::kFail,
          photo.filename().string() + " was taken at " +
-             Text("%.1f mm, the boards at %.1f mm.", *exif.focal_mm, *first.focal_mm),
+             Formatted("%.1f mm, the boards at %.1f mm.", *exif.focal_mm, *first.focal_mm),
          "Calibrate each zoom setting with boards of its own, in a folder of its own."});
     return;
   }
@@ -100,7 +95,7 @@ CameraCalibration FromFile(const SitePaths& site, const CameraFolder& folder,
   WriteWhole(model, ReadWhole(folder.file));
   if (!HoldsSolution(model)) return camera;
   camera.lens = AssessLens(model, model.parent_path() / "boards");
-  for (const CalibrationFinding& finding :
+  for (const Finding& finding :
        JudgeLens(*camera.lens, {file.camera.width(), file.camera.height()})) {
     camera.findings.push_back(finding);
   }
@@ -137,7 +132,7 @@ FilmMap MapOfScan(const fs::path& fiducials, const std::string& photo, const Fil
   const double limit = 0.005 * size.cast<double>().norm();  // film shrinks by less than this
   if (largest > limit) {
     throw InputError(fiducials, "photo " + photo +
-                                    Text(": its marks do not fit, off by %.1f px "
+                                    Formatted(": its marks do not fit, off by %.1f px "
                                          "where film shrinks by less than %.1f px; "
                                          "marks exchanged, or another photo's?",
                                          largest, limit));
@@ -153,7 +148,7 @@ void JudgeScan(const FilmScan& scan, const Eigen::Vector2i& size, CameraCalibrat
                                 "Measure four marks or more (projective: five)."});
   } else if (*scan.map.sigma_px > 1) {
     camera->findings.push_back({Severity::kReview,
-                                Text("The fiducial marks fit to %.2f px only.", *scan.map.sigma_px),
+                                Formatted("The fiducial marks fit to %.2f px only.", *scan.map.sigma_px),
                                 "Measure them again; of old or buckled film try projective."});
   }
   if (scan.film.distortion.empty()) return;
@@ -169,7 +164,7 @@ void JudgeScan(const FilmScan& scan, const Eigen::Vector2i& size, CameraCalibrat
   if (farthest <= 1.02 * scan.film.distortion.back().x()) return;
   camera->findings.push_back(
       {Severity::kReview,
-       Text("The distortion table ends at %.1f mm, the scan reaches to %.1f mm; beyond it is "
+       Formatted("The distortion table ends at %.1f mm, the scan reaches to %.1f mm; beyond it is "
             "continued straight.",
             scan.film.distortion.back().x(), farthest),
        "Trust nothing near the scan's corners."});
@@ -236,7 +231,7 @@ CameraCalibration FromExif(const SitePaths& site, const std::vector<fs::path>& p
   camera.exif_focal_px = *focal;
   camera.findings.push_back(
       {Severity::kFail,
-       Text("NOT CALIBRATED: the focal length of %.0f px is EXIF's, without distortion and "
+       Formatted("NOT CALIBRATED: the focal length of %.0f px is EXIF's, without distortion and "
             "principal point.",
             *focal),
        "Photograph a chessboard with this camera and this focal length, or let the adjustment "
@@ -320,13 +315,13 @@ std::string CameraCalibration::BriefReport() const {
     if (scan) text += ", scanned film";
     if (exif_focal_px) text += ", EXIF";
     if (file || scan) {
-      text += Text(", deviation at most %.4f px",
+      text += Formatted(", deviation at most %.4f px",
                    file ? file->largest_deviation_px : scan->fit.largest_deviation_px);
     }
-    if (scan && scan->map.sigma_px) text += Text(", fiducials %.3f px", *scan->map.sigma_px);
-    if (lens) text += Text(", RMS %.3f px (weighted %.3f px)", lens->rms_px, lens->weighted_rms_px);
+    if (scan && scan->map.sigma_px) text += Formatted(", fiducials %.3f px", *scan->map.sigma_px);
+    if (lens) text += Formatted(", RMS %.3f px (weighted %.3f px)", lens->rms_px, lens->weighted_rms_px);
   }
-  for (const CalibrationFinding& finding : findings) {
+  for (const Finding& finding : findings) {
     text += "\n  " + finding.reason + " " + finding.remedy;
   }
   return text;

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <map>
 #include <numbers>
 #include <set>
@@ -16,6 +15,7 @@
 #include "calibration/photo/exif.h"
 #include "calibration/photo/photograph.h"
 #include "calibration/program/external_program.h"
+#include "calibration/files/wording.h"
 
 namespace insitu {
 namespace fs = std::filesystem;
@@ -48,9 +48,7 @@ double StartFocal(const fs::path& photo) {
 
 // What a photo is called within boards/: a corner table is split at blanks, and names have some.
 std::string LinkName(const std::vector<fs::path>& photos, size_t i) {
-  char number[32];
-  std::snprintf(number, sizeof(number), "%06zu", i + 1);
-  return number + photos[i].extension().string();
+  return Formatted("%06zu", i + 1) + photos[i].extension().string();
 }
 
 // Links to the photos in one new folder, so that one pattern names them all and what mrcal stores
@@ -127,12 +125,6 @@ void CopyModel(const fs::path& source, const fs::path& target) {
   WriteWhole(target, model);
 }
 
-std::string Digits(double value) {
-  char text[32];
-  std::snprintf(text, sizeof(text), "%.17g", value);
-  return text;
-}
-
 struct Solver {
   Board board;
   double focal_px;
@@ -150,7 +142,7 @@ fs::path Solver::Solve(const std::string& lens_model, const fs::path& corners,
   RunExternal(
       {.command = {kPython, "-c", kRunSeeded, "mrcal-calibrate-cameras", "--corners-cache",
                    corners.filename().string(), "--lensmodel", lens_model, "--focal",
-                   Digits(focal_px), "--object-spacing", Digits(board.square_m), "--object-width-n",
+                   Formatted("%.17g", focal_px), "--object-spacing", Formatted("%.17g", board.square_m), "--object-width-n",
                    std::to_string(board.interior_corners_x), "--object-height-n",
                    std::to_string(board.interior_corners_y), "--outdir", "made", "photos/*"},
        .package = "python3-mrcal",
@@ -244,14 +236,12 @@ BoardCalibration CalibrateFromBoards(const std::vector<fs::path>& board_photos, 
 }
 
 std::string BoardCalibration::BriefReport() const {
-  char text[320];
-  std::snprintf(text, sizeof(text),
+  return Formatted(
                 "%s: %d of %d boards, %d corners, %d outliers, RMS %.3f px, worst %.2f px, "
                 "uncertainty at the centre %.3f px (splined %.3f px)",
                 lens_model.c_str(), boards_found, board_photos, lens.points, lens.outliers,
                 lens.rms_px, lens.worst_px, lens.uncertainty.center_px,
                 splined.uncertainty.center_px);
-  return text;
 }
 
 }  // namespace insitu

@@ -2,7 +2,6 @@
 #include "calibration/boards/board_corners.h"
 
 #include <algorithm>
-#include <cstdio>
 #include <map>
 #include <opencv2/calib3d.hpp>
 #include <opencv2/imgproc.hpp>
@@ -12,6 +11,7 @@
 #include "calibration/photo/photograph.h"
 #include "calibration/program/external_program.h"
 #include "calibration/program/program.h"
+#include "calibration/files/wording.h"
 
 namespace insitu {
 namespace fs = std::filesystem;
@@ -63,9 +63,7 @@ void TurnRight(int columns, std::vector<cv::Point2f>* corners) {
 }
 
 std::string Line(const std::string& photo, const Eigen::Vector2d& corner) {
-  char numbers[64];
-  std::snprintf(numbers, sizeof(numbers), " %.6f %.6f 0\n", corner.x(), corner.y());
-  return photo + numbers;
+  return photo + Formatted(" %.6f %.6f 0\n", corner.x(), corner.y());
 }
 
 void FindRectangularBoards(const Board& board, const fs::path& folder) {

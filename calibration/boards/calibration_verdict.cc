@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "calibration/boards/calibration_verdict.h"
+#include "calibration/files/wording.h"
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 namespace insitu {
 namespace {
@@ -21,13 +21,7 @@ constexpr double kDisagreement_px = 0.5;    // half a pixel hurts no montage
 constexpr double kDisagreement_sigmas = 5;  // more is no chance
 constexpr double kUncertain_px = 1;
 
-std::string Text(const char* format, double a, double b = 0) {
-  char text[256];
-  std::snprintf(text, sizeof(text), format, a, b);
-  return text;
-}
-
-void JudgeSpread(const FrameCells& cells, std::vector<CalibrationFinding>* findings) {
+void JudgeSpread(const FrameCells& cells, std::vector<Finding>* findings) {
   const int columns = cells.columns / 4, rows = cells.rows / 4;
   const struct {
     const char* name;
@@ -52,7 +46,7 @@ void JudgeSpread(const FrameCells& cells, std::vector<CalibrationFinding>* findi
                        "beyond the boards is extrapolated."});
 }
 
-void JudgeViews(const std::vector<BoardView>& boards, std::vector<CalibrationFinding>* findings) {
+void JudgeViews(const std::vector<BoardView>& boards, std::vector<Finding>* findings) {
   if (boards.empty()) return;
   const auto tilted = std::count_if(boards.begin(), boards.end(), [](const BoardView& board) {
     return board.tilt_deg > kTilted_deg;
@@ -60,7 +54,7 @@ void JudgeViews(const std::vector<BoardView>& boards, std::vector<CalibrationFin
   if (tilted < kFewTilted) {
     findings->push_back(
         {tilted == 0 ? Severity::kFail : Severity::kReview,
-         Text(tilted == 1 ? "Only %.0f board is tilted by more than %.0f degrees."
+         Formatted(tilted == 1 ? "Only %.0f board is tilted by more than %.0f degrees."
                           : "Only %.0f boards are tilted by more than %.0f degrees.",
               static_cast<double>(tilted), kTilted_deg),
          "Photograph the board tilted by 30 to 45 degrees to all sides: boards "
@@ -71,26 +65,26 @@ void JudgeViews(const std::vector<BoardView>& boards, std::vector<CalibrationFin
       [](const BoardView& a, const BoardView& b) { return a.distance_m < b.distance_m; });
   if (far->distance_m < kDistanceRatio * near->distance_m) {
     findings->push_back({Severity::kReview,
-                         Text("All boards stand at one distance, %.2f to %.2f m.", near->distance_m,
+                         Formatted("All boards stand at one distance, %.2f to %.2f m.", near->distance_m,
                               far->distance_m),
                          "Add boards that fill the frame and boards twice as far away."});
   }
 }
 
 void JudgeResiduals(const LensAssessment& lens, const Eigen::Vector2i& size,
-                    std::vector<CalibrationFinding>* findings) {
+                    std::vector<Finding>* findings) {
   const double high = std::max(kHighRms_px, kHighRmsOfDiagonal * size.cast<double>().norm());
   if (lens.rms_px > high) {
     findings->push_back(
         {lens.rms_px > 2 * high ? Severity::kFail : Severity::kReview,
-         Text("The residuals are high: RMS %.2f px, expected below %.2f px.", lens.rms_px, high),
+         Formatted("The residuals are high: RMS %.2f px, expected below %.2f px.", lens.rms_px, high),
          "Look at the worst boards: blurred, bent or moved while the shutter was "
          "open? Keep focus, zoom and stabiliser fixed, the board flat."});
   }
   const double share = lens.outliers / std::max(1.0, 1.0 * lens.points + lens.outliers);
   if (share > kManyOutliers) {
     findings->push_back({share > kTooManyOutliers ? Severity::kFail : Severity::kReview,
-                         Text("%.1f %% of the corners were refused as outliers.", 100 * share),
+                         Formatted("%.1f %% of the corners were refused as outliers.", 100 * share),
                          "Take out the boards with many outliers, or photograph them again."});
   }
 }
@@ -118,13 +112,13 @@ Disagreement Disagree(const ProjectionDifference& difference, const LensAssessme
 }
 
 // That nothing contradicts is no agreement.
-CalibrationFinding Incomparable(const std::string& lenses) {
+Finding Incomparable(const std::string& lenses) {
   return {Severity::kReview,
           lenses + " cannot be compared: nowhere in the frame were boards seen and both known.",
           "Photograph more boards, evenly over the frame."};
 }
 
-void JudgeHalves(const BoardCalibration& calibration, std::vector<CalibrationFinding>* findings) {
+void JudgeHalves(const BoardCalibration& calibration, std::vector<Finding>* findings) {
   if (!calibration.halves) {
     findings->push_back({Severity::kReview, "Too few boards for a cross-validation of two halves.",
                          "Photograph six boards at least, better twenty."});
@@ -138,7 +132,7 @@ void JudgeHalves(const BoardCalibration& calibration, std::vector<CalibrationFin
   }
   if (halves.cells * 10 <= halves.of) return;
   findings->push_back({Severity::kReview,
-                       Text("Two halves of the boards give different lenses: up to %.2f px apart "
+                       Formatted("Two halves of the boards give different lenses: up to %.2f px apart "
                             "where boards were seen, at %.0f %% of the places more than chance "
                             "explains.",
                             halves.largest_px, 100.0 * halves.cells / halves.of),
@@ -146,7 +140,7 @@ void JudgeHalves(const BoardCalibration& calibration, std::vector<CalibrationFin
                        "boards, evenly over the frame."});
 }
 
-void JudgeModel(const BoardCalibration& calibration, std::vector<CalibrationFinding>* findings) {
+void JudgeModel(const BoardCalibration& calibration, std::vector<Finding>* findings) {
   const Disagreement model = Disagree(calibration.splined_difference, calibration.splined, 1);
   if (model.of == 0) {
     findings->push_back(Incomparable("The lens model and the splined one"));
@@ -154,14 +148,14 @@ void JudgeModel(const BoardCalibration& calibration, std::vector<CalibrationFind
   }
   if (model.cells * 10 <= model.of) return;
   findings->push_back({Severity::kReview,
-                       Text("The lens model does not describe this lens: up to %.2f px from the "
+                       Formatted("The lens model does not describe this lens: up to %.2f px from the "
                             "splined model where boards were seen, at %.0f %% of the places more "
                             "than chance explains.",
                             model.largest_px, 100.0 * model.cells / model.of),
                        "Calibrate with --lens-model " + calibration.splined_lens_model + "."});
 }
 
-void JudgeUncertainty(const LensAssessment& lens, std::vector<CalibrationFinding>* findings) {
+void JudgeUncertainty(const LensAssessment& lens, std::vector<Finding>* findings) {
   int uncertain = 0, seen = 0;
   for (size_t i = 0; i < lens.cells.counts.size(); ++i) {
     if (lens.cells.counts[i] == 0) continue;
@@ -177,7 +171,7 @@ void JudgeUncertainty(const LensAssessment& lens, std::vector<CalibrationFinding
   }
   if (uncertain * 10 <= seen) return;
   findings->push_back({uncertain * 2 > seen ? Severity::kFail : Severity::kReview,
-                       Text("The projection is uncertain by more than %.0f px at %.0f %% of the "
+                       Formatted("The projection is uncertain by more than %.0f px at %.0f %% of the "
                             "places where boards were seen.",
                             kUncertain_px, 100.0 * uncertain / seen),
                        "Photograph more boards, larger in the frame."});
@@ -185,23 +179,11 @@ void JudgeUncertainty(const LensAssessment& lens, std::vector<CalibrationFinding
 
 }  // namespace
 
-const char* Word(Severity severity) {
-  switch (severity) {
-    case Severity::kNote:
-      return "note";
-    case Severity::kReview:
-      return "review";
-    case Severity::kFail:
-      break;
-  }
-  return "fail";
-}
-
-std::vector<CalibrationFinding> JudgeLens(const LensAssessment& lens, const Eigen::Vector2i& size) {
-  std::vector<CalibrationFinding> findings;
+std::vector<Finding> JudgeLens(const LensAssessment& lens, const Eigen::Vector2i& size) {
+  std::vector<Finding> findings;
   if (lens.boards.size() < kFewBoards) {
     findings.push_back({Severity::kReview,
-                        Text(lens.boards.size() == 1 ? "Only %.0f board." : "Only %.0f boards.",
+                        Formatted(lens.boards.size() == 1 ? "Only %.0f board." : "Only %.0f boards.",
                              static_cast<double>(lens.boards.size())),
                         "Photograph twenty boards or more."});
   }
@@ -211,9 +193,8 @@ std::vector<CalibrationFinding> JudgeLens(const LensAssessment& lens, const Eige
   return findings;
 }
 
-std::vector<CalibrationFinding> JudgeBoards(const BoardCalibration& calibration,
-                                            const Eigen::Vector2i& size) {
-  std::vector<CalibrationFinding> findings = JudgeLens(calibration.lens, size);
+std::vector<Finding> JudgeBoards(const BoardCalibration& calibration, const Eigen::Vector2i& size) {
+  std::vector<Finding> findings = JudgeLens(calibration.lens, size);
   JudgeHalves(calibration, &findings);
   JudgeModel(calibration, &findings);
   JudgeUncertainty(calibration.splined, &findings);

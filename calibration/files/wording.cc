@@ -2,23 +2,46 @@
 #include "calibration/files/wording.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdarg>
 #include <cstdio>
 
 namespace insitu {
 
 std::string Formatted(const char* format, ...) {
-  va_list arguments, counted;
+  char text[256];
+  va_list arguments, again;
   va_start(arguments, format);
-  va_copy(counted, arguments);
-  std::string text(static_cast<size_t>(std::vsnprintf(nullptr, 0, format, counted)), '\0');
-  va_end(counted);
-  std::vsnprintf(text.data(), text.size() + 1, format, arguments);
+  va_copy(again, arguments);
+  const auto size = static_cast<size_t>(std::vsnprintf(text, sizeof text, format, arguments));
   va_end(arguments);
-  return text;
+  std::string whole(text, std::min(size, sizeof text - 1));
+  if (size >= sizeof text) {
+    whole.resize(size);
+    std::vsnprintf(whole.data(), size + 1, format, again);
+  }
+  va_end(again);
+  return whole;
 }
 
 std::string Number(const char* format, double value) { return Formatted(format, value); }
+
+std::string ShortNumber(double value) {
+  if (std::abs(value) >= 100) return Number("%.0f", value);
+  return Number(std::abs(value) < 1 ? "%.3g" : "%.2f", value);
+}
+
+std::string QuotedList(const std::vector<std::string>& names) {
+  constexpr size_t kShown = 4;
+  std::string list;
+  for (size_t i = 0; i < names.size(); ++i) {
+    if (i == kShown && names.size() > kShown + 1) {
+      return list + " and " + std::to_string(names.size() - kShown) + " others";
+    }
+    list += (i == 0 ? "'" : i + 1 == names.size() ? " and '" : ", '") + names[i] + "'";
+  }
+  return list;
+}
 
 std::string Listing(const std::string& what, const std::vector<std::string>& names, size_t shown) {
   std::string text = what + " (" + std::to_string(names.size()) + "): ";

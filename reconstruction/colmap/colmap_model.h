@@ -59,8 +59,4 @@ bool HasColmapModel(const std::filesystem::path& folder);
 // reference to what the model does not hold.
 ColmapModel ReadColmapModel(const std::filesystem::path& folder);
 
-// Each writes three files, whole or not at all, that every COLMAP reads. 17 digits.
-void WriteColmapText(const std::filesystem::path& folder, const ColmapModel& model);
-void WriteColmapBinary(const std::filesystem::path& folder, const ColmapModel& model);
-
 }  // namespace insitu

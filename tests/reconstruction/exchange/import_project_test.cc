@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "reconstruction/exchange/import_project.h"
+#include "reconstruction/exchange/import_aicon.h"
+#include "reconstruction/exchange/import_dbat.h"
 
 #include "calibration/lens/lens_residual.h"
 #include "reconstruction/geometry/omega_phi_kappa.h"

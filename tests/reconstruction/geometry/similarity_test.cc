@@ -6,6 +6,7 @@
 #include <cmath>
 #include <random>
 
+#include "calibration/files/error.h"
 #include "calibration/lens/camera.h"
 
 namespace insitu {
@@ -137,6 +138,20 @@ TEST(FitSimilarity, TakesABlunderForNoMirrorImage) {
     EXPECT_EQ(fit->inliers, 4);
     EXPECT_FALSE(fit->is_mirrored);
   }
+}
+
+TEST(FitSimilarity, NamesTheOptionThatIsWrong) {
+  const auto fault = [](const SimilarityOptions& options) {
+    try {
+      FitSimilarity({}, options);
+    } catch (const CheckError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  EXPECT_EQ(fault({}), "");
+  EXPECT_NE(fault({.limit_sigma = 0}).find("limit_sigma"), std::string::npos);
+  EXPECT_NE(fault({.max_trials = 0}).find("max_trials"), std::string::npos);
 }
 
 }  // namespace
