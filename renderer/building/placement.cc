@@ -9,7 +9,7 @@
 
 #include "calibration/files/csv_file.h"
 #include "calibration/files/json_file.h"
-#include "renderer/building/coordinate_system.h"
+#include "reconstruction/geometry/coordinate_system.h"
 
 namespace insitu {
 namespace {
@@ -140,6 +140,36 @@ Placement PlacementOf(const SitePaths& site, const JsonNode& node, double metres
   return placement;
 }
 
+// Vertices are metres by now: PROJ would take them for what the system counts in.
+CoordinateSystem MetricSystem(const std::filesystem::path& file, const std::string& name) {
+  const auto system = CoordinateSystem::FromText(name);
+  if (!system) {
+    throw InputError(file, "PROJ does not know the coordinate system \"" + name +
+                               "\", expected one such as EPSG:2056");
+  }
+  const bool is_metric = !system->is_geographic() &&
+                         std::abs(system->metres_per_unit() - 1) < 1e-12 &&
+                         std::abs(system->metres_per_height() - 1) < 1e-12;
+  if (is_metric) return *system;
+  throw InputError(file, "the coordinate system \"" + name +
+                             "\" is not in metres, heights included; expected a projected one in "
+                             "metres, such as EPSG:2056");
+}
+
+void Convert(const std::filesystem::path& file, const Placement& placement, ModelMesh* mesh) {
+  const CoordinateConversion convert(MetricSystem(file, placement.model_crs),
+                                     MetricSystem(file, placement.survey_crs));
+  for (Vector3d& vertex : mesh->vertices) {
+    const auto converted = convert(vertex);
+    if (!converted) {
+      throw InputError(file, "PROJ cannot take (" + std::to_string(vertex.x()) + ", " +
+                                 std::to_string(vertex.y()) + ") from " + placement.model_crs +
+                                 " to " + placement.survey_crs);
+    }
+    vertex = *converted;
+  }
+}
+
 struct Centred {
   Vector3d model = Vector3d::Zero(), survey = Vector3d::Zero();
   double weight = 0;
@@ -233,9 +263,7 @@ void Place(const SitePaths& site, const Placement& placement, double metres_per_
     normal = (rotation * ZUp(placement.y_up, normal.cast<double>())).cast<float>();
   }
   if (placement.model_crs.empty()) return;
-  const CoordinateTransformation transformation(PlacementPath(site), placement.model_crs,
-                                                placement.survey_crs);
-  for (Vector3d& vertex : mesh->vertices) vertex = transformation.Apply(vertex);
+  Convert(PlacementPath(site), placement, mesh);
 }
 
 }  // namespace insitu
