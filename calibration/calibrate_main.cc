@@ -12,7 +12,7 @@ int main(int argc, char** argv) {
       "insitu-calibrate");
   insitu::SitePaths site;
   insitu::BoardCalibrationOptions options;
-  app.add_option("SITE", site.root, "the site folder")->required()->check(CLI::ExistingDirectory);
+  insitu::AddSite(&app, &site);
   app.add_option("--lens-model", options.lens_model, "a lens model of mrcal")
       ->capture_default_str();
   app.add_option("--focal-px", options.focal_px,

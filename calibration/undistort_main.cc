@@ -8,7 +8,7 @@ int main(int argc, char** argv) {
   CLI::App app("Removes the lens distortion from a site's photographs, in linear light.",
                "insitu-undistort");
   insitu::SitePaths site;
-  app.add_option("SITE", site.root, "the site folder")->required();
+  insitu::AddSite(&app, &site);
   app.footer(
       "Example: insitu-undistort gallery\n"
       "writes gallery/work/input_images/*.exr and pinhole.cameramodel.");

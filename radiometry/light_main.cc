@@ -15,7 +15,7 @@ int RunLight(int argc, char** argv) {
   app.footer("Example: insitu-light sites/gallery --sky-facets 8");
   SitePaths site;
   LightOptions options;
-  app.add_option("SITE", site.root, "site folder, already reconstructed")->required();
+  AddSite(&app, &site);
   app.add_option("--bins", options.bins, "spectral bins: 16, or 9 as in the paper")
       ->check(CLI::IsMember({9, 16}))
       ->capture_default_str();

@@ -42,9 +42,7 @@ int main(int argc, char** argv) {
       "adjustment: tables and script of DBAT, or gcp_list.txt of OpenDroneMap. Results for COLMAP: "
       "insitu-reconstruct --colmap-model.",
       "insitu-export-survey");
-  app.add_option("SITE", request.site.root, "site folder")
-      ->required()
-      ->check(CLI::ExistingDirectory);
+  insitu::AddSite(&app, &request.site);
   app.add_option("--format", request.format, "dbat or odm")
       ->required()
       ->check(CLI::IsMember({"dbat", "odm"}));

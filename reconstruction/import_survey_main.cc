@@ -35,12 +35,12 @@ int main(int argc, char** argv) {
       "Metashape, MicMac, DBAT, AICON, JAG3D, COLMAP, tables with a header), each recognised by "
       "its content, and writes survey/control_points.csv and observations.csv.",
       "insitu-import-survey");
-  app.add_option("--site", site.root, "site folder")->required()->check(CLI::ExistingDirectory);
+  insitu::AddSite(&app, &site);
   app.add_option("FILE", files, "files to read and merge")->required()->check(CLI::ExistingFile);
   app.add_option("--photo", photos, "NAME=SITE_PHOTO: a photo that the files name otherwise");
   AddOptions(&app, &options);
   app.footer(
-      "Example:\n  insitu-import-survey --site sites/mill points.csv gcp_list.txt --sigma-m 0.02 "
+      "Example:\n  insitu-import-survey sites/mill points.csv gcp_list.txt --sigma-m 0.02 "
       "--mark-sigma-px 0.5");
   return insitu::RunProgram(app, argc, argv, [&] {
     for (const std::string& pair : photos) {

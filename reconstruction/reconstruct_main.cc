@@ -14,7 +14,7 @@ int main(int argc, char** argv) {
       "Finds where the photographs of a site were taken from, its polygons, and the directions to "
       "the sun and the zenith, in one adjustment of its survey.",
       "insitu-reconstruct");
-  app.add_option("SITE", site.root, "site folder")->required()->check(CLI::ExistingDirectory);
+  insitu::AddSite(&app, &site);
   app.add_option("--plane-sigma", options.plane_sigma, "vertex off its polygon's plane [m]")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "calibration/files/json_file.h"
+#include "calibration/files/sha256.h"
 #include "calibration/files/whole_file.h"
 #include "calibration/photo/distinct_photographs.h"
 #include "calibration/photo/photo_thumbnail.h"

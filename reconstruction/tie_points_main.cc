@@ -12,7 +12,7 @@ int main(int argc, char** argv) {
       "Finds points that several photographs of a site show, and first positions of the "
       "photographs, by COLMAP with the calibrated lens held fixed.",
       "insitu-tie-points");
-  app.add_option("SITE", site.root, "site folder")->required()->check(CLI::ExistingDirectory);
+  insitu::AddSite(&app, &site);
   app.add_option("--points", options.selection.points_per_photo,
                  "tie points kept on a photo at most; 0: all")
       ->check(CLI::NonNegativeNumber)

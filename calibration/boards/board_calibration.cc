@@ -10,6 +10,7 @@
 #include <sstream>
 
 #include "calibration/boards/board_corners.h"
+#include "calibration/boards/board_scripts.h"
 #include "calibration/files/error.h"
 #include "calibration/files/whole_file.h"
 #include "calibration/photo/exif.h"
@@ -21,7 +22,6 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr int kFewestBoards = 3;
-const std::string kRunSeeded = INSITU_CALIBRATION_FOLDER "/run_seeded.py";
 constexpr char kPhotos[] = "photos/";
 
 // ---- the photographs -----------------------------------------------------------------------
@@ -148,7 +148,7 @@ fs::path Solver::Solve(const std::string& lens_model, const fs::path& corners,
   const fs::path made = folder / "made", log = folder / (name + ".log");
   fs::create_directory(made);
   RunExternal(
-      {.command = {kPython, kRunSeeded, "mrcal-calibrate-cameras", "--corners-cache",
+      {.command = {kPython, "-c", kRunSeeded, "mrcal-calibrate-cameras", "--corners-cache",
                    corners.filename().string(), "--lensmodel", lens_model, "--focal",
                    Digits(focal_px), "--object-spacing", Digits(board.square_m), "--object-width-n",
                    std::to_string(board.interior_corners_x), "--object-height-n",

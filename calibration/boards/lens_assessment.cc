@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "calibration/boards/board_scripts.h"
 #include "calibration/files/json_file.h"
 #include "calibration/files/whole_file.h"
 #include "calibration/program/external_program.h"
@@ -10,8 +11,6 @@
 namespace insitu {
 namespace fs = std::filesystem;
 namespace {
-
-const std::string kAssess = INSITU_CALIBRATION_FOLDER "/assess_calibration.py";
 
 std::vector<std::optional<double>> NumbersOrNull(const JsonNode& node) {
   std::vector<std::optional<double>> numbers;
@@ -66,8 +65,12 @@ bool HoldsSolution(const fs::path& model) {
 LensAssessment AssessLens(const fs::path& model, const fs::path& folder, const fs::path& corners) {
   fs::create_directories(folder);
   const fs::path output = folder / (model.stem().string() + ".json");
-  std::vector<std::string> command = {kPython, kAssess, fs::absolute(model).string(),
-                                      std::to_string(kFrameColumns), std::to_string(kFrameRows)};
+  std::vector<std::string> command = {kPython,
+                                      "-c",
+                                      kAssessCalibration,
+                                      fs::absolute(model).string(),
+                                      std::to_string(kFrameColumns),
+                                      std::to_string(kFrameRows)};
   if (!corners.empty()) command.push_back(fs::absolute(corners).string());
   RunExternal({.command = command,
                .package = "python3-mrcal",

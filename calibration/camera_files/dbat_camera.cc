@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "calibration/camera_files/camera_file_formats.h"
 #include "calibration/files/text_table.h"
 
 namespace insitu {
@@ -28,11 +29,23 @@ void ParseSize(const XmlNode& element, DbatCamera* camera) {
   }
   camera->width = static_cast<int>(image[0]);
   camera->height = static_cast<int>(image[1]);
-  camera->sensor_height_mm = *height;
+  camera->sensor_mm = *height / image[1] * Eigen::Vector2d(image[0], image[1]);
   if (sizes[0] == "auto") return;
   const auto width = ParseNumber(sizes[0]);
   if (!width || !(*width > 0)) throw sensor.Error("the width must be positive or \"auto\"");
-  if (!element.Find("aspect")) camera->aspect = *width / camera->width / camera->pixel_mm();
+  camera->sensor_mm.x() = *width;
+}
+
+// The width without the stretch by the aspect that stands beside it.
+void ParseAspect(const XmlNode& element, DbatCamera* camera) {
+  const auto aspect = element.Find("aspect");
+  if (!aspect) return;
+  camera->aspect = aspect->Number();
+  if (!(camera->aspect > 0 && camera->aspect < 2)) {
+    throw aspect->Error("\"" + aspect->Text() + "\", expected a number near 1");
+  }
+  const bool has_square_pixels = element.At("sensor").Text().starts_with("auto");
+  if (!has_square_pixels) camera->sensor_mm.x() /= 2 - camera->aspect;
 }
 
 void ParseModel(const XmlNode& element, DbatCamera* camera) {
@@ -47,7 +60,7 @@ void ParseModel(const XmlNode& element, DbatCamera* camera) {
 // cc, pp, K, P, aspect, skew. A constant of 0, as blank camera files have, is not stated.
 void ParseValues(const XmlNode& element, DbatCamera* camera) {
   if (const auto node = element.Find("cc"); node && node->Text() != "focal") {
-    const double cc = node->Numbers()[0];
+    const double cc = NumbersOfCount(*node, 1, 1)[0];
     if (cc < 0) throw node->Error("the camera constant must be positive");
     if (cc > 0) camera->cc_mm = cc;
   }
@@ -76,13 +89,22 @@ int ParseCount(const XmlNode& element, const std::string& name, int most) {
   return static_cast<int>(count);
 }
 
+// A camera that is only to be calibrated has neither.
+void RequireCalibrated(const XmlNode& camera) {
+  const XmlNode cc = camera.At("cc");
+  if (!(NumbersOfCount(cc, 1, 1)[0] > 0)) {
+    throw cc.Error("is not positive, expected a calibrated camera");
+  }
+  NumbersOfCount(camera.At("pp"), 2, 2);
+}
+
 }  // namespace
 
 DbatCamera WithDefaults(DbatCamera camera) {
   camera.cc_mm = camera.focal_mm;
   camera.aspect = 1;
   camera.skew = 0;
-  camera.pp_mm = camera.pixel_mm() / 2 * Eigen::Vector2d(camera.width, camera.height);
+  camera.pp_mm = camera.sensor_mm / 2;
   camera.K.fill(0);
   camera.P.fill(0);
   return camera;
@@ -95,13 +117,17 @@ DbatCamera ParseDbatCamera(const XmlNode& element) {
   DbatCamera camera;
   if (const auto id = element.Find("id")) camera.id = id->Text();
   if (const auto name = element.Find("name")) camera.name = name->Text();
-  camera.focal_mm = element.At("focal").Number();
-  if (!(camera.focal_mm > 0)) throw element.At("focal").Error("the focal length must be positive");
+  if (const auto focal = element.Find("focal")) {
+    camera.focal_mm = focal->Number();
+    if (!(camera.focal_mm > 0)) throw focal->Error("the focal length must be positive");
+  }
   ParseSize(element, &camera);
-  const double aspect = camera.aspect;
   camera = WithDefaults(camera);
-  camera.aspect = element.Find("aspect") ? element.At("aspect").Number() : aspect;
+  ParseAspect(element, &camera);
   ParseValues(element, &camera);
+  if (!(camera.cc_mm > 0))
+    throw element.Error("<focal> and <cc> are missing, expected one of them");
+  if (camera.focal_mm == 0) camera.focal_mm = camera.cc_mm;
   ParseModel(element, &camera);
   camera.K_count = ParseCount(element, "nK", 3);
   camera.P_count = ParseCount(element, "nP", 2);
@@ -113,7 +139,7 @@ MetricCamera MetricFromDbat(const DbatCamera& camera) {
   metric.model = MetricModel::kBackwardBrown;
   metric.width = camera.width;
   metric.height = camera.height;
-  metric.pixel_mm.setConstant(camera.pixel_mm());
+  metric.pixel_mm = camera.pixel_mm();
   metric.origin_px.setConstant(-kDbatFirstPixelCenter);
   metric.parameters = {camera.cc_mm,      camera.pp_mm.x(), -camera.pp_mm.y(), camera.K[0],
                        camera.K[1],       camera.K[2],      camera.P[0],       camera.P[1],
@@ -123,14 +149,13 @@ MetricCamera MetricFromDbat(const DbatCamera& camera) {
 
 DbatCamera DbatFromMetric(const MetricCamera& metric) {
   INSITU_CHECK(metric.model == MetricModel::kBackwardBrown);
-  INSITU_CHECK(metric.pixel_mm.x() == metric.pixel_mm.y());
   const std::vector<double>& p = metric.parameters;
-  const Eigen::Vector2d corner_mm =
-      metric.pixel_mm.x() * (metric.origin_px + Eigen::Vector2d::Constant(kDbatFirstPixelCenter));
+  const Eigen::Vector2d origin = metric.origin_px.array() + kDbatFirstPixelCenter;
+  const Eigen::Vector2d corner_mm = metric.pixel_mm.cwiseProduct(origin);
   DbatCamera camera;
   camera.width = metric.width;
   camera.height = metric.height;
-  camera.sensor_height_mm = metric.pixel_mm.y() * metric.height;
+  camera.sensor_mm = metric.pixel_mm.cwiseProduct(Eigen::Vector2d(metric.width, metric.height));
   camera.focal_mm = camera.cc_mm = p[0];
   camera.pp_mm = corner_mm + Eigen::Vector2d(p[1], -p[2]);
   camera.K = {p[3], p[4], p[5]};
@@ -138,6 +163,25 @@ DbatCamera DbatFromMetric(const MetricCamera& metric) {
   camera.aspect = 1 - p[8];
   camera.skew = p[9];
   return camera;
+}
+
+CameraFile ReadDbatCamera(const std::filesystem::path& path, const CameraFileOptions& options) {
+  const XmlNode root = XmlNode::Load(path);
+  const auto list = root.Find("cameras");
+  const std::vector<XmlNode> cameras = list ? list->Children("camera") : std::vector<XmlNode>();
+  if (cameras.empty()) {
+    throw InputError(path, "no camera in it, expected DBAT's <document><cameras><camera>");
+  }
+  for (const XmlNode& camera : cameras) {
+    const auto id = camera.Find("id");
+    if (cameras.size() > 1 && !(id && id->Text() == options.camera)) continue;
+    RequireCalibrated(camera);
+    return MetricCameraFile(path, camera.line(), "DBAT XML",
+                            MetricFromDbat(ParseDbatCamera(camera)));
+  }
+  throw InputError(path,
+                   "holds several cameras, expected one, or to stand in a folder named "
+                   "after its <id>");
 }
 
 }  // namespace insitu

@@ -9,6 +9,12 @@
 
 namespace insitu {
 
+// Where in a file a statement was made.
+struct FilePlace {
+  std::filesystem::path path;
+  int line = 0;  // 0: the file as a whole
+};
+
 // Bad input. what() reads "file:line: message"; without a line (line <= 0) "file: message".
 // Programs print it and exit with status 2.
 class InputError : public std::runtime_error {

@@ -1,25 +1,49 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "calibration/files/whole_file.h"
 
+#include <signal.h>
 #include <unistd.h>
 
+#include <cerrno>
+#include <cstring>
 #include <fstream>
 #include <iterator>
+#include <optional>
+#include <regex>
 #include <stdexcept>
 
 #include "calibration/files/error.h"
 
 namespace insitu {
 namespace fs = std::filesystem;
+namespace {
+
+// ".stem.PID.ending", in the target's folder so that the rename stays on one disk.
+fs::path TemporaryFor(const fs::path& target) {
+  fs::path temporary = target.parent_path() / ".";
+  temporary += target.stem();
+  temporary += "." + std::to_string(getpid());
+  temporary += target.extension();
+  return temporary;
+}
+
+// The process that writes a file named as TemporaryFor does; nullopt: it is no such file.
+std::optional<pid_t> WriterOf(const fs::path& file) {
+  static const std::regex kTemporary(R"(\..+\.([0-9]{1,9})(\.[^.]+)?)");
+  const std::string name = file.filename().string();
+  std::smatch match;
+  if (!std::regex_match(name, match, kTemporary)) return std::nullopt;
+  return std::stoi(match[1]);
+}
+
+bool Runs(pid_t process) { return kill(process, 0) == 0 || errno == EPERM; }
+
+}  // namespace
 
 void WriteWhole(const fs::path& target,
                 const std::function<void(const fs::path& temporary)>& write) {
   if (target.has_parent_path()) fs::create_directories(target.parent_path());
-  fs::path temporary = target.parent_path() / ".";
-  temporary += target.stem();
-  temporary += ".";
-  temporary += std::to_string(getpid());
-  temporary += target.extension();
+  const fs::path temporary = TemporaryFor(target);
   try {
     write(temporary);
     fs::rename(temporary, target);
@@ -32,11 +56,26 @@ void WriteWhole(const fs::path& target,
 
 void WriteWhole(const fs::path& target, const std::string& content) {
   WriteWhole(target, [&](const fs::path& temporary) {
+    errno = 0;
     std::ofstream stream(temporary, std::ios::binary);
     stream << content;
     stream.close();
-    if (!stream) throw std::runtime_error(target.string() + ": cannot be written");
+    if (stream) return;
+    const std::string reason = errno == 0 ? "" : std::string(": ") + std::strerror(errno);
+    throw std::runtime_error(target.string() + ": cannot be written" + reason);
   });
+}
+
+std::vector<fs::path> RemoveLeftovers(const fs::path& folder) {
+  std::vector<fs::path> removed;
+  if (!fs::is_directory(folder)) return removed;
+  for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder)) {
+    if (!entry.is_regular_file() || entry.is_symlink()) continue;
+    const std::optional<pid_t> writer = WriterOf(entry.path());
+    if (writer && !Runs(*writer)) removed.push_back(entry.path());
+  }
+  for (const fs::path& path : removed) fs::remove(path);
+  return removed;
 }
 
 std::string ReadWhole(const fs::path& path) {

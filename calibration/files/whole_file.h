@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <functional>
 #include <string>
+#include <vector>
 
 namespace insitu {
 
@@ -13,6 +14,10 @@ namespace insitu {
 void WriteWhole(const std::filesystem::path& target,
                 const std::function<void(const std::filesystem::path& temporary)>& write);
 void WriteWhole(const std::filesystem::path& target, const std::string& content);
+
+// Removes what a killed WriteWhole left below a folder, the temporary files of processes that run
+// no more; returns their paths. Links to folders are not followed.
+std::vector<std::filesystem::path> RemoveLeftovers(const std::filesystem::path& folder);
 
 // The whole content of a file. Throws InputError if it cannot be read.
 std::string ReadWhole(const std::filesystem::path& path);

@@ -2,15 +2,23 @@
 #include "calibration/files/wording.h"
 
 #include <algorithm>
+#include <cstdarg>
 #include <cstdio>
 
 namespace insitu {
 
-std::string Number(const char* format, double value) {
-  char text[64];
-  std::snprintf(text, sizeof text, format, value);
+std::string Formatted(const char* format, ...) {
+  va_list arguments, counted;
+  va_start(arguments, format);
+  va_copy(counted, arguments);
+  std::string text(static_cast<size_t>(std::vsnprintf(nullptr, 0, format, counted)), '\0');
+  va_end(counted);
+  std::vsnprintf(text.data(), text.size() + 1, format, arguments);
+  va_end(arguments);
   return text;
 }
+
+std::string Number(const char* format, double value) { return Formatted(format, value); }
 
 std::string Listing(const std::string& what, const std::vector<std::string>& names, size_t shown) {
   std::string text = what + " (" + std::to_string(names.size()) + "): ";

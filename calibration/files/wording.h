@@ -8,7 +8,10 @@
 
 namespace insitu {
 
-// printf's way with one number.
+// printf into a string, however long.
+[[gnu::format(printf, 1, 2)]] std::string Formatted(const char* format, ...);
+
+// The same with one number.
 std::string Number(const char* format, double value);
 
 // "what (n): a, b, c and m more", at most `shown` names.

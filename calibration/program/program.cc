@@ -5,10 +5,13 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <filesystem>
 #include <iostream>
 #include <mutex>
+#include <string_view>
 
 #include "calibration/files/error.h"
 
@@ -18,26 +21,55 @@ namespace {
 constexpr int kBadInput = 2;
 constexpr int kFailure = 1;
 
+void ListOptions(const CLI::App& app) {
+  for (const CLI::Option* option : app.get_options()) {
+    if (option->get_positional() || option->get_lnames().empty()) continue;
+    const bool is_flag = option->get_expected_max() == 0;
+    std::cout << "--" << option->get_lnames().front() << (is_flag ? "" : " VALUE") << "\n";
+  }
+}
+
 }  // namespace
+
+void AddSite(CLI::App* app, SitePaths* site) {
+  app->add_option("SITE", site->root, "site folder")->required()->check(CLI::ExistingDirectory);
+}
 
 int RunProgram(CLI::App& app, int argc, char** argv, const std::function<void()>& run) {
   app.set_version_flag("--version", app.get_name() + " " INSITU_VERSION);
+  if (argc == 2 && std::string_view(argv[1]) == kListOptions) {
+    ListOptions(app);
+    return 0;
+  }
   try {
     app.parse(argc, argv);
-    run();
-    return 0;
   } catch (const CLI::Success& help_or_version) {
     return app.exit(help_or_version);
   } catch (const CLI::ParseError& error) {
     std::cerr << app.get_name() << ": " << error.what() << " (see --help)\n";
     return kBadInput;
+  }
+  return StatusOf(app.get_name(), run);
+}
+
+int StatusOf(const std::string& program, const std::function<void()>& run) {
+  try {
+    run();
+    return 0;
   } catch (const InputError& error) {
     std::cerr << error.what() << "\n";
     return kBadInput;
   } catch (const std::exception& error) {
-    std::cerr << app.get_name() << ": " << error.what() << "\n";
+    std::cerr << program << ": " << error.what() << "\n";
     return kFailure;
   }
+}
+
+std::string DurationText(double seconds) {
+  const long whole = std::lround(seconds);
+  if (whole < 100) return std::to_string(whole) + " s";
+  if (whole < 6000) return std::to_string((whole + 30) / 60) + " min";
+  return std::to_string((whole + 1800) / 3600) + " h";
 }
 
 std::string CommandLine(const CLI::App& app) {
@@ -64,13 +96,23 @@ struct Progress::State {
   int steps = 0;
   int done = 0;
   bool shown = false;
+  const bool in_montage = std::getenv(kProgressVariable) != nullptr;
   const bool on_terminal = isatty(STDERR_FILENO) == 1;
-  Clock::time_point next = Clock::now() + std::chrono::seconds(2);
+  const Clock::time_point start = Clock::now();
+  Clock::time_point next = start + std::chrono::seconds(2);
+
+  // "middle 40 %, 12 s left"
+  std::string Text() const {
+    if (steps == 0 || done == 0) return what;
+    const double passed_s = std::chrono::duration<double>(Clock::now() - start).count();
+    return what + " " + std::to_string(100 * done / steps) + " %, " +
+           DurationText(passed_s / done * std::max(steps - done, 0)) + " left";
+  }
 };
 
 Progress::Progress(std::string what, int steps) : state_(std::make_unique<State>()) {
   state_->what = std::move(what);
-  state_->steps = std::max(steps, 1);
+  state_->steps = steps;
 }
 
 Progress::~Progress() {
@@ -81,10 +123,14 @@ void Progress::Step() {
   const std::lock_guard lock(state_->mutex);
   ++state_->done;
   const auto now = State::Clock::now();
-  if (!state_->on_terminal || now < state_->next) return;
-  state_->next = now + std::chrono::milliseconds(100);
-  state_->shown = true;
-  std::fprintf(stderr, "\r%s %d %%", state_->what.c_str(), 100 * state_->done / state_->steps);
+  if (now < state_->next) return;
+  state_->next = now + std::chrono::milliseconds(200);
+  if (state_->in_montage) {
+    std::fprintf(stderr, "%s%s\n", kProgressPrefix, state_->Text().c_str());
+  } else if (state_->on_terminal) {
+    state_->shown = true;
+    std::fprintf(stderr, "\r\033[K%s", state_->Text().c_str());
+  }
 }
 
 }  // namespace insitu

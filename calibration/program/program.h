@@ -7,20 +7,42 @@
 #include <memory>
 #include <string>
 
+#include "calibration/program/site.h"
+
 namespace insitu {
+
+// The argument SITE, which every program on a site takes first: a folder that is there.
+void AddSite(CLI::App* app, SitePaths* site);
 
 // Parses the command line with `app` and calls `run`. Status 0; 2 for bad input (InputError, wrong
 // options), 1 for any other failure, with one line on stderr.
 int RunProgram(CLI::App& app, int argc, char** argv, const std::function<void()>& run);
 
+// The same for what a program does before its command line is parsed.
+int StatusOf(const std::string& program, const std::function<void()>& run);
+
+// Each option of a program on a line, "--frame VALUE" or "--no-building", is what this option
+// prints, for programs that hand options on.
+inline constexpr char kListOptions[] = "--list-options";
+
 // The command as given, to be repeated elsewhere: the program's name, its positional arguments by
 // their names, then the options that were set, of paths the last part only.
 std::string CommandLine(const CLI::App& app);
 
-// A progress line on stderr, only on a terminal and only for work that lasts over two seconds.
+// "12 s", "3 min", "2 h".
+std::string DurationText(double seconds);
+
+// insitu-montage asks its stages for their progress by this variable and knows it by this
+// beginning.
+inline constexpr char kProgressVariable[] = "INSITU_PROGRESS";
+inline constexpr char kProgressPrefix[] = "progress: ";
+
+// A progress line with the time left on stderr, only on a terminal and only for work that lasts
+// over two seconds. Under insitu-montage, which sets INSITU_PROGRESS, a line "progress: TEXT" each.
 // Thread-safe.
 class Progress {
  public:
+  // `steps` of about equal length; 0: unknown, only `what` is shown.
   Progress(std::string what, int steps);
   ~Progress();
   void Step();

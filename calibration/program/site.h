@@ -53,6 +53,9 @@ struct SitePaths {
     return root / "work/reconstruction/observations.csv";
   }
   std::filesystem::path points_csv() const { return root / "work/reconstruction/points.csv"; }
+  std::filesystem::path lock() const { return root / "work/.lock"; }
+  // What insitu-montage keeps of its stages.
+  std::filesystem::path stages() const { return root / "work/stages"; }
   std::filesystem::path environment() const { return root / "work/environment.json"; }
   std::filesystem::path artificial() const { return root / "work/building.json"; }
 };

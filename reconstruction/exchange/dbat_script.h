@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "calibration/camera_files/dbat_camera.h"
-#include "reconstruction/survey/survey.h"
+#include "calibration/files/error.h"
 
 namespace insitu {
 

@@ -91,8 +91,8 @@ std::string CameraXml(const DbatCamera& camera, size_t number) {
   const auto pair = [](double a, double b) { return Digits(a) + "," + Digits(b); };
   return "<camera>\n<id>" + std::to_string(number) +
          "</id>\n<name>insitu</name>\n<unit>mm</unit>\n<sensor>auto," +
-         Digits(camera.sensor_height_mm) + "</sensor>\n<image>" + std::to_string(camera.width) +
-         "," + std::to_string(camera.height) + "</image>\n<aspect>" + Digits(camera.aspect) +
+         Digits(camera.sensor_mm.y()) + "</sensor>\n<image>" + std::to_string(camera.width) + "," +
+         std::to_string(camera.height) + "</image>\n<aspect>" + Digits(camera.aspect) +
          "</aspect>\n<focal>" + Digits(camera.focal_mm) +
          "</focal>\n<model>3</model>\n<nK>3</nK>\n<nP>2</nP>\n<cc>" + Digits(camera.cc_mm) +
          "</cc>\n<pp>" + pair(camera.pp_mm.x(), camera.pp_mm.y()) + "</pp>\n<skew>0</skew>\n<K>" +

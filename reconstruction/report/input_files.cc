@@ -1,31 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "reconstruction/report/input_files.h"
 
-#include <openssl/evp.h>
-
 #include <algorithm>
-#include <fstream>
-#include <memory>
 #include <regex>
 #include <set>
 
 #include "calibration/files/error.h"
+#include "calibration/files/sha256.h"
 #include "calibration/files/whole_file.h"
 
 namespace insitu {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string Hexadecimal(const unsigned char* bytes, unsigned count) {
-  constexpr char kDigits[] = "0123456789abcdef";
-  std::string text;
-  for (unsigned i = 0; i < count; ++i) {
-    text += kDigits[bytes[i] >> 4];
-    text += kDigits[bytes[i] & 15];
-  }
-  return text;
-}
 
 // The first list after `start`, with its brackets; empty if it does not close.
 std::string Bracketed(const std::string& text, size_t start) {
@@ -39,23 +26,6 @@ std::string Bracketed(const std::string& text, size_t start) {
 }
 
 }  // namespace
-
-std::string Sha256(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  if (!file) throw InputError(path, "cannot be read");
-  const std::unique_ptr<EVP_MD_CTX, decltype(&EVP_MD_CTX_free)> context(EVP_MD_CTX_new(),
-                                                                        EVP_MD_CTX_free);
-  INSITU_CHECK(context && EVP_DigestInit_ex(context.get(), EVP_sha256(), nullptr) == 1);
-  std::vector<char> buffer(1 << 20);
-  while (file) {
-    file.read(buffer.data(), static_cast<std::streamsize>(buffer.size()));
-    EVP_DigestUpdate(context.get(), buffer.data(), static_cast<size_t>(file.gcount()));
-  }
-  unsigned char digest[EVP_MAX_MD_SIZE];
-  unsigned size = 0;
-  INSITU_CHECK(EVP_DigestFinal_ex(context.get(), digest, &size) == 1);
-  return Hexadecimal(digest, size);
-}
 
 std::vector<InputFile> HashInputs(const SitePaths& site, const std::vector<std::string>& cameras) {
   std::set<fs::path> candidates = {site.description(), site.tie_points()};

@@ -12,9 +12,6 @@
 
 namespace insitu {
 
-// SHA-256 [FIPS 180-4] of a file's content, hexadecimal. Throws InputError if it cannot be read.
-std::string Sha256(const std::filesystem::path& path);
-
 // The survey's files, site.json, tie points, these cameras with the reports of their calibration,
 // and the photographs, as far as they exist, by name. Cameras are named as in SitePaths.
 std::vector<InputFile> HashInputs(const SitePaths& site, const std::vector<std::string>& cameras);

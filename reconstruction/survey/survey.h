@@ -10,17 +10,12 @@
 #include <string>
 #include <vector>
 
+#include "calibration/files/error.h"
 #include "calibration/files/json_file.h"
 #include "calibration/program/site.h"
 #include "reconstruction/survey/tie_points.h"
 
 namespace insitu {
-
-// Where in a file a statement was made, for error messages.
-struct FilePlace {
-  std::filesystem::path path;
-  int line = 0;
-};
 
 enum class ControlRole { kControl, kCheck };
 

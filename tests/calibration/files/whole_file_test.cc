@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "calibration/files/whole_file.h"
 
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
 #include <stdexcept>
 
 #include "tests/calibration/files/scratch_folder.h"
@@ -41,6 +46,19 @@ TEST(WholeFile, TemporaryStandsBesideWithTheSameEnding) {
   });
   EXPECT_EQ(seen.parent_path(), folder.path());
   EXPECT_EQ(seen.extension(), ".cameramodel");
+}
+
+TEST(RemoveLeftovers, TakesOnlyWhatADeadProcessLeft) {
+  const ScratchFolder folder;
+  const pid_t dead = fork();
+  if (dead == 0) _exit(0);
+  waitpid(dead, nullptr, 0);
+  const auto left = folder.Write("work/.a." + std::to_string(dead) + ".exr", "half");
+  folder.Write("work/.a." + std::to_string(getpid()) + ".exr", "being written");
+  folder.Write("work/a.1234.exr", "not hidden");
+  folder.Write("work/.hidden.txt", "not numbered");
+  EXPECT_THAT(RemoveLeftovers(folder.path()), testing::ElementsAre(left));
+  EXPECT_EQ(FilesIn(folder.path() / "work"), 3);
 }
 
 TEST(WholeFile, UnreadableIsAnInputError) {

@@ -53,6 +53,20 @@ TEST(Program, BadInputIsTwoAndItsMessageAsItIs) {
   EXPECT_EQ(outcome.err, "a.csv:7: bad\n");
 }
 
+TEST(Program, SiteIsAFolderThatIsThere) {
+  const auto parsed = [](const std::string& argument) {
+    CLI::App app("does nothing", "insitu-nothing");
+    SitePaths site;
+    AddSite(&app, &site);
+    app.parse(argument, false);
+    return site.root;
+  };
+  const std::filesystem::path folder = testing::TempDir();
+  EXPECT_EQ(parsed(folder.string()), folder);
+  EXPECT_THROW(parsed((folder / "no_such_site").string()), CLI::ValidationError);
+  EXPECT_THROW(parsed(""), CLI::RequiredError);
+}
+
 TEST(Program, WrongOptionsAreTwo) {
   EXPECT_EQ(RunNothing({}, [] { FAIL(); }).err, "insitu-nothing: SITE is required (see --help)\n");
   EXPECT_EQ(RunNothing({"site", "--what"}, [] { FAIL(); }).status, 2);
@@ -72,6 +86,13 @@ TEST(Program, ProgressIsSilentWithoutATerminal) {
     for (int i = 0; i < 3; ++i) progress.Step();
   }
   EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+}
+
+TEST(DurationText, IsInTheUnitThatFits) {
+  EXPECT_EQ(DurationText(0.4), "0 s");
+  EXPECT_EQ(DurationText(99), "99 s");
+  EXPECT_EQ(DurationText(150), "3 min");
+  EXPECT_EQ(DurationText(7200), "2 h");
 }
 
 TEST(CommandLine, SaysWhatWasAskedForWithoutFolders) {

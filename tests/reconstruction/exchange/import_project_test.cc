@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "reconstruction/exchange/import_project.h"
 
-#include "calibration/camera_files/dbat_camera.h"
 #include "calibration/lens/lens_residual.h"
 #include "reconstruction/geometry/omega_phi_kappa.h"
 #include "tests/reconstruction/exchange/text_files.h"
@@ -210,24 +209,6 @@ TEST(OmegaPhiKappaAngles, ReturnFromTheirRotation) {
   const Eigen::Quaterniond gimbal = CamFromWorldOmegaPhiKappa({0.4, M_PI / 2, 0.3});
   const Eigen::Quaterniond again = CamFromWorldOmegaPhiKappa(OmegaPhiKappa(gimbal));
   EXPECT_NEAR(gimbal.angularDistance(again), 0, 1e-7);
-}
-
-TEST(DbatCameras, ReturnFromOurs) {
-  DbatCamera camera;
-  camera.width = 3600;
-  camera.height = 2400;
-  camera.sensor_height_mm = 24;
-  camera.focal_mm = camera.cc_mm = 30;
-  camera.pp_mm = {18.1, 11.9};
-  camera.aspect = 0.999;
-  camera.K = {1e-4, 2e-7, 3e-10};
-  camera.P = {1e-5, -2e-5};
-  const DbatCamera again = DbatFromMetric(MetricFromDbat(camera));
-  EXPECT_EQ(again.pp_mm, camera.pp_mm);
-  EXPECT_NEAR(again.aspect, camera.aspect, 1e-15);
-  EXPECT_EQ(again.K, camera.K);
-  EXPECT_EQ(again.P, camera.P);
-  EXPECT_NEAR(again.sensor_height_mm, 24, 1e-12);
 }
 
 }  // namespace

@@ -19,13 +19,6 @@ class InputFiles : public testing::Test {
   SitePaths site_;
 };
 
-TEST_F(InputFiles, HashesAsTheStandardSays) {
-  WriteWhole(site_.root / "abc", "abc");  // FIPS 180-4's example
-  EXPECT_EQ(Sha256(site_.root / "abc"),
-            "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
-  EXPECT_THROW(Sha256(site_.root / "missing"), InputError);
-}
-
 TEST_F(InputFiles, AreNamedBelowTheSiteFolder) {
   WriteWhole(site_.photos() / "left.jpg", "1");
   WriteWhole(site_.survey() / "observations.csv", "2");

@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Whether a file is the same as another time, or as on another machine.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+namespace insitu {
+
+// SHA-256 [FIPS 180-4] of a file's content, hexadecimal. Throws InputError if it cannot be read.
+std::string Sha256(const std::filesystem::path& path);
+
+}  // namespace insitu

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <iostream>
+#include <thread>
+
+#include "calibration/files/error.h"
+#include "calibration/files/whole_file.h"
+#include "calibration/program/child_process.h"
+#include "calibration/program/program.h"
+#include "calibration/program/site_lock.h"
+#include "renderer/run_stages.h"
+#include "renderer/stage_program.h"
+
+namespace insitu {
+namespace {
+
+struct MontageCommand {
+  MontageRequest request;
+  RunOptions options;
+  std::string from, to, frame;
+  bool no_building = false, self_calibrate = false, hard_planes = false;
+};
+
+void AddOptions(CLI::App* app, MontageCommand* command) {
+  app->add_option("SITE", command->request.site.root, "site folder")
+      ->required()
+      ->check(CLI::ExistingDirectory);
+  app->add_flag("--no-building", command->no_building, "render the empty site");
+  app->add_option("--frame", command->frame, "pixel grid of the montages: photo or pinhole");
+  app->add_flag("--tie-points", command->request.with_tie_points,
+                "search tie points also where every photograph shows enough control");
+  app->add_flag("--self-calibrate", command->self_calibrate, "adjust the lens with the site");
+  app->add_flag("--hard-planes", command->hard_planes, "hold walls flat");
+  app->add_option("--from", command->from, "leave the stages before this one as they are");
+  app->add_option("--to", command->to, "leave the stages after this one as they are");
+  app->add_option("--jobs", command->options.jobs, "stages at a time")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  app->add_flag("--explain", command->options.explains, "say why a stage runs");
+  app->add_flag("--despite-fail", command->options.is_despite_fail,
+                "go on though a verdict is fail");
+  app->footer(
+      "--STAGE.OPTION [VALUE] hands an option to a stage: --reconstruct.plane-sigma 0.01;\n"
+      "insitu STAGE --help tells them. Stages run whose inputs, options or program changed since\n"
+      "their results were made. What a stage prints is in work/stages/STAGE.log.\n"
+      "Example:\n  insitu montage sites/gallery --light.sky-facets 8 --explain");
+}
+
+// What our own options mean for the stages.
+void Complete(MontageCommand* command) {
+  MontageRequest& request = command->request;
+  request.with_building = !command->no_building;
+  if (command->no_building) request.options["render"].push_back("--no-building");
+  if (!command->frame.empty()) request.options["render"].push_back("--frame=" + command->frame);
+  if (command->self_calibrate) request.options["reconstruct"].push_back("--self-calibrate");
+  if (command->hard_planes) request.options["reconstruct"].push_back("--hard-planes");
+  if (!command->from.empty()) command->options.first = StageNamed(command->from);
+  if (!command->to.empty()) command->options.last = StageNamed(command->to);
+  command->options.Check();
+}
+
+void Montage(MontageCommand* command, const std::string& line, int* status) {
+  Complete(command);
+  const SitePaths& site = command->request.site;
+  const SiteLock lock(site, line);
+  ForwardSignalsToChildren();
+  for (const auto& folder : {site.root / "work", site.montages()}) RemoveLeftovers(folder);
+  const RunSummary summary = RunStages(command->request, command->options);
+  for (const auto& folder : {site.root / "work", site.montages()}) RemoveLeftovers(folder);
+  *status = summary.status;
+  std::cout << summary.BriefReport();
+  if (summary.status != 0) return;
+  std::cout << "montages         " << site.montages().string() << "\n"
+            << "residual report  " << site.residual_page().string() << "\n";
+}
+
+int RunMontage(int argc, char** argv) {
+  CLI::App app(
+      "From survey to picture: runs the stages of a site whose results do not hold any "
+      "more, and leaves the montages in SITE/montages.",
+      "insitu-montage");
+  MontageCommand command;
+  command.options.programs = OwnFolder();
+  command.options.jobs = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  AddOptions(&app, &command);
+  std::vector<std::string> arguments(argv, argv + argc);
+  int status = StatusOf(app.get_name(), [&] {
+    command.request.options = TakeStageOptions(command.options.programs, &arguments);
+  });
+  if (status != 0) return status;
+  std::vector<char*> rest;
+  for (std::string& argument : arguments) rest.push_back(argument.data());
+  const int own = RunProgram(app, static_cast<int>(rest.size()), rest.data(),
+                             [&] { Montage(&command, CommandLine(app), &status); });
+  return own != 0 ? own : status;
+}
+
+}  // namespace
+}  // namespace insitu
+
+int main(int argc, char** argv) { return insitu::RunMontage(argc, argv); }

@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "renderer/montage_stages.h"
+
+#include <algorithm>
+
+#include "calibration/files/error.h"
+#include "calibration/site_cameras.h"
+#include "reconstruction/tie_points_site.h"
+
+namespace insitu {
+namespace {
+
+namespace fs = std::filesystem;
+using Paths = std::vector<fs::path>;
+
+bool Always(const MontageRequest&) { return true; }
+Paths NoReports(const MontageRequest&) { return {}; }
+
+Paths& operator+=(Paths& paths, const Paths& more) {
+  paths.insert(paths.end(), more.begin(), more.end());
+  return paths;
+}
+
+std::vector<std::string> Cameras(const MontageRequest& request) {
+  return CamerasOf(ListCameraFolders(request.site));
+}
+
+// ---- calibrate -----------------------------------------------------------------------------
+
+Paths CalibrationInputs(const MontageRequest& request) {
+  return {request.site.boards(), request.site.photos(), request.site.description()};
+}
+
+Paths CalibrationReports(const MontageRequest& request) {
+  Paths reports;
+  for (const std::string& camera : Cameras(request)) {
+    reports.push_back(request.site.calibration_report(camera));
+  }
+  return reports;
+}
+
+Paths CalibrationResults(const MontageRequest& request) {
+  Paths results;
+  for (const std::string& camera : Cameras(request)) {
+    results += {request.site.camera(camera), request.site.calibration_report(camera),
+                request.site.calibration_page(camera)};
+  }
+  return results;
+}
+
+// What later stages take of it.
+Paths CalibratedCameras(const MontageRequest& request) {
+  Paths cameras;
+  for (const std::string& camera : Cameras(request)) {
+    cameras += {request.site.camera(camera), request.site.calibration_report(camera)};
+  }
+  return cameras;
+}
+
+// ---- tie points ----------------------------------------------------------------------------
+
+Paths TiePointInputs(const MontageRequest& request) {
+  Paths inputs = CalibratedCameras(request);
+  inputs += {request.site.photos(), request.site.survey() / "control_points.csv",
+             request.site.survey() / "observations.csv", request.site.description()};
+  return inputs;
+}
+
+// Those that were searched for once stay in use.
+bool NeedsMatching(const MontageRequest& request) {
+  return request.with_tie_points || fs::exists(request.site.tie_points()) ||
+         NeedsTiePoints(request.site);
+}
+
+// ---- reconstruct ---------------------------------------------------------------------------
+
+Paths ReconstructionInputs(const MontageRequest& request) {
+  const SitePaths& site = request.site;
+  Paths inputs = CalibratedCameras(request);
+  inputs += {site.photos(), site.description(), site.tie_points()};
+  for (const char* name :
+       {"control_points.csv", "observations.csv", "polygons.json", "directions.json",
+        "camera_positions.csv", "edges.csv", "constraints.json"}) {
+    inputs.push_back(site.survey() / name);
+  }
+  return inputs;
+}
+
+// ---- undistort, light, convert, render -----------------------------------------------------
+
+// A lens that the reconstruction adjusted goes before the calibrated one.
+Paths UndistortionInputs(const MontageRequest& request) {
+  Paths inputs = CalibratedCameras(request);
+  inputs += {request.site.adjusted_camera().parent_path(), request.site.photos(),
+             request.site.description()};
+  return inputs;
+}
+
+Paths LightInputs(const MontageRequest& request) {
+  const SitePaths& site = request.site;
+  return {site.scene(), site.photos(), site.description(), site.survey() / "samples.json",
+          site.survey() / "materials.json"};
+}
+
+// The survey and the scene tell where the site is, which the building is checked against.
+Paths ConversionInputs(const MontageRequest& request) {
+  const SitePaths& site = request.site;
+  return {site.building(), site.survey() / "control_points.csv", site.scene()};
+}
+
+Paths Building(const MontageRequest& request) {
+  if (!request.with_building) return {};
+  return {request.site.artificial(), request.site.artificial().replace_extension(".bin")};
+}
+
+Paths RenderInputs(const MontageRequest& request) {
+  const SitePaths& site = request.site;
+  Paths inputs = {site.environment(), site.input_image("").parent_path(), site.photos(),
+                  site.description()};
+  return inputs += Building(request);
+}
+
+Paths Montages(const MontageRequest& request) {
+  Paths montages;
+  for (const fs::path& photo : ListPhotographs(request.site)) {
+    for (const char* ending : {".exr", ".png", ".jpg", ".uncertainty.csv"}) {
+      montages.push_back(request.site.montages() / (photo.stem().string() + ending));
+    }
+  }
+  return montages;
+}
+
+std::vector<MontageStage> MakeStages() {
+  const auto one = [](fs::path (SitePaths::*path)() const) {
+    return [path](const MontageRequest& request) { return Paths{(request.site.*path)()}; };
+  };
+  return {
+      {"calibrate",
+       "the interior orientation of the cameras",
+       {},
+       CalibrationInputs,
+       CalibrationResults,
+       CalibrationReports,
+       Always},
+      {"tie-points",
+       "points that several photographs share, by COLMAP, where control is missing",
+       {"calibrate"},
+       TiePointInputs,
+       one(&SitePaths::tie_points),
+       NoReports,
+       NeedsMatching},
+      {"reconstruct",
+       "where the photographs were taken from, polygons, sun and zenith, with a report",
+       {"calibrate", "tie-points"},
+       ReconstructionInputs,
+       [](const MontageRequest& request) { return Paths{request.site.scene().parent_path()}; },
+       one(&SitePaths::residual_report),
+       Always},
+      {"undistort",
+       "the input images: linear light without lens distortion",
+       {"reconstruct"},
+       UndistortionInputs,
+       [](const MontageRequest& request) {
+         return Paths{request.site.input_image("").parent_path()};
+       },
+       NoReports,
+       Always},
+      {"light",
+       "haze and daylight, measured in the photographs",
+       {"reconstruct"},
+       LightInputs,
+       one(&SitePaths::environment),
+       NoReports,
+       Always},
+      {"convert",
+       "the planned building, from the architect's models",
+       {"reconstruct"},
+       ConversionInputs,
+       Building,
+       NoReports,
+       [](const MontageRequest& request) { return request.with_building; }},
+      {"render",
+       "the building in the photographs",
+       {"undistort", "light", "convert"},
+       RenderInputs,
+       Montages,
+       NoReports,
+       Always},
+  };
+}
+
+}  // namespace
+
+const std::vector<MontageStage>& MontageStages() {
+  static const std::vector<MontageStage> stages = MakeStages();
+  return stages;
+}
+
+size_t StageNamed(const std::string& name) {
+  const std::vector<MontageStage>& stages = MontageStages();
+  const auto found = std::find_if(stages.begin(), stages.end(),
+                                  [&](const MontageStage& stage) { return stage.name == name; });
+  if (found != stages.end()) return static_cast<size_t>(found - stages.begin());
+  std::string names;
+  for (const MontageStage& stage : stages) names += (names.empty() ? "" : ", ") + stage.name;
+  throw InputError(name, "is no stage, expected one of " + names);
+}
+
+}  // namespace insitu
