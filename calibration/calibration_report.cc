@@ -5,6 +5,7 @@
 
 #include "calibration/calibration_page_script.h"
 #include "calibration/files/json_file.h"
+#include "calibration/program/finding.h"
 #include "calibration/program/report_page.h"
 
 namespace insitu {
@@ -120,22 +121,6 @@ Json::Value JsonOf(const FilmScan& scan) {
   return json;
 }
 
-Json::Value VerdictOf(const std::vector<CalibrationFinding>& findings) {
-  Json::Value verdict;
-  Severity worst = Severity::kNote;
-  verdict["reasons"] = Array();
-  for (const CalibrationFinding& finding : findings) {
-    worst = std::max(worst, finding.severity);
-    Json::Value reason;
-    reason["severity"] = Word(finding.severity);
-    reason["reason"] = finding.reason;
-    reason["remedy"] = finding.remedy;
-    verdict["reasons"].append(reason);
-  }
-  verdict["status"] = worst == Severity::kNote ? "pass" : Word(worst);
-  return verdict;
-}
-
 std::string SourceOf(const CameraCalibration& calibration) {
   if (calibration.boards) return "boards";
   if (calibration.scan) return "film";
@@ -159,7 +144,7 @@ Json::Value CalibrationReport(const CameraCalibration& calibration) {
   report["source"] = SourceOf(calibration);
   report["photos"] = Array();
   for (const std::string& photo : calibration.photos) report["photos"].append(photo);
-  report["verdict"] = VerdictOf(calibration.findings);
+  report["verdict"] = VerdictReport(calibration.findings);
   if (calibration.file) {
     report["format"] = calibration.file->format;
     report["largest_deviation_px"] = calibration.file->largest_deviation_px;

@@ -7,6 +7,7 @@
 #include <map>
 #include <sstream>
 
+#include "calibration/boards/calibration_verdict.h"
 #include "calibration/calibration_report.h"
 #include "calibration/files/error.h"
 #include "calibration/files/json_file.h"
@@ -100,7 +101,7 @@ CameraCalibration FromFile(const SitePaths& site, const CameraFolder& folder,
   WriteWhole(model, ReadWhole(folder.file));
   if (!HoldsSolution(model)) return camera;
   camera.lens = AssessLens(model, model.parent_path() / "boards");
-  for (const CalibrationFinding& finding :
+  for (const Finding& finding :
        JudgeLens(*camera.lens, {file.camera.width(), file.camera.height()})) {
     camera.findings.push_back(finding);
   }
@@ -326,7 +327,7 @@ std::string CameraCalibration::BriefReport() const {
     if (scan && scan->map.sigma_px) text += Text(", fiducials %.3f px", *scan->map.sigma_px);
     if (lens) text += Text(", RMS %.3f px (weighted %.3f px)", lens->rms_px, lens->weighted_rms_px);
   }
-  for (const CalibrationFinding& finding : findings) {
+  for (const Finding& finding : findings) {
     text += "\n  " + finding.reason + " " + finding.remedy;
   }
   return text;

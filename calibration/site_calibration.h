@@ -8,10 +8,10 @@
 #include <vector>
 
 #include "calibration/boards/board_calibration.h"
-#include "calibration/boards/calibration_verdict.h"
 #include "calibration/camera_files/camera_file.h"
 #include "calibration/camera_files/film.h"
 #include "calibration/lens/camera.h"
+#include "calibration/program/finding.h"
 #include "calibration/program/site.h"
 
 namespace insitu {
@@ -34,7 +34,7 @@ struct CameraCalibration {
   std::optional<double> exif_focal_px = {};
   std::optional<LensAssessment> lens = {};  // of boards, or of a brought solution of mrcal
   std::vector<std::string> photos = {};     // those of the site that this camera took
-  std::vector<CalibrationFinding> findings = {};
+  std::vector<Finding> findings = {};
   std::string BriefReport() const;  // one line, and one a finding
 };
 

@@ -230,7 +230,7 @@ ColmapModel ColmapFromAdjustment(const Adjustment& adjustment) {
   std::vector<ExportedMark> marks;
   const auto& rows = adjustment.residuals;
   for (size_t i = 0; i + 1 < rows.size(); ++i) {  // both coordinates of a mark stand together
-    if (rows[i].group != "image x" || rows[i + 1].group != "image y") continue;
+    if (rows[i].kind != ObservationKind::kImage || rows[i].axis != 0) continue;
     marks.push_back({index_of_photo.at(rows[i].photo),
                      index_of_point.at(rows[i].subject),
                      {rows[i].observed, rows[i + 1].observed},

@@ -2,7 +2,7 @@
 // Our networks and results as COLMAP models, so that anyone can check them with COLMAP.
 #pragma once
 
-#include "reconstruction/adjustment/adjustment.h"
+#include "reconstruction/adjustment/adjusted_survey.h"
 #include "reconstruction/colmap/colmap_model.h"
 #include "reconstruction/network/network.h"
 

@@ -6,6 +6,7 @@
 #include "calibration/program/site.h"
 #include "reconstruction/exchange/export_survey.h"
 #include "reconstruction/site_photos.h"
+#include "reconstruction/survey/read_survey.h"
 
 namespace {
 

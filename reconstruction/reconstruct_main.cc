@@ -25,7 +25,7 @@ int main(int argc, char** argv) {
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
   app.add_flag("--hard-planes", options.has_hard_planes,
-               "hold vertices on their planes to 0.01 mm instead of --plane-sigma");
+               "hold vertices on their planes all but exactly, whatever --plane-sigma says");
   app.add_flag("--self-calibrate", options.is_self_calibrating,
                "adjust the lens parameters too, from the calibration's values");
   app.add_option("--significance", options.significance,

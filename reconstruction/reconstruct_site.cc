@@ -9,10 +9,14 @@
 #include "calibration/files/whole_file.h"
 #include "calibration/photo/distinct_photographs.h"
 #include "calibration/photo/photo_thumbnail.h"
+#include "reconstruction/adjustment/adjust.h"
 #include "reconstruction/report/input_files.h"
 #include "reconstruction/report/montage_points.h"
+#include "reconstruction/report/residual_csv.h"
+#include "reconstruction/report/residual_page.h"
 #include "reconstruction/report/residual_report.h"
 #include "reconstruction/site_photos.h"
+#include "reconstruction/survey/read_survey.h"
 
 namespace insitu {
 namespace {
@@ -103,21 +107,23 @@ std::map<std::string, Rigid3> ReadStartPoses(const std::filesystem::path& path,
   return poses;
 }
 
-Adjustment ReconstructSite(const SitePaths& site, AdjustmentOptions options,
+Adjustment ReconstructSite(const SitePaths& site, const AdjustmentOptions& options,
                            const std::filesystem::path& start_poses, const std::string& command) {
   const SitePhotos site_photos = ReadSitePhotos(site);
   const std::vector<std::string>& photos = site_photos.names;
   RequireSizes(site_photos.paths, site_photos.cameras);
   RequireDistinctPhotographs(site_photos.paths);
-  options.lenses = site_photos.lenses;
   const auto tie_points = TiePointsOf(site, photos);
   Survey survey =
       ReadSurvey(site, photos, tie_points ? SurveyFolder::kOptional : SurveyFolder::kRequired);
   survey.tie_points = tie_points;
-  if (!start_poses.empty()) options.initial_cam_from_world = ReadStartPoses(start_poses, photos);
-  Adjustment adjustment = Adjust(survey, photos, site_photos.cameras, options);
+  std::map<std::string, Rigid3> estimates;
+  if (!start_poses.empty()) estimates = ReadStartPoses(start_poses, photos);
+  Adjustment adjustment =
+      Adjust(survey, photos, site_photos.cameras, options, site_photos.lenses, estimates);
   ReportContext context = SiteContext(site, site_photos, options, adjustment, tie_points);
   context.command = command;
+  context.start_estimates = static_cast<int>(estimates.size());
   if (!start_poses.empty()) {
     context.inputs.push_back({"--start " + start_poses.filename().string(), Sha256(start_poses)});
   }

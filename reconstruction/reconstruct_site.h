@@ -6,8 +6,10 @@
 #include <map>
 #include <string>
 
+#include "calibration/lens/rigid3.h"
 #include "calibration/program/site.h"
-#include "reconstruction/adjustment/adjustment.h"
+#include "reconstruction/adjustment/adjusted_survey.h"
+#include "reconstruction/adjustment/adjustment_options.h"
 
 namespace insitu {
 
@@ -20,7 +22,7 @@ std::map<std::string, Rigid3> ReadStartPoses(const std::filesystem::path& path,
 // posed cameras beside it, the residual report in both forms, and as CSV all observations and
 // points. `start_poses` may be empty; `command` is how the report says that it was made. Throws
 // InputError; then nothing is written.
-Adjustment ReconstructSite(const SitePaths& site, AdjustmentOptions options = {},
+Adjustment ReconstructSite(const SitePaths& site, const AdjustmentOptions& options = {},
                            const std::filesystem::path& start_poses = {},
                            const std::string& command = "");
 

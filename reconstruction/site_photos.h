@@ -8,7 +8,7 @@
 
 #include "calibration/lens/camera.h"
 #include "calibration/program/site.h"
-#include "reconstruction/adjustment/adjustment.h"
+#include "reconstruction/adjustment/photo_lens.h"
 
 namespace insitu {
 

@@ -2,13 +2,16 @@
 #include "reconstruction/tie_points_site.h"
 
 #include <algorithm>
+#include <map>
 #include <set>
 
 #include "calibration/files/error.h"
+#include "calibration/files/wording.h"
 #include "calibration/photo/distinct_photographs.h"
 #include "calibration/photo/photograph.h"
 #include "reconstruction/adjustment/align_tie_points.h"
 #include "reconstruction/site_photos.h"
+#include "reconstruction/survey/read_survey.h"
 #include "reconstruction/survey/survey.h"
 
 namespace insitu {
@@ -194,12 +197,10 @@ SiteTiePoints MakeTiePoints(const SitePaths& site, const TiePointsOptions& optio
 
 std::string SiteTiePoints::BriefReport() const {
   const size_t placed = tie_points.cam_from_model.size();
-  char sigma[32];
-  std::snprintf(sigma, sizeof(sigma), "%.2f", tie_points.sigma_px);
-  std::string text = std::to_string(placed) + " of " +
-                     std::to_string(placed + tie_points.not_placed.size()) + " photos placed, " +
-                     std::to_string(counts.kept) + " of " + std::to_string(counts.found) +
-                     " tie points kept, sigma of a mark " + sigma + " px\n";
+  std::string text =
+      std::to_string(placed) + " of " + std::to_string(placed + tie_points.not_placed.size()) +
+      " photos placed, " + std::to_string(counts.kept) + " of " + std::to_string(counts.found) +
+      " tie points kept, sigma of a mark " + Number("%.2f px\n", tie_points.sigma_px);
   text += "dropped: " + std::to_string(counts.marks_off) + " marks off; " +
           std::to_string(counts.too_few_rays) + " points of one photo, " +
           std::to_string(counts.weak_angle) + " under a small angle, " +

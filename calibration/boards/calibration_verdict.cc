@@ -27,7 +27,7 @@ std::string Text(const char* format, double a, double b = 0) {
   return text;
 }
 
-void JudgeSpread(const FrameCells& cells, std::vector<CalibrationFinding>* findings) {
+void JudgeSpread(const FrameCells& cells, std::vector<Finding>* findings) {
   const int columns = cells.columns / 4, rows = cells.rows / 4;
   const struct {
     const char* name;
@@ -52,7 +52,7 @@ void JudgeSpread(const FrameCells& cells, std::vector<CalibrationFinding>* findi
                        "beyond the boards is extrapolated."});
 }
 
-void JudgeViews(const std::vector<BoardView>& boards, std::vector<CalibrationFinding>* findings) {
+void JudgeViews(const std::vector<BoardView>& boards, std::vector<Finding>* findings) {
   if (boards.empty()) return;
   const auto tilted = std::count_if(boards.begin(), boards.end(), [](const BoardView& board) {
     return board.tilt_deg > kTilted_deg;
@@ -78,7 +78,7 @@ void JudgeViews(const std::vector<BoardView>& boards, std::vector<CalibrationFin
 }
 
 void JudgeResiduals(const LensAssessment& lens, const Eigen::Vector2i& size,
-                    std::vector<CalibrationFinding>* findings) {
+                    std::vector<Finding>* findings) {
   const double high = std::max(kHighRms_px, kHighRmsOfDiagonal * size.cast<double>().norm());
   if (lens.rms_px > high) {
     findings->push_back(
@@ -118,13 +118,13 @@ Disagreement Disagree(const ProjectionDifference& difference, const LensAssessme
 }
 
 // That nothing contradicts is no agreement.
-CalibrationFinding Incomparable(const std::string& lenses) {
+Finding Incomparable(const std::string& lenses) {
   return {Severity::kReview,
           lenses + " cannot be compared: nowhere in the frame were boards seen and both known.",
           "Photograph more boards, evenly over the frame."};
 }
 
-void JudgeHalves(const BoardCalibration& calibration, std::vector<CalibrationFinding>* findings) {
+void JudgeHalves(const BoardCalibration& calibration, std::vector<Finding>* findings) {
   if (!calibration.halves) {
     findings->push_back({Severity::kReview, "Too few boards for a cross-validation of two halves.",
                          "Photograph six boards at least, better twenty."});
@@ -146,7 +146,7 @@ void JudgeHalves(const BoardCalibration& calibration, std::vector<CalibrationFin
                        "boards, evenly over the frame."});
 }
 
-void JudgeModel(const BoardCalibration& calibration, std::vector<CalibrationFinding>* findings) {
+void JudgeModel(const BoardCalibration& calibration, std::vector<Finding>* findings) {
   const Disagreement model = Disagree(calibration.splined_difference, calibration.splined, 1);
   if (model.of == 0) {
     findings->push_back(Incomparable("The lens model and the splined one"));
@@ -161,7 +161,7 @@ void JudgeModel(const BoardCalibration& calibration, std::vector<CalibrationFind
                        "Calibrate with --lens-model " + calibration.splined_lens_model + "."});
 }
 
-void JudgeUncertainty(const LensAssessment& lens, std::vector<CalibrationFinding>* findings) {
+void JudgeUncertainty(const LensAssessment& lens, std::vector<Finding>* findings) {
   int uncertain = 0, seen = 0;
   for (size_t i = 0; i < lens.cells.counts.size(); ++i) {
     if (lens.cells.counts[i] == 0) continue;
@@ -185,20 +185,8 @@ void JudgeUncertainty(const LensAssessment& lens, std::vector<CalibrationFinding
 
 }  // namespace
 
-const char* Word(Severity severity) {
-  switch (severity) {
-    case Severity::kNote:
-      return "note";
-    case Severity::kReview:
-      return "review";
-    case Severity::kFail:
-      break;
-  }
-  return "fail";
-}
-
-std::vector<CalibrationFinding> JudgeLens(const LensAssessment& lens, const Eigen::Vector2i& size) {
-  std::vector<CalibrationFinding> findings;
+std::vector<Finding> JudgeLens(const LensAssessment& lens, const Eigen::Vector2i& size) {
+  std::vector<Finding> findings;
   if (lens.boards.size() < kFewBoards) {
     findings.push_back({Severity::kReview,
                         Text(lens.boards.size() == 1 ? "Only %.0f board." : "Only %.0f boards.",
@@ -211,9 +199,8 @@ std::vector<CalibrationFinding> JudgeLens(const LensAssessment& lens, const Eige
   return findings;
 }
 
-std::vector<CalibrationFinding> JudgeBoards(const BoardCalibration& calibration,
-                                            const Eigen::Vector2i& size) {
-  std::vector<CalibrationFinding> findings = JudgeLens(calibration.lens, size);
+std::vector<Finding> JudgeBoards(const BoardCalibration& calibration, const Eigen::Vector2i& size) {
+  std::vector<Finding> findings = JudgeLens(calibration.lens, size);
   JudgeHalves(calibration, &findings);
   JudgeModel(calibration, &findings);
   JudgeUncertainty(calibration.splined, &findings);

@@ -3,32 +3,20 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <string>
 #include <vector>
 
 #include "calibration/boards/board_calibration.h"
+#include "calibration/program/finding.h"
 
 namespace insitu {
-
-// How much an objection counts, here and in the residual report; notes leave a verdict a pass.
-enum class Severity { kNote, kReview, kFail };
-
-// "note", "review" or "fail".
-const char* Word(Severity severity);
-
-struct CalibrationFinding {
-  Severity severity = Severity::kReview;
-  std::string reason, remedy;
-};
 
 // Empty: a good calibration. `size` of the photographs [px]. Judged are the boards' number, spread
 // over the frame, tilts and distances; RMS and outliers; the two halves of the boards against each
 // other and the lens model against the splined one, both where boards were seen and in proportion
 // to the expected uncertainty.
-std::vector<CalibrationFinding> JudgeBoards(const BoardCalibration& calibration,
-                                            const Eigen::Vector2i& size);
+std::vector<Finding> JudgeBoards(const BoardCalibration& calibration, const Eigen::Vector2i& size);
 
 // The same for a solution that was brought, without its boards' photographs.
-std::vector<CalibrationFinding> JudgeLens(const LensAssessment& lens, const Eigen::Vector2i& size);
+std::vector<Finding> JudgeLens(const LensAssessment& lens, const Eigen::Vector2i& size);
 
 }  // namespace insitu

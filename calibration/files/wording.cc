@@ -2,6 +2,7 @@
 #include "calibration/files/wording.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdarg>
 #include <cstdio>
 
@@ -19,6 +20,23 @@ std::string Formatted(const char* format, ...) {
 }
 
 std::string Number(const char* format, double value) { return Formatted(format, value); }
+
+std::string ShortNumber(double value) {
+  if (std::abs(value) >= 100) return Number("%.0f", value);
+  return Number(std::abs(value) < 1 ? "%.3g" : "%.2f", value);
+}
+
+std::string QuotedList(const std::vector<std::string>& names) {
+  constexpr size_t kShown = 4;
+  std::string list;
+  for (size_t i = 0; i < names.size(); ++i) {
+    if (i == kShown && names.size() > kShown + 1) {
+      return list + " and " + std::to_string(names.size() - kShown) + " others";
+    }
+    list += (i == 0 ? "'" : i + 1 == names.size() ? " and '" : ", '") + names[i] + "'";
+  }
+  return list;
+}
 
 std::string Listing(const std::string& what, const std::vector<std::string>& names, size_t shown) {
   std::string text = what + " (" + std::to_string(names.size()) + "): ";

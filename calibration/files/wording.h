@@ -14,6 +14,12 @@ namespace insitu {
 // The same with one number.
 std::string Number(const char* format, double value);
 
+// As people write it: three significant digits, or two decimals.
+std::string ShortNumber(double value);
+
+// "'a' and 'b'", "'a', 'b', 'c', 'd' and 3 others".
+std::string QuotedList(const std::vector<std::string>& names);
+
 // "what (n): a, b, c and m more", at most `shown` names.
 std::string Listing(const std::string& what, const std::vector<std::string>& names,
                     size_t shown = 8);

@@ -8,10 +8,10 @@
 #include <string>
 #include <vector>
 
+#include "calibration/files/error.h"
 #include "calibration/photo/photograph.h"
 #include "calibration/program/site.h"
 #include "reconstruction/geometry/scene_geometry.h"
-#include "reconstruction/survey/survey.h"
 
 namespace insitu {
 

@@ -13,63 +13,72 @@ namespace {
 
 constexpr double kControlled = 1e-6;  // redundancy numbers below this control nothing
 
-// Names a row; the point whose position it bears on, if it is one point's.
+struct NamedRow {
+  ObservationResidual residual;
+  std::optional<int> point = {};  // whose position it bears on, if it is one point's
+};
+
 class RowNamer {
  public:
-  explicit RowNamer(const Network& network) : network_(network) {}
+  explicit RowNamer(const SurveyNetwork& survey_network)
+      : survey_network_(survey_network), network_(survey_network.network) {}
 
-  ObservationResidual Name(const ObservationRow& row, std::optional<int>* point) const {
-    if (row.kind == ObservationKind::kLens) return {"lens", "", Parameter(row)};
-    const std::string axis(1, "xyz"[row.component]);
+  NamedRow Name(const ObservationRow& row) const {
+    using Kind = ObservationKind;
+    const int axis = row.component;
     switch (row.kind) {
-      case ObservationKind::kMark: {
+      case ObservationRow::Kind::kMark: {
         const MarkObservation& mark = network_.marks[row.index];
-        *point = mark.point;
-        return {"image " + axis, Photo(mark.photo), Point(mark.point), mark.pixel[row.component]};
+        return {{Kind::kImage, axis, Photo(mark.photo), Point(mark.point), mark.pixel[axis]},
+                mark.point};
       }
-      case ObservationKind::kEdge: {
+      case ObservationRow::Kind::kEdge: {
         const EdgeObservation& edge = network_.edges[row.index];
-        return {"edge", Photo(edge.photo), Pair(edge.from, edge.to)};
+        return {{Kind::kEdge, 0, Photo(edge.photo), Pair(edge.from, edge.to)}};
       }
-      case ObservationKind::kControl: {
+      case ObservationRow::Kind::kControl: {
         const ControlObservation& control = network_.control[row.index];
-        *point = control.point;
-        return {"control " + axis, "", Point(control.point),
-                control.position[row.component] + network_.origin[row.component]};
+        return {{Kind::kControl, axis, "", Point(control.point),
+                 control.position[axis] + network_.origin[axis]},
+                control.point};
       }
-      case ObservationKind::kCenter: {
+      case ObservationRow::Kind::kCenter: {
         const CenterObservation& center = network_.centers[row.index];
-        return {"camera " + axis, Photo(center.photo), Photo(center.photo),
-                center.position[row.component] + network_.origin[row.component]};
+        return {{Kind::kCameraPosition, axis, Photo(center.photo), Photo(center.photo),
+                 center.position[axis] + network_.origin[axis]}};
       }
-      case ObservationKind::kPlane: {
-        const PlaneObservation& on_plane = network_.on_planes[row.index];
-        *point = on_plane.point;
-        return {"plane", "", network_.planes[on_plane.plane].name + " " + Point(on_plane.point)};
-      }
-      case ObservationKind::kDirection: {
+      case ObservationRow::Kind::kLens:
+        return {{Kind::kLens, 0, "", Parameter(row)}};
+      case ObservationRow::Kind::kPlane:
+        return OnPlane(network_.on_planes[row.index]);
+      case ObservationRow::Kind::kDirection: {
         const DirectionObservation& pair = network_.along_directions[row.index];
-        return {network_.directions[pair.direction].name, "", Pair(pair.from, pair.to)};
+        const bool is_sun = survey_network_.sun == pair.direction;
+        return {{is_sun ? Kind::kSun : Kind::kZenith, 0, "", Pair(pair.from, pair.to)}};
       }
-      case ObservationKind::kDistance: {
+      case ObservationRow::Kind::kDistance: {
         const DistanceObservation& d = network_.distances[row.index];
-        return {"distance", "", Pair(d.from, d.to), d.distance};
+        return {{Kind::kDistance, 0, "", Pair(d.from, d.to), d.distance}};
       }
-      case ObservationKind::kHeight: {
+      case ObservationRow::Kind::kHeight: {
         const HeightObservation& h = network_.heights[row.index];
-        return {"height", "", Pair(h.from, h.to), h.height};
+        return {{Kind::kHeight, 0, "", Pair(h.from, h.to), h.height}};
       }
-      case ObservationKind::kLens:
-      case ObservationKind::kAngle:
+      case ObservationRow::Kind::kAngle:
         break;
     }
     const AngleObservation& angle = network_.angles[row.index];
-    return {"angle", "",
-            Unit(angle.first) + (angle.is_parallel ? " parallel " : " perpendicular ") +
-                Unit(angle.second)};
+    return {{Kind::kAngle, 0, "",
+             Unit(angle.first) + (angle.is_parallel ? " parallel " : " perpendicular ") +
+                 Unit(angle.second)}};
   }
 
  private:
+  NamedRow OnPlane(const PlaneObservation& vertex) const {
+    NamedRow named{{ObservationKind::kPlane, 0, "", Point(vertex.point)}, vertex.point};
+    named.residual.polygon = network_.planes[vertex.plane].name;
+    return named;
+  }
   std::string Parameter(const ObservationRow& row) const {
     const NetworkCamera& camera = network_.cameras[network_.lenses[row.index].camera];
     const std::vector<std::string> names = LensParameterNames(camera.lens);
@@ -93,6 +102,7 @@ class RowNamer {
     return Pair(edge.from, edge.to);
   }
 
+  const SurveyNetwork& survey_network_;
   const Network& network_;
 };
 
@@ -126,13 +136,12 @@ std::vector<ObservationResidual> AdjustedObservations(const SurveyNetwork& surve
                                                       const NetworkSolution& solution,
                                                       double significance) {
   const Network& network = survey_network.network;
-  const RowNamer namer(network);
+  const RowNamer namer(survey_network);
   const double noncentrality = DetectableNoncentrality(significance);
   std::vector<ObservationResidual> residuals;
   residuals.reserve(solution.rows.size());
   for (int i = 0; i < static_cast<int>(solution.rows.size()); ++i) {
-    std::optional<int> point;
-    ObservationResidual row = namer.Name(solution.rows[i], &point);
+    auto [row, point] = namer.Name(solution.rows[i]);
     row.residual = solution.residuals[i];
     row.sigma = solution.sigmas[i];
     row.redundancy = solution.redundancy_numbers[i];

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "reconstruction/adjustment/adjusted_unknowns.h"
+
 #include <ceres/sphere_manifold.h>
 
 #include <algorithm>
@@ -6,7 +8,6 @@
 #include <opencv2/imgproc.hpp>
 
 #include "calibration/lens/lens_residual.h"
-#include "reconstruction/adjustment/adjusted_observations.h"
 
 namespace insitu {
 namespace {
@@ -92,8 +93,6 @@ Eigen::MatrixXd LensCorrelation(const Network& network, const NetworkSolution& s
          lens_sigma.cwiseInverse().asDiagonal();
 }
 
-// Names the columns of one unknown.
-
 }  // namespace
 
 std::vector<std::string> ColumnNames(const Network& network, const Unknown& unknown) {
@@ -172,7 +171,7 @@ std::vector<AdjustedPose> AdjustedPoses(const Network& network, const NetworkSol
   std::vector<double> squares(poses.size(), 0);
   std::vector<std::vector<cv::Point2f>> marks(poses.size());
   for (size_t row = 0; row < solution.rows.size(); ++row) {
-    if (solution.rows[row].kind != ObservationKind::kMark) continue;
+    if (solution.rows[row].kind != ObservationRow::Kind::kMark) continue;
     const MarkObservation& mark = network.marks[solution.rows[row].index];
     const double residual = solution.residuals[static_cast<Eigen::Index>(row)];
     squares[mark.photo] += residual * residual;
@@ -232,7 +231,7 @@ std::vector<AdjustedPoint> AdjustedPoints(const Network& network, const NetworkS
     points.push_back(adjusted);
   }
   for (size_t row = 0; row < solution.rows.size(); ++row) {
-    if (solution.rows[row].kind != ObservationKind::kMark) continue;
+    if (solution.rows[row].kind != ObservationRow::Kind::kMark) continue;
     const int point = network.marks[solution.rows[row].index].point;
     squares[point] += std::pow(solution.residuals[static_cast<Eigen::Index>(row)], 2);
     if (solution.rows[row].component == 0) ++points[point].rays;
@@ -318,8 +317,29 @@ std::vector<AdjustedPlane> AdjustedPlanes(const SurveyNetwork& survey_network,
   return planes;
 }
 
-std::vector<Correlation> HighCorrelations(const Network& network, const NetworkSolution& solution,
-                                          double limit) {
+namespace {
+
+// Whose correlations are told; nullopt: tie points are too many, planes and directions have none
+// that a user could help.
+std::optional<Correlation::Of> OwnerOf(const Network& network, const Unknown& unknown) {
+  switch (unknown.kind) {
+    case Unknown::Kind::kCamera:
+      return Correlation::Of::kCamera;
+    case Unknown::Kind::kPhoto:
+      return Correlation::Of::kPhoto;
+    case Unknown::Kind::kPoint:
+      if (network.points[unknown.index].is_tie_point) return std::nullopt;
+      return Correlation::Of::kPoint;
+    case Unknown::Kind::kPlane:
+    case Unknown::Kind::kDirection:
+      break;
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::vector<Correlation> HighCorrelations(const Network& network, const NetworkSolution& solution) {
   std::vector<Correlation> high;
   const NetworkColumns& columns = solution.columns;
   for (int first = 0; first < columns.count;) {
@@ -329,18 +349,14 @@ std::vector<Correlation> HighCorrelations(const Network& network, const NetworkS
            columns.unknowns[first + count].index == unknown.index) {
       ++count;
     }
-    const std::vector<std::string> names = ColumnNames(network, unknown);
-    const bool is_tie_point =
-        unknown.kind == Unknown::Kind::kPoint && network.points[unknown.index].is_tie_point;
-    const bool is_named = unknown.kind != Unknown::Kind::kPlane &&
-                          unknown.kind != Unknown::Kind::kDirection && !is_tie_point;
-    if (is_named) {
+    if (const std::optional<Correlation::Of> owner = OwnerOf(network, unknown)) {
+      const std::vector<std::string> names = ColumnNames(network, unknown);
       const Eigen::MatrixXd correlation =
           CorrelationOf(Covariance(network, solution, first, count, first, count));
       for (int i = 0; i < count; ++i) {
         for (int j = i + 1; j < count; ++j) {
-          if (std::abs(correlation(i, j)) > limit) {
-            high.push_back({names[i], names[j], correlation(i, j)});
+          if (std::abs(correlation(i, j)) > kHighCorrelation) {
+            high.push_back({*owner, names[i], names[j], correlation(i, j)});
           }
         }
       }

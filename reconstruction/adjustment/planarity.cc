@@ -3,20 +3,18 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
+#include "calibration/files/error.h"
+#include "calibration/files/wording.h"
 #include "reconstruction/geometry/plane.h"
+#include "reconstruction/geometry/triangulate.h"
 
 namespace insitu {
 namespace {
 
 constexpr double kUncertainties = 10;  // sigmas of the least certain vertex that excuse it
 
-std::string Metres(double length) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.3f m", length);
-  return text;
-}
+std::string Metres(double length) { return Number("%.3f m", length); }
 
 std::vector<StartPoint> Vertices(const PolygonOutline& polygon,
                                  const std::map<std::string, StartPoint>& points) {

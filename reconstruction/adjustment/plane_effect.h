@@ -2,7 +2,7 @@
 // What the planes do to the result: the same network solved without them.
 #pragma once
 
-#include "reconstruction/adjustment/adjustment.h"
+#include "reconstruction/adjustment/adjusted_survey.h"
 #include "reconstruction/adjustment/survey_network.h"
 #include "reconstruction/network/solve_network.h"
 

@@ -4,7 +4,7 @@
 #include <set>
 
 #include "calibration/files/wording.h"
-#include "reconstruction/adjustment/adjusted_observations.h"
+#include "reconstruction/adjustment/adjusted_unknowns.h"
 
 namespace insitu {
 namespace {
@@ -15,12 +15,14 @@ FilePlace PlaceOfObservations(const Survey& survey) {
   return {survey.tie_points ? "work/tie_points/tie_points.json" : "survey/observations.csv", 0};
 }
 
-FilePlace PlaceOf(const Unknown& unknown, const Network& network, const Survey& survey) {
+FilePlace PlaceOf(const Unknown& unknown, const SurveyNetwork& survey_network,
+                  const Survey& survey) {
+  const Network& network = survey_network.network;
   if (unknown.kind == Unknown::Kind::kPoint && !network.points[unknown.index].is_tie_point) {
     return PlaceOfPoint(survey, network.points[unknown.index].name);
   }
   if (unknown.kind == Unknown::Kind::kDirection) {
-    const bool is_sun = network.directions[unknown.index].name == "sun";
+    const bool is_sun = survey_network.sun == unknown.index;
     return (is_sun ? survey.sun_pairs : survey.zenith_pairs).at(0).place;
   }
   for (const PolygonOutline& polygon : survey.polygons) {
@@ -57,13 +59,15 @@ const char* Remedy(Unknown::Kind kind) {
 
 }  // namespace
 
-InputError RankDefectError(const RankDefect& defect, const Network& network, const Survey& survey) {
+InputError RankDefectError(const RankDefect& defect, const SurveyNetwork& survey_network,
+                           const Survey& survey) {
   std::set<std::string> names;
   for (const RankDefect::Column& column : defect.columns) {
-    names.insert(ColumnNames(network, column.unknown).at(static_cast<size_t>(column.component)));
+    names.insert(ColumnNames(survey_network.network, column.unknown)
+                     .at(static_cast<size_t>(column.component)));
   }
   const Unknown& first = defect.columns.front().unknown;
-  const FilePlace place = PlaceOf(first, network, survey);
+  const FilePlace place = PlaceOf(first, survey_network, survey);
   return InputError(
       place.path, place.line,
       Listing("the observations do not determine unknowns", {names.begin(), names.end()}) +
@@ -73,7 +77,7 @@ InputError RankDefectError(const RankDefect& defect, const Network& network, con
 InputError NoSolutionError(const NoSolution& failure, const Network& network,
                            const Survey& survey) {
   const FilePlace place = PlaceOfObservations(survey);
-  if (!failure.row || failure.row->kind != ObservationKind::kMark) {
+  if (!failure.row || failure.row->kind != ObservationRow::Kind::kMark) {
     return InputError(place.path, "the adjustment fails: " + std::string(failure.what()) +
                                       ", expected marks that fit their points");
   }

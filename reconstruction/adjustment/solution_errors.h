@@ -4,13 +4,15 @@
 #pragma once
 
 #include "calibration/files/error.h"
-#include "reconstruction/network/solve_network.h"
+#include "reconstruction/adjustment/survey_network.h"
+#include "reconstruction/network/network_system.h"
 #include "reconstruction/survey/survey.h"
 
 namespace insitu {
 
 // Names the parameters that nothing determines, and what would.
-InputError RankDefectError(const RankDefect& defect, const Network& network, const Survey& survey);
+InputError RankDefectError(const RankDefect& defect, const SurveyNetwork& survey_network,
+                           const Survey& survey);
 
 // An observation that has no value at the start values: almost always a mark whose point would lie
 // behind the camera.

@@ -5,7 +5,6 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 #include <optional>
 #include <set>
@@ -26,8 +25,9 @@ constexpr double kWeakAngle = 1e-3;    // [rad]
 class StartFinder {
  public:
   StartFinder(const Survey& survey, const std::vector<std::string>& photos,
-              const std::vector<Camera>& cameras, const AdjustmentOptions& options)
-      : survey_(survey), options_(options) {
+              const std::vector<Camera>& cameras,
+              const std::map<std::string, Rigid3>& initial_cam_from_world)
+      : survey_(survey), initial_cam_from_world_(initial_cam_from_world) {
     for (size_t i = 0; i < photos.size(); ++i) {
       result_.cameras.push_back({photos[i], cameras[i], {}});
       index_of_photo_[photos[i]] = i;
@@ -112,11 +112,8 @@ class StartFinder {
   }
 
   bool CanResect(size_t photo) const {
-    const ImageObservation *first_known = nullptr, *first_of_photo = nullptr;
     std::vector<Eigen::Vector3d> positions;
-    for (const ResectionPoint& point : KnownMarks(photo, &first_known, &first_of_photo)) {
-      positions.push_back(point.world);
-    }
+    for (const ResectionPoint& point : MarksOf(photo).known) positions.push_back(point.world);
     return !AreCollinear(positions);
   }
 
@@ -140,9 +137,7 @@ class StartFinder {
     result_.tie_point_sigma_px = source.sigma_px;
     size_t far = 0;
     for (size_t i = 0; i < source.points.size(); ++i) {
-      char name[32];
-      std::snprintf(name, sizeof(name), "tie_%06zu", i + 1);
-      StartTiePoint point{name, source.points[i].position, {}};
+      StartTiePoint point{TiePointName(i), source.points[i].position, {}};
       std::vector<Sight> sights;
       for (const TiePointMark& mark : source.points[i].marks) {
         const size_t photo = index_of_photo_.at(mark.photo);
@@ -169,28 +164,31 @@ class StartFinder {
     unknown_.erase(name);
   }
 
-  // The marks of a photo whose points are known, and the first of these marks.
-  std::vector<ResectionPoint> KnownMarks(size_t photo, const ImageObservation** first_known,
-                                         const ImageObservation** first_of_photo) const {
-    std::vector<ResectionPoint> points;
+  struct PhotoMarks {
+    std::vector<ResectionPoint> known;  // those of known points
+    const ImageObservation* first_known = nullptr;
+    const ImageObservation* first = nullptr;  // of all
+  };
+
+  PhotoMarks MarksOf(size_t photo) const {
+    PhotoMarks marks;
     for (const ImageObservation& mark : survey_.observations) {
       if (mark.photo != result_.cameras[photo].photo) continue;
-      if (*first_of_photo == nullptr) *first_of_photo = &mark;
+      if (marks.first == nullptr) marks.first = &mark;
       const auto known = result_.points.find(mark.point);
       if (known == result_.points.end()) continue;
-      if (*first_known == nullptr) *first_known = &mark;
-      points.push_back({known->second.position, mark.pixel, mark.sigma_px});
+      if (marks.first_known == nullptr) marks.first_known = &mark;
+      marks.known.push_back({known->second.position, mark.pixel, mark.sigma_px});
     }
-    return points;
+    return marks;
   }
 
   // Returns whether three points left several poses to choose from.
   bool ResectFromControl(size_t photo) {
     const std::string& name = result_.cameras[photo].photo;
-    const ImageObservation *first_known = nullptr, *first_of_photo = nullptr;
-    const auto points = KnownMarks(photo, &first_known, &first_of_photo);
+    const auto [points, first_known, first] = MarksOf(photo);
     if (points.size() < 3) {
-      const FilePlace place = first_of_photo ? first_of_photo->place : FileOfObservations();
+      const FilePlace place = first ? first->place : FileOfObservations();
       throw InputError(place.path, place.line,
                        "photo '" + name + "' shows " + std::to_string(points.size()) +
                            " control points, expected at least three (check points do not "
@@ -208,9 +206,8 @@ class StartFinder {
   }
 
   void ResectAgain(size_t photo) {
-    const ImageObservation *first_known = nullptr, *first_of_photo = nullptr;
-    const auto points = KnownMarks(photo, &first_known, &first_of_photo);
-    if (Resect(photo, points, first_known->place).ambiguous) {
+    const PhotoMarks marks = MarksOf(photo);
+    if (Resect(photo, marks.known, marks.first_known->place).ambiguous) {
       result_.warnings.push_back("photo '" + result_.cameras[photo].photo +
                                  "' fits its three control points from several places; the most "
                                  "upright was taken: mark a fourth or give an estimate");
@@ -222,8 +219,8 @@ class StartFinder {
                          const FilePlace& place) {
     PosedCamera& posed = result_.cameras[photo];
     std::optional<Rigid3> initial;
-    if (const auto given = options_.initial_cam_from_world.find(posed.photo);
-        given != options_.initial_cam_from_world.end()) {
+    if (const auto given = initial_cam_from_world_.find(posed.photo);
+        given != initial_cam_from_world_.end()) {
       initial = given->second;
     }
     const auto resection = insitu::Resect(posed.camera, points, initial);
@@ -260,20 +257,24 @@ class StartFinder {
     return !found.empty();
   }
 
-  std::vector<Sight> Sights(const std::string& point, std::vector<double>* sigmas_px) const {
+  struct PointSights {
     std::vector<Sight> sights;
+    std::vector<double> sigmas_px;  // of their marks
+  };
+
+  PointSights SightsOf(const std::string& point) const {
+    PointSights seen;
     for (const ImageObservation& mark : survey_.observations) {
       const size_t photo = index_of_photo_.at(mark.photo);
       if (mark.point != point || !is_posed_[photo]) continue;
-      sights.push_back({&result_.cameras[photo], mark.pixel});
-      sigmas_px->push_back(mark.sigma_px);
+      seen.sights.push_back({&result_.cameras[photo], mark.pixel});
+      seen.sigmas_px.push_back(mark.sigma_px);
     }
-    return sights;
+    return seen;
   }
 
   std::optional<StartPoint> FromSights(const std::string& name, double min_angle) const {
-    std::vector<double> sigmas_px;
-    const std::vector<Sight> sights = Sights(name, &sigmas_px);
+    const auto [sights, sigmas_px] = SightsOf(name);
     const auto position = Intersect(sights, min_angle);
     if (!position) return std::nullopt;
     Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
@@ -307,8 +308,7 @@ class StartFinder {
 
   // Where a sight meets a plane, nearest to the plane's known vertices; or where three planes meet.
   std::optional<StartPoint> FromPlanes(const std::string& name) const {
-    std::vector<double> sigmas_px;
-    const std::vector<Sight> sights = Sights(name, &sigmas_px);
+    const std::vector<Sight> sights = SightsOf(name).sights;
     const std::vector<Plane> planes = PlanesThrough(name);
     std::optional<Eigen::Vector3d> best;
     double nearest = std::numeric_limits<double>::infinity();
@@ -340,8 +340,7 @@ class StartFinder {
   void RequireAllFound() const {
     if (unknown_.empty()) return;
     const std::string& name = *unknown_.begin();
-    std::vector<double> sigmas_px;
-    const size_t rays = Sights(name, &sigmas_px).size();
+    const size_t rays = SightsOf(name).sights.size();
     const FilePlace place = PlaceOfPoint(survey_, name);
     throw InputError(place.path, place.line,
                      "point '" + name + "' is marked on " + std::to_string(rays) +
@@ -352,7 +351,7 @@ class StartFinder {
   }
 
   const Survey& survey_;
-  const AdjustmentOptions& options_;
+  const std::map<std::string, Rigid3>& initial_cam_from_world_;
   StartValues result_;
   std::map<std::string, size_t> index_of_photo_;
   std::vector<bool> is_posed_;
@@ -363,9 +362,10 @@ class StartFinder {
 }  // namespace
 
 StartValues FindStartValues(const Survey& survey, const std::vector<std::string>& photos,
-                            const std::vector<Camera>& cameras, const AdjustmentOptions& options) {
+                            const std::vector<Camera>& cameras,
+                            const std::map<std::string, Rigid3>& initial_cam_from_world) {
   INSITU_CHECK(photos.size() == cameras.size());
-  return StartFinder(survey, photos, cameras, options).Find();
+  return StartFinder(survey, photos, cameras, initial_cam_from_world).Find();
 }
 
 }  // namespace insitu

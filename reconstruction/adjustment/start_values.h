@@ -8,7 +8,9 @@
 #include <string>
 #include <vector>
 
-#include "reconstruction/adjustment/adjustment.h"
+#include "calibration/lens/camera.h"
+#include "calibration/lens/rigid3.h"
+#include "reconstruction/survey/survey.h"
 
 namespace insitu {
 
@@ -23,7 +25,7 @@ struct StartTiePoint {
     int photo = 0;  // index into StartValues::cameras
     Eigen::Vector2d pixel;
   };
-  std::string name;          // "tie_000001", by its place in TiePoints::points
+  std::string name;          // TiePointName of its place in TiePoints::points
   Eigen::Vector3d position;  // [m], world
   std::vector<Mark> marks;   // two or more
 };
@@ -41,8 +43,9 @@ struct StartValues {
 // photos are resected from control, or from points that the placed photos determine. The points are
 // those that are marked, or a polygon's vertex, or an end of a direction pair. Throws InputError as
 // Adjust does: a mark off its photograph, a photo that cannot be resected, a point that nothing
-// determines.
+// determines. `initial_cam_from_world`: a user's estimates, by photo; none is needed.
 StartValues FindStartValues(const Survey& survey, const std::vector<std::string>& photos,
-                            const std::vector<Camera>& cameras, const AdjustmentOptions& options);
+                            const std::vector<Camera>& cameras,
+                            const std::map<std::string, Rigid3>& initial_cam_from_world = {});
 
 }  // namespace insitu

@@ -40,8 +40,9 @@ bool IsPositiveDefinite(const Eigen::MatrixXd& covariance) {
 // Builds the network's lists in order; names become indices.
 class Builder {
  public:
-  Builder(const Survey& survey, const StartValues& start, const AdjustmentOptions& options)
-      : survey_(survey), start_(start), options_(options) {
+  Builder(const Survey& survey, const StartValues& start, const std::vector<PhotoLens>& lenses,
+          const AdjustmentOptions& options)
+      : survey_(survey), start_(start), lenses_(lenses), options_(options) {
     network_.origin = RoundedCentroid(survey, start);
   }
 
@@ -52,7 +53,9 @@ class Builder {
       network_.points.push_back({name, point.position - network_.origin});
     }
     AddPlanes();
-    if (!survey_.sun_pairs.empty()) result_.sun = AddDirection("sun", survey_.sun_pairs);
+    if (!survey_.sun_pairs.empty()) {
+      result_.sun = AddDirection("sun", survey_.sun_pairs, options_.sun_sigma);
+    }
     AddZenith();
     AddMarks();
     AddTiePoints();
@@ -69,7 +72,7 @@ class Builder {
   int CameraOf(size_t photo) {
     const Camera& camera = start_.cameras[photo].camera;
     PhotoLens lens;
-    if (!options_.lenses.empty()) lens = options_.lenses.at(photo);
+    if (!lenses_.empty()) lens = lenses_.at(photo);
     for (size_t i = 0; i < network_.cameras.size(); ++i) {
       const NetworkCamera& known = network_.cameras[i];
       if (known.name == lens.camera &&
@@ -127,7 +130,7 @@ class Builder {
     return network_.points[Point(pair.to)].position - network_.points[Point(pair.from)].position;
   }
 
-  int AddDirection(const std::string& name, const std::vector<DirectionPair>& pairs) {
+  int AddDirection(const std::string& name, const std::vector<DirectionPair>& pairs, double sigma) {
     Eigen::Vector3d sum = Eigen::Vector3d::Zero();
     for (const DirectionPair& pair : pairs) sum += Step(pair);
     for (const DirectionPair& pair : pairs) {
@@ -139,7 +142,6 @@ class Builder {
     }
     const int index = static_cast<int>(network_.directions.size());
     network_.directions.push_back({name, sum.normalized()});
-    const double sigma = name == "sun" ? options_.sun_sigma : options_.zenith_sigma;
     for (const DirectionPair& pair : pairs) {
       network_.along_directions.push_back({index, Point(pair.from), Point(pair.to), sigma});
     }
@@ -148,7 +150,7 @@ class Builder {
 
   void AddZenith() {
     if (!survey_.zenith_pairs.empty()) {
-      result_.zenith = AddDirection("zenith", survey_.zenith_pairs);
+      result_.zenith = AddDirection("zenith", survey_.zenith_pairs, options_.zenith_sigma);
     } else {
       result_.zenith = static_cast<int>(network_.directions.size());
       network_.directions.push_back({"zenith", Eigen::Vector3d::UnitZ(), true});
@@ -243,6 +245,7 @@ class Builder {
 
   const Survey& survey_;
   const StartValues& start_;
+  const std::vector<PhotoLens>& lenses_;
   const AdjustmentOptions& options_;
   SurveyNetwork result_;
   Network& network_ = result_.network;
@@ -251,8 +254,9 @@ class Builder {
 }  // namespace
 
 SurveyNetwork MakeSurveyNetwork(const Survey& survey, const StartValues& start,
+                                const std::vector<PhotoLens>& lenses,
                                 const AdjustmentOptions& options) {
-  return Builder(survey, start, options).Build();
+  return Builder(survey, start, lenses, options).Build();
 }
 
 }  // namespace insitu

@@ -3,10 +3,15 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <string>
+#include <vector>
 
+#include "reconstruction/adjustment/adjustment_options.h"
+#include "reconstruction/adjustment/photo_lens.h"
 #include "reconstruction/adjustment/start_values.h"
 #include "reconstruction/network/network.h"
+#include "reconstruction/survey/survey.h"
 
 namespace insitu {
 
@@ -16,10 +21,12 @@ struct SurveyNetwork {
   std::optional<int> sun, zenith;  // indices of directions; without sun pairs there is no sun
 };
 
+// `lenses` go with the start values' cameras; without any all share one exact camera.
 // Planes are those of polygons with four vertices or more, or that a constraint names. Without
 // zenith pairs the z axis is the zenith, fixed.
 // Throws InputError at a direction pair whose points coincide or that contradicts the others.
 SurveyNetwork MakeSurveyNetwork(const Survey& survey, const StartValues& start,
+                                const std::vector<PhotoLens>& lenses,
                                 const AdjustmentOptions& options);
 
 }  // namespace insitu

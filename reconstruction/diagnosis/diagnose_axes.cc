@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Faults of all coordinates at once. Each hypothesis is the correction that would undo the fault.
+#include "reconstruction/diagnosis/diagnose_axes.h"
+
 #include <algorithm>
 #include <cmath>
 #include <functional>
 #include <optional>
 #include <utility>
 
-#include "reconstruction/diagnosis/diagnosis_parts.h"
+#include "calibration/files/wording.h"
+#include "reconstruction/diagnosis/control_fit.h"
 
 namespace insitu {
 namespace {
@@ -20,6 +22,7 @@ constexpr size_t kMostPhotos = 8;    // enough evidence, and quick with hundreds
 using MovedPoint = std::function<Eigen::Vector3d(const Eigen::Vector3d&)>;
 using MovedPixel = std::function<Eigen::Vector2d(const Eigen::Vector2d&, const Camera&)>;
 
+// The correction that would undo a fault.
 struct Hypothesis {
   std::string correction;  // "with x and y of the control points exchanged"
   std::string fault;       // what is wrong, if that correction helps
@@ -74,11 +77,12 @@ void AddScales(const std::string& axes, const Eigen::Vector3d& mask,
   const Unit units[] = {{0.001, "millimetres"}, {0.3048, "feet"}, {1000, "kilometres"}};
   for (const Unit& unit : units) {
     const Eigen::Vector3d factors = (mask * (unit.factor - 1)).array() + 1;
-    hypotheses->push_back({"with " + axes + " of the control points times " + Short(unit.factor),
-                           axes + " of the control points in " + unit.name +
-                               ", the rest in metres: the units are mixed",
-                           "give all coordinates in metres",
-                           [factors](const auto& p) { return factors.cwiseProduct(p).eval(); }});
+    hypotheses->push_back(
+        {"with " + axes + " of the control points times " + ShortNumber(unit.factor),
+         axes + " of the control points in " + unit.name +
+             ", the rest in metres: the units are mixed",
+         "give all coordinates in metres",
+         [factors](const auto& p) { return factors.cwiseProduct(p).eval(); }});
   }
 }
 
@@ -215,10 +219,10 @@ std::string Told(const DiagnosisInput& input, const Trial& trial, const Explanat
   for (const size_t photo : trial.photos) names.push_back(input.photos[photo]);
   const Hypothesis& hypothesis = *explanation.hypothesis;
   return hypothesis.fault + ". The marks of control points on photo" +
-         (names.size() > 1 ? "s " : " ") + ListOf(names) +
-         (trial.rms_px ? " fit to " + Short(*trial.rms_px) + " px (RMS) as given"
+         (names.size() > 1 ? "s " : " ") + QuotedList(names) +
+         (trial.rms_px ? " fit to " + ShortNumber(*trial.rms_px) + " px (RMS) as given"
                        : " fit no camera position as given") +
-         ", to " + Short(explanation.rms_px) + " px " + hypothesis.correction +
+         ", to " + ShortNumber(explanation.rms_px) + " px " + hypothesis.correction +
          ". Expected: " + hypothesis.remedy;
 }
 

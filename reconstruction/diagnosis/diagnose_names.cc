@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Faults of single marks and points, found by what the others agree on.
+#include "reconstruction/diagnosis/diagnose_names.h"
+
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <map>
 #include <optional>
 #include <set>
 #include <tuple>
 
-#include "reconstruction/diagnosis/diagnosis_parts.h"
+#include "calibration/files/wording.h"
+#include "reconstruction/diagnosis/control_fit.h"
 #include "reconstruction/geometry/intersection.h"
 
 namespace insitu {
@@ -20,15 +21,11 @@ constexpr double kGrossPx = 8;      // [px], below this a mark is only bad, whic
 constexpr double kMinAngle = 0.02;  // [rad], to trust an intersection
 
 std::string Pixel(const Eigen::Vector2d& pixel) {
-  char text[80];
-  std::snprintf(text, sizeof text, "(%.1f, %.1f)", pixel.x(), pixel.y());
-  return text;
+  return Formatted("(%.1f, %.1f)", pixel.x(), pixel.y());
 }
 
 std::string Meters(const Eigen::Vector3d& vector) {
-  char text[120];
-  std::snprintf(text, sizeof text, "(%.3f, %.3f, %.3f) m", vector.x(), vector.y(), vector.z());
-  return text;
+  return Formatted("(%.3f, %.3f, %.3f) m", vector.x(), vector.y(), vector.z());
 }
 
 class NameDiagnosis {
@@ -142,7 +139,7 @@ class NameDiagnosis {
       }
       if (names.size() < 3) continue;
       return {{first->place,
-               "the control points are in two coordinate systems: " + ListOf(names) +
+               "the control points are in two coordinate systems: " + QuotedList(names) +
                    " are all shifted by " + Meters(shift) +
                    " against the others, by what the photos show. Expected: all coordinates in "
                    "one system"}};
@@ -162,7 +159,7 @@ class NameDiagnosis {
   std::string SeenByPhotos(const ControlPoint& control) const {
     std::vector<std::string> photos;
     for (const ControlMark& mark : outliers_.at(&control)) photos.push_back(mark.mark->photo);
-    return "photo" + std::string(photos.size() > 1 ? "s " : " ") + ListOf(photos);
+    return "photo" + std::string(photos.size() > 1 ? "s " : " ") + QuotedList(photos);
   }
 
   std::optional<Diagnosis> OfPoint(const ControlPoint& control, const Eigen::Vector3d& seen) {
@@ -199,7 +196,7 @@ class NameDiagnosis {
     const Eigen::Vector3d& given = control.position;
     const Eigen::Vector3d off = given - seen;
     const double reach = ReachOf(control, seen);
-    std::string message = "control point '" + control.name + "' lies " + Short(off.norm()) +
+    std::string message = "control point '" + control.name + "' lies " + ShortNumber(off.norm()) +
                           " m from where " + SeenByPhotos(control) + " show it, " + Meters(seen) +
                           " instead of " + Meters(given);
     const Eigen::Vector3d exchanged(given.y(), given.x(), given.z());
@@ -249,9 +246,9 @@ class NameDiagnosis {
                         Pixel(mark.pixel);
     const auto expected = ImageOf(control.position, mark.photo);
     if (expected) {
-      where += ", " + Short((*expected - mark.pixel).norm()) + " px from where its coordinates " +
-               "appear, " + Pixel(*expected) + " (the marks that agree fit to " +
-               Short(rms_px_.at(mark.photo)) + " px)";
+      where += ", " + ShortNumber((*expected - mark.pixel).norm()) +
+               " px from where its coordinates " + "appear, " + Pixel(*expected) +
+               " (the marks that agree fit to " + ShortNumber(rms_px_.at(mark.photo)) + " px)";
     }
     const auto shown = ShownBy(outlier);
     for (const ControlPoint* other : shown) {

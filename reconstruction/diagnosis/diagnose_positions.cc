@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Camera positions against the centres that the control points give.
+#include "reconstruction/diagnosis/diagnose_positions.h"
+
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
@@ -7,7 +8,7 @@
 #include <map>
 #include <optional>
 
-#include "reconstruction/diagnosis/diagnosis_parts.h"
+#include "calibration/files/wording.h"
 
 namespace insitu {
 namespace {
@@ -76,7 +77,7 @@ bool AgreesCorrected(const Pair& pair, const Eigen::Vector3d& position, double s
 }
 
 std::string Off(const Pair& pair) {
-  return Short((pair.surveyed->position - pair.resected).norm()) +
+  return ShortNumber((pair.surveyed->position - pair.resected).norm()) +
          " m from where the control points put it";
 }
 

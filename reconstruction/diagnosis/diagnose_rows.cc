@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What the rows tell without any photo.
+#include "reconstruction/diagnosis/diagnose_rows.h"
+
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <set>
 #include <utility>
 
-#include "reconstruction/diagnosis/diagnosis_parts.h"
+#include "calibration/files/wording.h"
 #include "reconstruction/survey/near_names.h"
 
 namespace insitu {
@@ -64,12 +65,12 @@ std::vector<Diagnosis> TwoSystems(const Points& points) {
     const auto* first = *std::min_element(odd.begin(), odd.end(), [](const auto* a, const auto* b) {
       return a->place.line < b->place.line;
     });
-    return {
-        {first->place, "the control points are in two coordinate systems: " + ListOf(NamesOf(odd)) +
-                           (odd.size() == 1 ? " lies " : " lie ") + Short(gap.width / 1000) +
-                           " km from the " + std::to_string(rest.size()) + " others along " +
-                           "xyz"[axis] + WordOnUnit(odd, rest, axis) +
-                           ". Expected: all coordinates in one system and one unit"}};
+    return {{first->place,
+             "the control points are in two coordinate systems: " + QuotedList(NamesOf(odd)) +
+                 (odd.size() == 1 ? " lies " : " lie ") + ShortNumber(gap.width / 1000) +
+                 " km from the " + std::to_string(rest.size()) + " others along " + "xyz"[axis] +
+                 WordOnUnit(odd, rest, axis) +
+                 ". Expected: all coordinates in one system and one unit"}};
   }
   return {};
 }
@@ -88,7 +89,8 @@ std::vector<Diagnosis> Degrees(const Points& points) {
   if (!are_angles || !is_needle) return {};
   return {{points[0]->place,
            "x and y of the control points look like longitude and latitude in degrees: they span " +
-               Short(spread[0]) + " and " + Short(spread[1]) + ", z spans " + Short(spread[2]) +
+               ShortNumber(spread[0]) + " and " + ShortNumber(spread[1]) + ", z spans " +
+               ShortNumber(spread[2]) +
                ". Expected: metres of a map projection or a local system"}};
 }
 
@@ -154,7 +156,7 @@ std::vector<Diagnosis> UnusedControl(const Survey& survey) {
     diagnoses.push_back({point.place,
                          "point '" + point.name + "' is marked on no photo and in no polygon" +
                              meant + " Expected: one name for one point in all files",
-                         Diagnosis::Kind::kMisfit});
+                         Diagnosis::Kind::kMisfit, point.name});
   }
   return diagnoses;
 }

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Photos fit control of any scale: what else tells that its unit is wrong.
+#include "reconstruction/diagnosis/diagnose_scale.h"
+
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <optional>
 
-#include "reconstruction/diagnosis/diagnosis_parts.h"
+#include "calibration/files/wording.h"
 
 namespace insitu {
 namespace {
@@ -63,8 +64,8 @@ std::vector<Distance> DistancesOf(const Survey& survey) {
 
 std::string Told(const Distance& distance) {
   return "the distance from '" + distance.from->name + "' to '" + distance.to->name + "' is " +
-         Short(distance.constraint->value) + " m, their coordinates are " +
-         Short(distance.surveyed) + " m apart";
+         ShortNumber(distance.constraint->value) + " m, their coordinates are " +
+         ShortNumber(distance.surveyed) + " m apart";
 }
 
 // Measured distances against coordinates: all by the same factor, or one alone. Millimetres and
@@ -135,7 +136,8 @@ std::vector<Diagnosis> Implausible(const DiagnosisInput& input,
   const FilePlace place = input.survey.control_points.front().place;
   const auto [distance, fit, sigma] = PlausibilityOf(input, fits);
   const bool is_whole = AreWholeNumbers(input.survey);
-  const std::string stand = "the cameras stand " + Short(distance) + " m from the control points";
+  const std::string stand =
+      "the cameras stand " + ShortNumber(distance) + " m from the control points";
   std::vector<Diagnosis> diagnoses;
   if (distance > kVeryFarAway || (distance > kFarAway && is_whole)) {
     diagnoses.push_back({place,
@@ -149,8 +151,8 @@ std::vector<Diagnosis> Implausible(const DiagnosisInput& input,
   }
   if (sigma > kLargeSigma && fit * kMuchBetter < sigma) {
     diagnoses.push_back({place,
-                         "the control points have sigmas of " + Short(sigma) +
-                             " m, but fit the photos to " + Short(fit) +
+                         "the control points have sigmas of " + ShortNumber(sigma) +
+                             " m, but fit the photos to " + ShortNumber(fit) +
                              " m: are the sigmas in millimetres? Expected: metres",
                          Kind::kQuestion});
   }

@@ -2,11 +2,15 @@
 #include "reconstruction/diagnosis/survey_diagnosis.h"
 
 #include <algorithm>
-#include <cmath>
-#include <cstdio>
 #include <iterator>
 
-#include "reconstruction/diagnosis/diagnosis_parts.h"
+#include "calibration/files/error.h"
+#include "reconstruction/diagnosis/control_fit.h"
+#include "reconstruction/diagnosis/diagnose_axes.h"
+#include "reconstruction/diagnosis/diagnose_names.h"
+#include "reconstruction/diagnosis/diagnose_positions.h"
+#include "reconstruction/diagnosis/diagnose_rows.h"
+#include "reconstruction/diagnosis/diagnose_scale.h"
 
 namespace insitu {
 namespace {
@@ -30,29 +34,6 @@ bool IsOnPhotographs(const Survey& survey, const std::string& photo, const Camer
 }
 
 }  // namespace
-
-std::string Short(double value) {
-  char text[40];
-  const bool is_large = std::abs(value) >= 100;
-  std::snprintf(text, sizeof text,
-                is_large              ? "%.0f"
-                : std::abs(value) < 1 ? "%.3g"
-                                      : "%.2f",
-                value);
-  return text;
-}
-
-std::string ListOf(const std::vector<std::string>& names) {
-  constexpr size_t kShown = 4;
-  std::string list;
-  for (size_t i = 0; i < names.size(); ++i) {
-    if (i == kShown && names.size() > kShown + 1) {
-      return list + " and " + std::to_string(names.size() - kShown) + " others";
-    }
-    list += (i == 0 ? "'" : i + 1 == names.size() ? " and '" : ", '") + names[i] + "'";
-  }
-  return list;
-}
 
 std::vector<Diagnosis> Diagnose(const Survey& survey, const std::vector<std::string>& photos,
                                 const std::vector<Camera>& cameras) {
@@ -95,11 +76,6 @@ void ThrowDiagnosed(const std::vector<Diagnosis>& diagnoses, const InputError& s
     if (diagnosis.kind == Diagnosis::Kind::kMisfit) throw ErrorOf(diagnosis);
   }
   throw symptom;
-}
-
-std::string Text(const Diagnosis& diagnosis) {
-  return diagnosis.place.path.filename().string() + ":" + std::to_string(diagnosis.place.line) +
-         ": " + diagnosis.message;
 }
 
 }  // namespace insitu

@@ -6,21 +6,12 @@
 #include <string>
 #include <vector>
 
+#include "calibration/files/error.h"
 #include "calibration/lens/camera.h"
+#include "reconstruction/diagnosis/diagnosis.h"
 #include "reconstruction/survey/survey.h"
 
 namespace insitu {
-
-struct Diagnosis {
-  enum class Kind {
-    kFault,     // the input contradicts itself, and agrees when corrected so
-    kMisfit,    // something does not fit, and no correction is known: a gross error
-    kQuestion,  // it fits, but is hardly meant so
-  };
-  FilePlace place;
-  std::string message;  // what is wrong, what shows it, what to do
-  Kind kind = Kind::kFault;
-};
 
 // Faults first, then misfits, then questions; the best explanation first; none for a survey that
 // fits. `cameras` go with `photos`. Told are
@@ -45,8 +36,5 @@ std::vector<Diagnosis> RequireSound(const Survey& survey, const std::vector<std:
 // likely cause, as InputError; else `symptom`.
 [[noreturn]] void ThrowDiagnosed(const std::vector<Diagnosis>& diagnoses,
                                  const InputError& symptom);
-
-// "observations.csv:12: message".
-std::string Text(const Diagnosis& diagnosis);
 
 }  // namespace insitu

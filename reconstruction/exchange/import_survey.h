@@ -3,6 +3,7 @@
 // camera_positions.csv: merged, in metres of one coordinate system, every value with its sigma.
 #pragma once
 
+#include <filesystem>
 #include <map>
 #include <optional>
 #include <set>

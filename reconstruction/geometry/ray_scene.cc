@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "calibration/files/error.h"
+#include "reconstruction/geometry/triangulate.h"
 
 namespace insitu {
 namespace {

@@ -4,6 +4,7 @@
 #include "calibration/files/json_file.h"
 #include "reconstruction/geometry/intersection.h"
 #include "reconstruction/geometry/plane.h"
+#include "reconstruction/geometry/triangulate.h"
 
 namespace insitu {
 namespace {

@@ -43,11 +43,6 @@ struct SceneGeometry {
 void WriteSceneGeometry(const SitePaths& site, const SceneGeometry& scene);
 SceneGeometry ReadSceneGeometry(const SitePaths& site);
 
-// Triangles (indices into `vertices`) of a simple planar polygon, convex or concave, by ear
-// clipping about `normal`; nullopt if the outline crosses itself or has no area.
-std::optional<std::vector<Eigen::Vector3i>> Triangulate(
-    const std::vector<Eigen::Vector3d>& vertices, const Eigen::Vector3d& normal);
-
 // The point of a polygon that a pixel of `camera` sees, ignoring everything before it; nullopt if
 // the line of sight misses the polygon.
 std::optional<Eigen::Vector3d> PointOnPolygon(const PosedCamera& camera,

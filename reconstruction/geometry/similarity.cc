@@ -257,8 +257,14 @@ Rigid3 CamFromTarget(const Rigid3& cam_from_source, const Similarity3& target_fr
   return {rotation, -(rotation * (target_from_source * Center(cam_from_source)))};
 }
 
+void SimilarityOptions::Check() const {
+  INSITU_CHECK(limit_sigma > 0);
+  INSITU_CHECK(max_trials > 0);
+}
+
 std::optional<SimilarityFit> FitSimilarity(const std::vector<SimilarityPair>& pairs,
                                            const SimilarityOptions& options) {
+  options.Check();
   for (const SimilarityPair& pair : pairs) INSITU_CHECK(pair.sigma.minCoeff() > 0);
   if (pairs.size() < 3) return std::nullopt;
   const CenteredPairs centered = Centered(pairs);

@@ -40,6 +40,9 @@ struct SimilarityPair {
 struct SimilarityOptions {
   double limit_sigma = 5;  // a pair that is off by more on an axis is an outlier
   int max_trials = 2000;   // of triples; all of them if there are fewer
+
+  // Throws CheckError that names the field: one that is not above 0.
+  void Check() const;
 };
 
 struct SimilarityFit {

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Ear clipping of a polygon's outline.
+#include "reconstruction/geometry/triangulate.h"
+
+#include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 #include "calibration/files/error.h"
 #include "reconstruction/geometry/plane.h"
-#include "reconstruction/geometry/scene_geometry.h"
 
 namespace insitu {
 namespace {

@@ -108,11 +108,12 @@ std::optional<Eigen::Vector3d> FixedUnit(const Network& network, const Observati
     if (!network.directions[direction].is_fixed) return std::nullopt;
     return network.directions[direction].unit;
   };
-  if (row.kind == ObservationKind::kDirection) {
+  if (row.kind == ObservationRow::Kind::kDirection) {
     return unit_of(network.along_directions[row.index].direction);
   }
-  if (row.kind == ObservationKind::kHeight) return unit_of(network.heights[row.index].direction);
-  if (row.kind != ObservationKind::kAngle) return std::nullopt;
+  if (row.kind == ObservationRow::Kind::kHeight)
+    return unit_of(network.heights[row.index].direction);
+  if (row.kind != ObservationRow::Kind::kAngle) return std::nullopt;
   const AngleObservation& angle = network.angles[row.index];
   for (const UnitReference& reference : {angle.first, angle.second}) {
     const auto* unit = std::get_if<DirectionUnit>(&reference);
@@ -123,11 +124,11 @@ std::optional<Eigen::Vector3d> FixedUnit(const Network& network, const Observati
 
 bool HoldsDatum(const Network& network, const ObservationRow& row) {
   switch (row.kind) {
-    case ObservationKind::kControl:
-    case ObservationKind::kCenter:
-    case ObservationKind::kDistance:
+    case ObservationRow::Kind::kControl:
+    case ObservationRow::Kind::kCenter:
+    case ObservationRow::Kind::kDistance:
       return true;
-    case ObservationKind::kHeight:
+    case ObservationRow::Kind::kHeight:
       return network.heights[row.index].height != 0;
     default:
       return false;

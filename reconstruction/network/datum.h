@@ -5,7 +5,9 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "reconstruction/network/solve_network.h"
+#include "reconstruction/network/network.h"
+#include "reconstruction/network/network_system.h"
+#include "reconstruction/network/statistics.h"
 
 namespace insitu {
 

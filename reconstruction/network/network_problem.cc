@@ -16,6 +16,8 @@ namespace {
 
 using Kind = Unknown::Kind;
 
+constexpr int kMaxIterations = 100;
+
 template <int kResiduals, int... kSizes, typename Cost>
 ceres::CostFunction* AutoDiff(const Cost& cost) {
   return new ceres::AutoDiffCostFunction<Cost, kResiduals, kSizes...>(new Cost(cost));
@@ -43,59 +45,10 @@ Eigen::Vector3d UnitOf(const Network& network, const UnitReference& reference) {
 
 }  // namespace
 
-NetworkProblem::NetworkProblem(Network* network) : network_(*network), problem_(ProblemOptions()) {
-  first_point_ = 7 * network_.photos.size();
-  first_plane_ = first_point_ + 3 * network_.points.size();
-  first_direction_ = first_plane_ + 4 * network_.planes.size();
-  parameters_.resize(first_direction_ + 3 * network_.directions.size());
-  for (const NetworkCamera& camera : network_.cameras) {
-    lens_parameters_.push_back(LensParameters(camera.lens));
-  }
-  Load();
+NetworkProblem::NetworkProblem(Network* network)
+    : network_(*network), values_(network), problem_(ProblemOptions()) {
   AddUnknowns();
   AddObservations();
-}
-
-void NetworkProblem::Load() {
-  const auto put = [](const auto& vector, double* target) {
-    std::copy(vector.data(), vector.data() + vector.size(), target);
-  };
-  for (int i = 0; i < static_cast<int>(network_.photos.size()); ++i) {
-    put(network_.photos[i].cam_from_local.coeffs(), Rotation(i));
-    put(network_.photos[i].center, Center(i));
-  }
-  for (int i = 0; i < static_cast<int>(network_.points.size()); ++i) {
-    put(network_.points[i].position, Point(i));
-  }
-  for (int i = 0; i < static_cast<int>(network_.planes.size()); ++i) {
-    put(network_.planes[i].normal, Normal(i));
-    *Offset(i) = network_.planes[i].offset;
-  }
-  for (int i = 0; i < static_cast<int>(network_.directions.size()); ++i) {
-    put(network_.directions[i].unit, Unit(i));
-  }
-}
-
-void NetworkProblem::Store() {
-  using Eigen::Vector3d;
-  for (int i = 0; i < static_cast<int>(network_.photos.size()); ++i) {
-    network_.photos[i].cam_from_local = Eigen::Quaterniond(Rotation(i)).normalized();
-    network_.photos[i].center = Vector3d(Center(i));
-  }
-  for (int i = 0; i < static_cast<int>(network_.points.size()); ++i) {
-    network_.points[i].position = Vector3d(Point(i));
-  }
-  for (int i = 0; i < static_cast<int>(network_.planes.size()); ++i) {
-    network_.planes[i].normal = Vector3d(Normal(i)).normalized();
-    network_.planes[i].offset = *Offset(i);
-  }
-  for (int i = 0; i < static_cast<int>(network_.directions.size()); ++i) {
-    network_.directions[i].unit = Vector3d(Unit(i)).normalized();
-  }
-  for (size_t i = 0; i < network_.cameras.size(); ++i) {
-    if (!columns_.camera[i]) continue;
-    network_.cameras[i].lens = WithParameters(network_.cameras[i].lens, lens_parameters_[i]);
-  }
 }
 
 int NetworkProblem::AddBlock(double* block, int size, ceres::Manifold* manifold,
@@ -108,34 +61,53 @@ int NetworkProblem::AddBlock(double* block, int size, ceres::Manifold* manifold,
   return column;
 }
 
+void NetworkProblem::AddCameras() {
+  columns_.camera.resize(network_.cameras.size());
+  for (int i = 0; i < static_cast<int>(network_.cameras.size()); ++i) {
+    const NetworkCamera& camera = network_.cameras[i];
+    if (!IsAdjusted(camera)) continue;
+    const int size = static_cast<int>(values_.Lens(i).size());
+    INSITU_CHECK(static_cast<int>(camera.is_free.size()) == size);
+    std::vector<int> held;
+    for (int k = 0; k < size; ++k) {
+      if (!camera.is_free[k]) held.push_back(k);
+    }
+    ceres::Manifold* manifold = nullptr;
+    if (!held.empty()) manifold = &lens_manifolds_.emplace_back(size, held);
+    columns_.camera[i] = AddBlock(values_.Lens(i).data(), size, manifold, {Kind::kCamera, i});
+  }
+}
+
 void NetworkProblem::AddUnknowns() {
   AddCameras();
   columns_.rotation.resize(network_.photos.size());
   columns_.center.resize(network_.photos.size());
   columns_.point.resize(network_.points.size());
   for (int i = 0; i < static_cast<int>(network_.photos.size()); ++i) {
-    columns_.rotation[i] = AddBlock(Rotation(i), 4, &quaternion_manifold_, {Kind::kPhoto, i});
+    columns_.rotation[i] =
+        AddBlock(values_.Rotation(i), 4, &quaternion_manifold_, {Kind::kPhoto, i});
     if (network_.photos[i].is_center_fixed) {
-      problem_.AddParameterBlock(Center(i), 3);
-      problem_.SetParameterBlockConstant(Center(i));
+      problem_.AddParameterBlock(values_.Center(i), 3);
+      problem_.SetParameterBlockConstant(values_.Center(i));
     } else {
-      columns_.center[i] = AddBlock(Center(i), 3, nullptr, {Kind::kPhoto, i});
+      columns_.center[i] = AddBlock(values_.Center(i), 3, nullptr, {Kind::kPhoto, i});
     }
   }
   for (int i = 0; i < static_cast<int>(network_.points.size()); ++i) {
     if (network_.points[i].is_fixed) {
-      problem_.AddParameterBlock(Point(i), 3);
-      problem_.SetParameterBlockConstant(Point(i));
+      problem_.AddParameterBlock(values_.Point(i), 3);
+      problem_.SetParameterBlockConstant(values_.Point(i));
     } else {
-      columns_.point[i] = AddBlock(Point(i), 3, nullptr, {Kind::kPoint, i});
+      columns_.point[i] = AddBlock(values_.Point(i), 3, nullptr, {Kind::kPoint, i});
     }
   }
   for (int i = 0; i < static_cast<int>(network_.planes.size()); ++i) {
-    columns_.plane.emplace_back(AddBlock(Normal(i), 3, &sphere_manifold_, {Kind::kPlane, i}));
-    AddBlock(Offset(i), 1, nullptr, {Kind::kPlane, i});
+    columns_.plane.emplace_back(
+        AddBlock(values_.Normal(i), 3, &sphere_manifold_, {Kind::kPlane, i}));
+    AddBlock(values_.Offset(i), 1, nullptr, {Kind::kPlane, i});
   }
   for (int i = 0; i < static_cast<int>(network_.directions.size()); ++i) {
-    double* unit = Unit(i);
+    double* unit = values_.Unit(i);
     columns_.direction.emplace_back();
     if (network_.directions[i].is_fixed) {
       problem_.AddParameterBlock(unit, 3);
@@ -146,14 +118,7 @@ void NetworkProblem::AddUnknowns() {
   }
 }
 
-double* NetworkProblem::Unit(const UnitReference& reference) {
-  if (const auto* plane = std::get_if<PlaneNormal>(&reference)) {
-    return Normal(plane->plane);
-  }
-  return Unit(std::get<DirectionUnit>(reference).direction);
-}
-
-void NetworkProblem::AddResidual(ObservationKind kind, int index, ceres::CostFunction* cost,
+void NetworkProblem::AddResidual(ObservationRow::Kind kind, int index, ceres::CostFunction* cost,
                                  const std::vector<double*>& blocks,
                                  const std::vector<double>& sigmas) {
   residual_blocks_.push_back(problem_.AddResidualBlock(cost, nullptr, blocks));
@@ -177,13 +142,14 @@ void NetworkProblem::AddMarks() {
   for (int i = 0; i < static_cast<int>(network_.marks.size()); ++i) {
     const MarkObservation& mark = network_.marks[i];
     const int camera = network_.photos[mark.photo].camera;
-    std::vector<double*> blocks = {Rotation(mark.photo), Center(mark.photo), Point(mark.point)};
+    std::vector<double*> blocks = {values_.Rotation(mark.photo), values_.Center(mark.photo),
+                                   values_.Point(mark.point)};
     const bool is_adjusted = columns_.camera[camera].has_value();
-    if (is_adjusted) blocks.push_back(lens_parameters_[camera].data());
+    if (is_adjusted) blocks.push_back(values_.Lens(camera).data());
     AddResidual(
-        ObservationKind::kMark, i,
-        new MarkCost(network_.cameras[camera].lens,
-                     is_adjusted ? nullptr : &lens_parameters_[camera], mark.pixel, mark.sigma_px),
+        ObservationRow::Kind::kMark, i,
+        new MarkCost(network_.cameras[camera].lens, is_adjusted ? nullptr : &values_.Lens(camera),
+                     mark.pixel, mark.sigma_px),
         blocks, {mark.sigma_px, mark.sigma_px});
   }
 }
@@ -194,12 +160,12 @@ void NetworkProblem::AddEdges() {
     const int camera = network_.photos[edge.photo].camera;
     const auto* lens = std::get_if<Camera>(&network_.cameras[camera].lens);
     INSITU_CHECK(lens != nullptr);
-    std::vector<double*> blocks = {Rotation(edge.photo), Center(edge.photo), Point(edge.from),
-                                   Point(edge.to)};
+    std::vector<double*> blocks = {values_.Rotation(edge.photo), values_.Center(edge.photo),
+                                   values_.Point(edge.from), values_.Point(edge.to)};
     const bool is_adjusted = columns_.camera[camera].has_value();
-    if (is_adjusted) blocks.push_back(lens_parameters_[camera].data());
-    AddResidual(ObservationKind::kEdge, i,
-                new EdgeCost(*lens, is_adjusted ? nullptr : &lens_parameters_[camera], edge.pixel,
+    if (is_adjusted) blocks.push_back(values_.Lens(camera).data());
+    AddResidual(ObservationRow::Kind::kEdge, i,
+                new EdgeCost(*lens, is_adjusted ? nullptr : &values_.Lens(camera), edge.pixel,
                              edge.sigma_px),
                 blocks, {edge.sigma_px});
   }
@@ -208,15 +174,25 @@ void NetworkProblem::AddEdges() {
 void NetworkProblem::AddPositions() {
   for (int i = 0; i < static_cast<int>(network_.control.size()); ++i) {
     const ControlObservation& control = network_.control[i];
-    AddResidual(ObservationKind::kControl, i,
+    AddResidual(ObservationRow::Kind::kControl, i,
                 AutoDiff<3, 3>(PositionCost{control.position, control.sigma}),
-                {Point(control.point)}, List(control.sigma));
+                {values_.Point(control.point)}, List(control.sigma));
   }
   for (int i = 0; i < static_cast<int>(network_.centers.size()); ++i) {
     const CenterObservation& center = network_.centers[i];
-    AddResidual(ObservationKind::kCenter, i,
-                AutoDiff<3, 3>(PositionCost{center.position, center.sigma}), {Center(center.photo)},
-                List(center.sigma));
+    AddResidual(ObservationRow::Kind::kCenter, i,
+                AutoDiff<3, 3>(PositionCost{center.position, center.sigma}),
+                {values_.Center(center.photo)}, List(center.sigma));
+  }
+}
+
+void NetworkProblem::AddLenses() {
+  for (int i = 0; i < static_cast<int>(network_.lenses.size()); ++i) {
+    const LensObservation& lens = network_.lenses[i];
+    if (!columns_.camera[lens.camera]) continue;
+    ceres::CostFunction* cost = LensCost(lens, network_.cameras[lens.camera].is_free);
+    AddResidual(ObservationRow::Kind::kLens, i, cost, {values_.Lens(lens.camera).data()},
+                std::vector<double>(static_cast<size_t>(cost->num_residuals()), 1.0));
   }
 }
 
@@ -224,30 +200,34 @@ void NetworkProblem::AddPlanesAndDirections() {
   for (int i = 0; i < static_cast<int>(network_.on_planes.size()); ++i) {
     const PlaneObservation& on_plane = network_.on_planes[i];
     const NetworkPlane& plane = network_.planes[on_plane.plane];
-    AddResidual(ObservationKind::kPlane, i,
+    AddResidual(ObservationRow::Kind::kPlane, i,
                 AutoDiff<1, 3, 1, 3>(PlaneCost{plane.centroid, on_plane.distance, on_plane.sigma}),
-                {Normal(on_plane.plane), Offset(on_plane.plane), Point(on_plane.point)},
+                {values_.Normal(on_plane.plane), values_.Offset(on_plane.plane),
+                 values_.Point(on_plane.point)},
                 {on_plane.sigma});
   }
   for (int i = 0; i < static_cast<int>(network_.along_directions.size()); ++i) {
     const DirectionObservation& pair = network_.along_directions[i];
     const Eigen::Vector3d& unit = network_.directions[pair.direction].unit;
-    AddResidual(ObservationKind::kDirection, i,
+    AddResidual(ObservationRow::Kind::kDirection, i,
                 AutoDiff<2, 3, 3, 3>(DirectionCost{AxesAcross(unit), pair.across, pair.sigma}),
-                {Unit(pair.direction), Point(pair.from), Point(pair.to)}, {pair.sigma, pair.sigma});
+                {values_.Unit(pair.direction), values_.Point(pair.from), values_.Point(pair.to)},
+                {pair.sigma, pair.sigma});
   }
 }
 
 void NetworkProblem::AddConstraints() {
   for (int i = 0; i < static_cast<int>(network_.distances.size()); ++i) {
     const DistanceObservation& d = network_.distances[i];
-    AddResidual(ObservationKind::kDistance, i, AutoDiff<1, 3, 3>(DistanceCost{d.distance, d.sigma}),
-                {Point(d.from), Point(d.to)}, {d.sigma});
+    AddResidual(ObservationRow::Kind::kDistance, i,
+                AutoDiff<1, 3, 3>(DistanceCost{d.distance, d.sigma}),
+                {values_.Point(d.from), values_.Point(d.to)}, {d.sigma});
   }
   for (int i = 0; i < static_cast<int>(network_.heights.size()); ++i) {
     const HeightObservation& h = network_.heights[i];
-    AddResidual(ObservationKind::kHeight, i, AutoDiff<1, 3, 3, 3>(HeightCost{h.height, h.sigma}),
-                {Unit(h.direction), Point(h.from), Point(h.to)}, {h.sigma});
+    AddResidual(ObservationRow::Kind::kHeight, i,
+                AutoDiff<1, 3, 3, 3>(HeightCost{h.height, h.sigma}),
+                {values_.Unit(h.direction), values_.Point(h.from), values_.Point(h.to)}, {h.sigma});
   }
   for (int i = 0; i < static_cast<int>(network_.angles.size()); ++i) AddAngle(i);
 }
@@ -266,15 +246,16 @@ void NetworkProblem::AddAngle(int index) {
   std::vector<double*> blocks;
   for (const UnitReference* reference : {&angle.first, &angle.second}) {
     if (const auto* edge = std::get_if<EdgeUnit>(reference)) {
-      blocks.insert(blocks.end(), {Point(edge->from), Point(edge->to)});
+      blocks.push_back(values_.Point(edge->from));
+      blocks.push_back(values_.Point(edge->to));
     } else {
-      blocks.push_back(Unit(*reference));
+      blocks.push_back(values_.Unit(*reference));
     }
   }
   for (size_t i = 0; i < blocks.size(); ++i) function->AddParameterBlock(3);
   const int components = angle.is_parallel ? 2 : 1;
   function->SetNumResiduals(components);
-  AddResidual(ObservationKind::kAngle, index, function.release(), blocks,
+  AddResidual(ObservationRow::Kind::kAngle, index, function.release(), blocks,
               std::vector<double>(components, angle.sigma));
 }
 
@@ -288,11 +269,11 @@ void NetworkProblem::HoldPhotos(const std::vector<int>& columns,
     const int turn = columns[i] - *columns_.rotation[unknown.index];
     if (turn < 3) {
       problem_.AddResidualBlock(AutoDiff<1, 4>(TurnCost{turn, photo.cam_from_local, weight}),
-                                nullptr, Rotation(unknown.index));
+                                nullptr, values_.Rotation(unknown.index));
     } else {
       const int axis = columns[i] - *columns_.center[unknown.index];
       problem_.AddResidualBlock(AutoDiff<1, 3>(CoordinateCost{axis, photo.center[axis], weight}),
-                                nullptr, Center(unknown.index));
+                                nullptr, values_.Center(unknown.index));
     }
   }
 }
@@ -318,14 +299,14 @@ std::shared_ptr<ceres::ParameterBlockOrdering> NetworkProblem::Ordering() {
   for (double* block : blocks_) ordering->AddElementToGroup(block, 1);
   for (size_t i = 0; i < network_.points.size(); ++i) {
     if (columns_.point[i] && !is_linked[i]) {
-      ordering->AddElementToGroup(Point(static_cast<int>(i)), 0);
+      ordering->AddElementToGroup(values_.Point(static_cast<int>(i)), 0);
     }
   }
   return ordering->GroupSize(0) > 0 ? ordering : nullptr;
 }
 
-ceres::Solver::Summary NetworkProblem::Solve(const SolveOptions& options) {
-  Load();
+ceres::Solver::Summary NetworkProblem::Solve() {
+  values_.Load();
   ceres::Solver::Options ceres_options;
   ceres_options.logging_type = ceres::SILENT;
   ceres_options.linear_solver_ordering = Ordering();
@@ -334,14 +315,14 @@ ceres::Solver::Summary NetworkProblem::Solve(const SolveOptions& options) {
   // One thread and Eigen's own factorization: the same sums in the same order on every machine.
   ceres_options.sparse_linear_algebra_library_type = ceres::EIGEN_SPARSE;
   ceres_options.num_threads = 1;
-  ceres_options.max_num_iterations = options.max_iterations;
+  ceres_options.max_num_iterations = kMaxIterations;
   // A step then moves no unknown by 1e-4 of its sigma; below, rounding decides.
   ceres_options.function_tolerance = 1e-12;
   ceres_options.gradient_tolerance = 1e-16;
   ceres_options.parameter_tolerance = 1e-14;
   ceres::Solver::Summary summary;
   ceres::Solve(ceres_options, &problem_, &summary);
-  Store();
+  values_.Store();
   return summary;
 }
 
@@ -360,7 +341,7 @@ void NetworkProblem::ThrowNoValue() const {
 }
 
 NetworkProblem::Linearization NetworkProblem::Linearize() {
-  Load();
+  values_.Load();
   ceres::Problem::EvaluateOptions options;
   options.parameter_blocks = blocks_;
   options.residual_blocks = residual_blocks_;

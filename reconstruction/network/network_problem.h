@@ -13,7 +13,10 @@
 #include <memory>
 #include <vector>
 
-#include "reconstruction/network/solve_network.h"
+#include "reconstruction/network/network.h"
+#include "reconstruction/network/network_parameters.h"
+#include "reconstruction/network/network_system.h"
+#include "reconstruction/network/statistics.h"
 
 namespace insitu {
 
@@ -27,7 +30,7 @@ class NetworkProblem {
   void HoldPhotos(const std::vector<int>& columns, const std::vector<double>& weights);
 
   // Moves the network's unknowns to the least-squares solution.
-  ceres::Solver::Summary Solve(const SolveOptions& options);
+  ceres::Solver::Summary Solve();
 
   const NetworkColumns& columns() const { return columns_; }
   const std::vector<ObservationRow>& rows() const { return rows_; }
@@ -56,27 +59,15 @@ class NetworkProblem {
   // Returns the block's first column.
   int AddBlock(double* block, int size, ceres::Manifold* manifold, const Unknown& unknown);
   // One row for each of `sigmas`.
-  void AddResidual(ObservationKind kind, int index, ceres::CostFunction* cost,
+  void AddResidual(ObservationRow::Kind kind, int index, ceres::CostFunction* cost,
                    const std::vector<double*>& blocks, const std::vector<double>& sigmas);
-  double* Rotation(int photo) { return &parameters_[7 * photo]; }
-  double* Center(int photo) { return &parameters_[7 * photo + 4]; }
-  double* Point(int point) { return &parameters_[first_point_ + 3 * point]; }
-  double* Normal(int plane) { return &parameters_[first_plane_ + 4 * plane]; }
-  double* Offset(int plane) { return Normal(plane) + 3; }
-  double* Unit(int direction) { return &parameters_[first_direction_ + 3 * direction]; }
-  double* Unit(const UnitReference& reference);
   [[noreturn]] void ThrowNoValue() const;  // names the observation that cannot be evaluated
-  void Load();                             // the network's values into the parameters
-  void Store();                            // and back
 
   Network& network_;
+  NetworkParameters values_;
   ceres::EigenQuaternionManifold quaternion_manifold_;
   ceres::SphereManifold<3> sphere_manifold_;
   std::list<ceres::SubsetManifold> lens_manifolds_;
-  // One array for all, since Ceres orders blocks by address: the same order in every run.
-  std::vector<double> parameters_;
-  size_t first_point_ = 0, first_plane_ = 0, first_direction_ = 0;
-  std::vector<std::vector<double>> lens_parameters_;  // by camera
   ceres::Problem problem_;
   std::vector<double*> blocks_;
   std::vector<ceres::ResidualBlockId> residual_blocks_;

@@ -95,16 +95,12 @@ std::vector<Eigen::MatrixXd> LensSensitivity(const Network& network,
 
 }  // namespace
 
-RankDefect::RankDefect(std::vector<Column> columns_in)
-    : std::runtime_error("the observations do not determine every unknown"),
-      columns(std::move(columns_in)) {}
-
-NetworkSolution SolveNetwork(Network* network, const SolveOptions& options) {
+NetworkSolution SolveNetwork(Network* network) {
   const std::vector<Eigen::Vector3d> start = Positions(*network);
   NetworkProblem problem(network);
   NetworkProblem::Linearization linear = problem.Linearize();
   HoldFreeDatum(*network, linear, &problem);
-  const ceres::Solver::Summary summary = problem.Solve(options);
+  const ceres::Solver::Summary summary = problem.Solve();
   if (!summary.IsSolutionUsable()) throw NoSolution(summary.message);
   linear = problem.Linearize();
 

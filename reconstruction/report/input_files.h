@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "calibration/program/site.h"
-#include "reconstruction/report/residual_report.h"
+#include "reconstruction/report/report_context.h"
 
 namespace insitu {
 

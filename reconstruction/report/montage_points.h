@@ -6,7 +6,8 @@
 #include <vector>
 
 #include "calibration/program/site.h"
-#include "reconstruction/report/residual_report.h"
+#include "reconstruction/geometry/scene_geometry.h"
+#include "reconstruction/report/report_context.h"
 
 namespace insitu {
 

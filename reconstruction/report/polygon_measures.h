@@ -5,7 +5,8 @@
 #include <utility>
 #include <vector>
 
-#include "reconstruction/adjustment/adjustment.h"
+#include "reconstruction/adjustment/adjusted_survey.h"
+#include "reconstruction/survey/survey.h"
 
 namespace insitu {
 

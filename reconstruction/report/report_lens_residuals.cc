@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "reconstruction/report/report_lens_residuals.h"
+
 #include <algorithm>
 #include <cmath>
 #include <map>
-
-#include "reconstruction/report/report_sections.h"
 
 namespace insitu {
 namespace {

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "reconstruction/report/report_montage.h"
+
 #include "calibration/files/json_file.h"
 #include "reconstruction/geometry/projection_uncertainty.h"
-#include "reconstruction/report/report_sections.h"
 
 namespace insitu {
 namespace {

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "reconstruction/report/report_observations.h"
+
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 
-#include "reconstruction/report/advice.h"
-#include "reconstruction/report/report_sections.h"
-#include "reconstruction/report/verdict.h"
+#include "reconstruction/verdict/advice.h"
+#include "reconstruction/verdict/verdict.h"
 
 namespace insitu {
 namespace {
@@ -20,9 +21,9 @@ Json::Value OrNull(const std::optional<double>& value) {
 Json::Value RowReport(const ObservationResidual& row, double critical_w) {
   Json::Value json;
   json["observation"] = Describe(row);
-  json["group"] = row.group;
+  json["group"] = Group(row);
   if (!row.photo.empty()) json["photo"] = row.photo;
-  json["subject"] = row.subject;
+  json["subject"] = Subject(row);
   json["observed"] = row.observed;
   json["residual"] = row.residual;
   json["sigma"] = row.sigma;

@@ -1,13 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "reconstruction/report/report_orientations.h"
+
 #include <algorithm>
 #include <cmath>
 
 #include "calibration/files/json_file.h"
+#include "calibration/lens/camera.h"
 #include "reconstruction/geometry/plane.h"
-#include "reconstruction/report/report_sections.h"
+#include "reconstruction/report/report_lens_residuals.h"
 
 namespace insitu {
 namespace {
+
+constexpr double kDegree = M_PI / 180;
 
 constexpr int kCellsOfTiePoints = 24;  // per longer side of a photo
 
@@ -160,7 +165,7 @@ Json::Value CamerasSection(const Adjustment& adjustment, const ReportContext& co
     camera["correlation"] =
         adjusted.correlation.size() > 0 ? ToJson(adjusted.correlation) : Json::Value();
     camera["is_considered"] = adjusted.is_considered;
-    const CameraContext& known = context.OfCamera(static_cast<int>(i));
+    const CameraContext& known = ContextOf(context.cameras, static_cast<int>(i));
     camera["model_file"] = known.model_file.empty() ? Json::Value() : Json::Value(known.model_file);
     camera["calibration"] = CalibrationFacts(known.calibration);
     camera["calibrated_region"] = Region(known);
@@ -180,7 +185,7 @@ Json::Value PhotosSection(const Adjustment& adjustment, const std::vector<ImageM
     const auto thumbnail = context.thumbnails.find(pose.photo);
     if (thumbnail != context.thumbnails.end()) photo["thumbnail"] = thumbnail->second;
     photo["outside_calibrated_region"] =
-        OutsideRegion(marks_of_photo[i], context.OfCamera(pose.camera));
+        OutsideRegion(marks_of_photo[i], ContextOf(context.cameras, pose.camera));
     json.append(photo);
   }
   return json;

@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "reconstruction/report/report_points.h"
+
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
 #include "calibration/files/json_file.h"
-#include "reconstruction/report/report_sections.h"
 
 namespace insitu {
 namespace {
+
+constexpr double kDegree = M_PI / 180;
 
 constexpr size_t kTiePointsShown = 2000;
 

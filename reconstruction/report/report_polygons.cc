@@ -1,16 +1,21 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "reconstruction/report/report_polygons.h"
+
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <set>
+#include <utility>
 
 #include "calibration/files/json_file.h"
 #include "reconstruction/report/polygon_measures.h"
-#include "reconstruction/report/report_sections.h"
 
 namespace insitu {
 namespace {
+
+constexpr double kDegree = M_PI / 180;
 
 constexpr double kNearlySquare = 10 * kDegree, kNearlyLevel = 22.5 * kDegree;
 
@@ -29,7 +34,8 @@ Json::Value Length(const UncertainValue& length) {
   return json;
 }
 
-using PlaneRows = std::map<std::string, const ObservationResidual*>;  // by "polygon vertex"
+// By polygon and vertex.
+using PlaneRows = std::map<std::pair<std::string, std::string>, const ObservationResidual*>;
 
 Json::Value Vertices(const PolygonOutline& outline, const PlaneRows& rows, double sigma0) {
   Json::Value json(Json::arrayValue);
@@ -37,7 +43,7 @@ Json::Value Vertices(const PolygonOutline& outline, const PlaneRows& rows, doubl
     Json::Value vertex;
     vertex["name"] = name;
     for (const char* key : {"off_plane_mm", "off_plane_sigma_mm", "w"}) vertex[key] = Json::Value();
-    const auto found = rows.find(outline.name + " " + name);
+    const auto found = rows.find({outline.name, name});
     if (found != rows.end()) {
       const ObservationResidual& row = *found->second;
       // Of the adjusted distance: the a priori variance less the residual's.
@@ -115,7 +121,7 @@ Json::Value DirectionReport(const Direction& direction, size_t pairs) {
 Json::Value PolygonsSection(const Adjustment& adjustment, const Survey& survey) {
   PlaneRows rows;
   for (const ObservationResidual& row : adjustment.residuals) {
-    if (row.group == "plane") rows[row.subject] = &row;
+    if (row.kind == ObservationKind::kPlane) rows[{row.polygon, row.subject}] = &row;
   }
   Json::Value json(Json::arrayValue);
   for (size_t i = 0; i < survey.polygons.size(); ++i) {

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "reconstruction/report/report_summary.h"
+
 #include <ceres/version.h>
 
 #include <cmath>
 #include <map>
 
 #include "calibration/files/json_file.h"
-#include "reconstruction/report/report_sections.h"
+#include "reconstruction/verdict/advice.h"
 
 namespace insitu {
 namespace {
@@ -15,7 +17,7 @@ std::string EigenVersion() {
          std::to_string(EIGEN_MINOR_VERSION);
 }
 
-Json::Value Options(const AdjustmentOptions& options) {
+Json::Value Options(const AdjustmentOptions& options, int start_estimates) {
   Json::Value json;
   json["plane_sigma_m"] = options.plane_sigma;
   json["hard_planes"] = options.has_hard_planes;
@@ -23,7 +25,7 @@ Json::Value Options(const AdjustmentOptions& options) {
   json["sun_sigma_m"] = options.sun_sigma;
   json["self_calibration"] = options.is_self_calibrating;
   json["significance"] = options.significance;
-  json["start_estimates"] = static_cast<Json::UInt64>(options.initial_cam_from_world.size());
+  json["start_estimates"] = start_estimates;
   return json;
 }
 
@@ -44,7 +46,7 @@ double ImageSigma(const Adjustment& adjustment) {
   double squares = 0;
   int rows = 0;
   for (const ObservationResidual& row : adjustment.residuals) {
-    if (!row.group.starts_with("image")) continue;
+    if (row.kind != ObservationKind::kImage) continue;
     squares += row.sigma * row.sigma;
     ++rows;
   }
@@ -56,7 +58,7 @@ double ImageSigma(const Adjustment& adjustment) {
 Json::Value IdentitySection(const Adjustment& adjustment, const ReportContext& context) {
   Json::Value json;
   json["command"] = context.command;
-  json["options"] = Options(context.options);
+  json["options"] = Options(context.options, context.start_estimates);
   json["inputs"] = Json::Value(Json::arrayValue);
   for (const InputFile& input : context.inputs) {
     Json::Value file;
@@ -109,7 +111,7 @@ Json::Value GroupsSection(const Adjustment& adjustment) {
   };
   std::map<std::string, Sums> groups;
   for (const ObservationResidual& row : adjustment.residuals) {
-    Sums& sums = groups[row.group + (row.is_tie_point ? ", tie points" : "")];
+    Sums& sums = groups[Group(row) + (row.is_tie_point ? ", tie points" : "")];
     sums.count += 1;
     sums.redundancy += row.redundancy;
     sums.squares += std::pow(row.residual / row.sigma, 2);

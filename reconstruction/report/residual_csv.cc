@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <charconv>
+#include "reconstruction/report/residual_csv.h"
 
-#include "reconstruction/report/residual_report.h"
+#include <charconv>
+#include <optional>
+
+#include "reconstruction/verdict/advice.h"
 
 namespace insitu {
 namespace {
@@ -37,7 +40,7 @@ std::string ObservationsCsv(const Adjustment& adjustment) {
       "group,photo,subject,is_tie_point,observed,residual,sigma,redundancy,w,detectable,external,"
       "point_shift_m\n";
   for (const ObservationResidual& row : adjustment.residuals) {
-    csv += Line(row.group, row.photo, row.subject, std::string(row.is_tie_point ? "1" : "0"),
+    csv += Line(Group(row), row.photo, Subject(row), std::string(row.is_tie_point ? "1" : "0"),
                 row.observed, row.residual, row.sigma, row.redundancy, row.w, row.detectable,
                 row.external, row.point_shift_m);
   }

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "reconstruction/report/residual_page.h"
+
 #include "calibration/program/report_page.h"
 #include "reconstruction/report/residual_page_script.h"
-#include "reconstruction/report/residual_report.h"
 
 namespace insitu {
 

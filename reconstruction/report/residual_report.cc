@@ -1,12 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "reconstruction/report/residual_report.h"
 
-#include <algorithm>
 #include <cmath>
 
-#include "reconstruction/geometry/plane.h"
-#include "reconstruction/report/report_sections.h"
-#include "reconstruction/report/verdict.h"
+#include "calibration/program/finding.h"
+#include "reconstruction/report/report_lens_residuals.h"
+#include "reconstruction/report/report_montage.h"
+#include "reconstruction/report/report_observations.h"
+#include "reconstruction/report/report_orientations.h"
+#include "reconstruction/report/report_points.h"
+#include "reconstruction/report/report_polygons.h"
+#include "reconstruction/report/report_summary.h"
+#include "reconstruction/verdict/image_marks.h"
+#include "reconstruction/verdict/verdict.h"
 
 namespace insitu {
 namespace {
@@ -40,32 +46,12 @@ Json::Value Conventions() {
 
 }  // namespace
 
-const CameraContext& ReportContext::OfCamera(int camera) const {
-  static const CameraContext kUnknown;
-  const auto found = cameras.find(camera);
-  return found == cameras.end() ? kUnknown : found->second;
-}
-
-bool IsCalibratedAt(const CameraContext& camera, const Eigen::Vector2d& pixel) {
-  const Json::Value& report = camera.calibration;
-  if (report.isObject() && report.isMember("cells")) {
-    const Json::Value& rows = report["cells"]["counts"];
-    const auto cell = [](double at, double size, Json::ArrayIndex count) {
-      const double index = std::floor((at + 0.5) / size * count);
-      return static_cast<Json::ArrayIndex>(std::clamp(index, 0.0, count - 1.0));
-    };
-    const Json::Value& row = rows[cell(pixel.y(), report["height"].asDouble(), rows.size())];
-    return row[cell(pixel.x(), report["width"].asDouble(), row.size())].asInt() > 0;
-  }
-  return camera.calibrated_region.empty() || IsInside(camera.calibrated_region, pixel);
-}
-
 Json::Value ResidualReport(const Adjustment& adjustment, const Survey& survey,
                            const ReportContext& context) {
   const std::vector<ImageMark> marks = ImageMarks(adjustment);
   Json::Value report;
   report["format"] = "insitu residual report 2";
-  report["verdict"] = VerdictReport(Judge(adjustment, context));
+  report["verdict"] = VerdictReport(Judge(adjustment, context.cameras));
   report["identity"] = IdentitySection(adjustment, context);
   report["conventions"] = Conventions();
   report["summary"] = SummarySection(adjustment, marks);

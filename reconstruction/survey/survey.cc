@@ -1,46 +1,58 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "reconstruction/survey/survey.h"
 
-#include <utility>
+#include <algorithm>
 
-#include "reconstruction/survey/survey_names.h"
-#include "reconstruction/survey/survey_shapes.h"
-#include "reconstruction/survey/survey_tables.h"
+#include "calibration/files/error.h"
 
 namespace insitu {
 
-Survey ReadSurvey(const SitePaths& site, const std::vector<std::string>& photos,
-                  SurveyFolder files) {
-  const std::filesystem::path folder = site.survey();
-  const auto has = [&](const char* file) { return std::filesystem::exists(folder / file); };
-  const auto is_to_be_read = [&](const char* file) {
-    return files == SurveyFolder::kRequired || has(file);
+std::vector<JoinedPoints> JoinedByPairs(const Survey& survey) {
+  std::vector<JoinedPoints> joined;
+  for (const DirectionPair& pair : survey.sun_pairs) {
+    joined.push_back({"sun pair", {pair.from, pair.to}, pair.place});
+  }
+  for (const DirectionPair& pair : survey.zenith_pairs) {
+    joined.push_back({"zenith pair", {pair.from, pair.to}, pair.place});
+  }
+  for (const EdgeMark& edge : survey.edges) {
+    joined.push_back({"edge", {edge.from, edge.to}, edge.place});
+  }
+  for (const GeometricConstraint& constraint : survey.constraints) {
+    joined.push_back({"constraint", constraint.points, constraint.place});
+  }
+  return joined;
+}
+
+std::set<std::string> PointsInUse(const Survey& survey) {
+  std::set<std::string> names;
+  for (const PolygonOutline& polygon : survey.polygons) {
+    names.insert(polygon.vertices.begin(), polygon.vertices.end());
+  }
+  for (const ImageObservation& mark : survey.observations) names.insert(mark.point);
+  for (const JoinedPoints& points : JoinedByPairs(survey)) {
+    names.insert(points.names.begin(), points.names.end());
+  }
+  return names;
+}
+
+FilePlace PlaceOfPoint(const Survey& survey, const std::string& name) {
+  for (const ImageObservation& mark : survey.observations) {
+    if (mark.point == name) return mark.place;
+  }
+  for (const ControlPoint& point : survey.control_points) {
+    if (point.name == name) return point.place;
+  }
+  const auto has = [&](const std::vector<std::string>& names) {
+    return std::find(names.begin(), names.end(), name) != names.end();
   };
-  Survey survey;
-  if (is_to_be_read("control_points.csv")) {
-    survey.control_points = ReadControlPoints(folder / "control_points.csv");
+  for (const PolygonOutline& polygon : survey.polygons) {
+    if (has(polygon.vertices)) return polygon.place;
   }
-  if (is_to_be_read("observations.csv")) {
-    survey.observations = ReadObservations(folder / "observations.csv", photos);
+  for (const JoinedPoints& points : JoinedByPairs(survey)) {
+    if (has(points.names)) return points.place;
   }
-  if (is_to_be_read("polygons.json")) {
-    survey.polygons = ReadPolygons(folder / "polygons.json", photos);
-  }
-  if (has("directions.json")) {
-    DirectionPairs pairs = ReadDirections(folder / "directions.json");
-    survey.sun_pairs = std::move(pairs.sun);
-    survey.zenith_pairs = std::move(pairs.zenith);
-  }
-  if (has("camera_positions.csv")) {
-    survey.camera_positions = ReadCameraPositions(folder / "camera_positions.csv", photos);
-  }
-  if (has("edges.csv")) survey.edges = ReadEdges(folder / "edges.csv", photos);
-  if (has("constraints.json")) {
-    survey.constraints = ReadConstraints(folder / "constraints.json", survey.polygons);
-  }
-  RequireKnownPoints(survey);
-  RequireNoNamesOfTiePoints(survey);
-  return survey;
+  throw CheckError(__FILE__, __LINE__, "the point is in the survey");
 }
 
 }  // namespace insitu

@@ -1,18 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The surveyor's files: control points, marks on photographs, polygons, directions; camera
-// positions, edges and constraints where there are some.
+// What the surveyor measured: control points, marks on photographs, polygons, directions; camera
+// positions, edges and constraints where there are some. Each with the place in its file.
 #pragma once
 
 #include <Eigen/Core>
-#include <map>
 #include <optional>
 #include <set>
 #include <string>
 #include <vector>
 
 #include "calibration/files/error.h"
-#include "calibration/files/json_file.h"
-#include "calibration/program/site.h"
 #include "reconstruction/survey/tie_points.h"
 
 namespace insitu {
@@ -104,18 +101,13 @@ struct Survey {
       {};  // in their own frame; of insitu-tie-points, if it was run
 };
 
-// Photographs with tie points need no survey at all.
-enum class SurveyFolder { kRequired, kOptional };
-
-// Reads the survey folder and resolves every name. Throws InputError at the offending line: a name
-// twice, an observation of a photo that is not there or of a point that no other file names, a
-// pair, edge or constraint of a point that is neither surveyed nor marked nor a vertex, a mark
-// outside any sensible frame, sigma <= 0, a polygon with fewer than three distinct vertices, an
-// unknown role, kind or key, a pair or edge of one point. Unknown names come with the nearest known
-// ones. control_points.csv, observations.csv and polygons.json must be there unless
-// `files` says otherwise, the other files may. tie_points stays empty: reconstruct_site.h sets it.
-Survey ReadSurvey(const SitePaths& site, const std::vector<std::string>& photos,
-                  SurveyFolder files = SurveyFolder::kRequired);
+// Points that a pair, an edge or a constraint joins.
+struct JoinedPoints {
+  std::string subject;  // "sun pair", "edge", ...
+  std::vector<std::string> names;
+  FilePlace place;
+};
+std::vector<JoinedPoints> JoinedByPairs(const Survey& survey);
 
 // The points that are to be found: marked, vertices, ends of direction pairs and edges, or part of
 // a constraint. Control points that nothing refers to are not among them.

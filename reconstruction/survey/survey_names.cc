@@ -5,36 +5,14 @@
 #include <map>
 #include <set>
 
+#include "calibration/files/error.h"
 #include "reconstruction/survey/near_names.h"
+#include "reconstruction/survey/tie_points.h"
 
 namespace insitu {
 namespace {
 
 using Names = std::set<std::string>;
-
-// Points that a pair, an edge or a constraint joins.
-struct JoinedPoints {
-  std::string subject;
-  std::vector<std::string> names;
-  FilePlace place;
-};
-
-std::vector<JoinedPoints> JoinedByPairs(const Survey& survey) {
-  std::vector<JoinedPoints> joined;
-  for (const DirectionPair& pair : survey.sun_pairs) {
-    joined.push_back({"sun pair", {pair.from, pair.to}, pair.place});
-  }
-  for (const DirectionPair& pair : survey.zenith_pairs) {
-    joined.push_back({"zenith pair", {pair.from, pair.to}, pair.place});
-  }
-  for (const EdgeMark& edge : survey.edges) {
-    joined.push_back({"edge", {edge.from, edge.to}, edge.place});
-  }
-  for (const GeometricConstraint& constraint : survey.constraints) {
-    joined.push_back({"constraint", constraint.points, constraint.place});
-  }
-  return joined;
-}
 
 Names Vertices(const Survey& survey) {
   Names names;
@@ -92,13 +70,6 @@ void RequireFoundEnds(const std::vector<JoinedPoints>& joined, const Names& foun
   }
 }
 
-// As start_values.cc names them.
-bool IsTiePointsName(const std::string& name) {
-  const std::string start = "tie_";
-  return name.size() >= start.size() + 6 && name.starts_with(start) &&
-         std::all_of(name.begin() + 4, name.end(), [](char c) { return c >= '0' && c <= '9'; });
-}
-
 }  // namespace
 
 std::optional<std::string> FaultOfPhoto(const std::string& photo,
@@ -126,41 +97,13 @@ void RequireNoNamesOfTiePoints(const Survey& survey) {
   Names names = PointsInUse(survey);
   names.merge(Surveyed(survey));
   for (const std::string& name : names) {
-    if (!IsTiePointsName(name)) continue;
+    if (!IsTiePointName(name)) continue;
     const FilePlace place = PlaceOfPoint(survey, name);
     throw InputError(place.path, place.line,
                      "point '" + name +
                          "' is named as tie points are, expected another name for a point of the "
                          "survey");
   }
-}
-
-std::set<std::string> PointsInUse(const Survey& survey) {
-  Names names = Vertices(survey);
-  for (const ImageObservation& mark : survey.observations) names.insert(mark.point);
-  for (const JoinedPoints& points : JoinedByPairs(survey)) {
-    names.insert(points.names.begin(), points.names.end());
-  }
-  return names;
-}
-
-FilePlace PlaceOfPoint(const Survey& survey, const std::string& name) {
-  for (const ImageObservation& mark : survey.observations) {
-    if (mark.point == name) return mark.place;
-  }
-  for (const ControlPoint& point : survey.control_points) {
-    if (point.name == name) return point.place;
-  }
-  const auto has = [&](const std::vector<std::string>& names) {
-    return std::find(names.begin(), names.end(), name) != names.end();
-  };
-  for (const PolygonOutline& polygon : survey.polygons) {
-    if (has(polygon.vertices)) return polygon.place;
-  }
-  for (const JoinedPoints& points : JoinedByPairs(survey)) {
-    if (has(points.names)) return points.place;
-  }
-  throw CheckError(__FILE__, __LINE__, "the point is in the survey");
 }
 
 }  // namespace insitu

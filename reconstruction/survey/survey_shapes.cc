@@ -7,6 +7,8 @@
 #include <set>
 #include <utility>
 
+#include "calibration/files/error.h"
+#include "calibration/files/json_file.h"
 #include "reconstruction/survey/near_names.h"
 #include "reconstruction/survey/survey_names.h"
 

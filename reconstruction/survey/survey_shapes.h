@@ -3,6 +3,8 @@
 // the line concerned. Names of points are resolved later, when all files are read.
 #pragma once
 
+#include <filesystem>
+
 #include "reconstruction/survey/survey.h"
 
 namespace insitu {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "reconstruction/survey/survey_tables.h"
 
+#include <map>
 #include <utility>
 
 #include "calibration/files/csv_file.h"

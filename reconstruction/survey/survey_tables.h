@@ -4,6 +4,8 @@
 // resolved later, when all files are read.
 #pragma once
 
+#include <filesystem>
+
 #include "reconstruction/survey/survey.h"
 
 namespace insitu {

@@ -1,17 +1,20 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "reconstruction/survey/tie_points.h"
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <set>
 
 #include "calibration/files/json_file.h"
+#include "calibration/files/wording.h"
 
 namespace insitu {
 namespace {
 
 constexpr char kFormat[] = "insitu tie points";
 constexpr int kVersion = 1;
+constexpr char kNameStart[] = "tie_";
 
 Json::Value PhotosJson(const TiePoints& tie_points) {
   Json::Value photos(Json::arrayValue);
@@ -85,6 +88,15 @@ TiePoint PointOf(const JsonNode& node, const std::vector<std::string>& photos) {
 }
 
 }  // namespace
+
+std::string TiePointName(size_t index) { return Formatted("%s%06zu", kNameStart, index + 1); }
+
+bool IsTiePointName(const std::string& name) {
+  const size_t start = sizeof kNameStart - 1;
+  return name.starts_with(kNameStart) && name.size() >= start + 6 &&
+         std::all_of(name.begin() + static_cast<std::ptrdiff_t>(start), name.end(),
+                     [](char c) { return c >= '0' && c <= '9'; });
+}
 
 void WriteTiePoints(const SitePaths& site, const TiePoints& tie_points) {
   Json::Value root;

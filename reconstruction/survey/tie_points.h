@@ -4,6 +4,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstddef>
 #include <map>
 #include <optional>
 #include <string>
@@ -33,6 +34,12 @@ struct TiePoints {
   std::vector<std::string> not_placed = {};        // photos that image matching could not place
   std::vector<std::string> remarks = {};  // what was dropped, merged, left out; for the user
 };
+
+// The name of the index-th of TiePoints::points in an adjustment: "tie_000001" of the first.
+std::string TiePointName(size_t index);
+
+// Whether a point is named as tie points are: "tie_" and six digits or more.
+bool IsTiePointName(const std::string& name);
 
 // site.tie_points(), written whole and with 17 digits.
 void WriteTiePoints(const SitePaths& site, const TiePoints& tie_points);

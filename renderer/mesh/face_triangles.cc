@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <array>
 
-#include "reconstruction/geometry/scene_geometry.h"
+#include "reconstruction/geometry/triangulate.h"
 
 namespace insitu {
 namespace {

@@ -75,7 +75,7 @@ void CompareMarks(const Network& network, const NetworkSolution& solution,
   int compared = 0;
   for (int row = 0; row < static_cast<int>(solution.rows.size()); ++row) {
     const ObservationRow& at = solution.rows[row];
-    if (at.kind != ObservationKind::kMark) continue;
+    if (at.kind != ObservationRow::Kind::kMark) continue;
     const MarkObservation& mark = network.marks[at.index];
     const auto printed =
         report.marks.find({network.photos[mark.photo].name, network.points[mark.point].name});

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "calibration/lens/lens_residual.h"
+#include "reconstruction/adjustment/adjust.h"
 #include "tests/reconstruction/survey/synthetic_network.h"
 
 namespace insitu {

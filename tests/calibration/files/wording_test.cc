@@ -19,6 +19,19 @@ TEST(Formatted, CutsNothingOff) {
 
 TEST(Number, IsOnePrintedNumber) { EXPECT_EQ(Number("%.2f px", 0.125), "0.12 px"); }
 
+TEST(ShortNumber, HasThreeDigitsOrTwoDecimals) {
+  EXPECT_EQ(ShortNumber(1234.56), "1235");
+  EXPECT_EQ(ShortNumber(12.345), "12.35");
+  EXPECT_EQ(ShortNumber(-0.012345), "-0.0123");
+}
+
+TEST(QuotedList, NamesFourAndCountsTheOthers) {
+  EXPECT_EQ(QuotedList({"a"}), "'a'");
+  EXPECT_EQ(QuotedList({"a", "b", "c"}), "'a', 'b' and 'c'");
+  EXPECT_EQ(QuotedList({"a", "b", "c", "d", "e"}), "'a', 'b', 'c', 'd' and 'e'");
+  EXPECT_EQ(QuotedList({"a", "b", "c", "d", "e", "f"}), "'a', 'b', 'c', 'd' and 2 others");
+}
+
 TEST(Listing, NamesTheFirstAndCountsTheRest) {
   EXPECT_EQ(Listing("points", {"a", "b"}), "points (2): a, b");
   EXPECT_EQ(Listing("points", {"a", "b", "c"}, 2), "points (3): a, b and 1 more");

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "reconstruction/adjustment/adjustment.h"
+#include "reconstruction/adjustment/adjust.h"
 #include "tests/reconstruction/survey/synthetic_network.h"
 
 namespace insitu {

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "reconstruction/adjustment/adjustment.h"
-
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <algorithm>
 
+#include "reconstruction/adjustment/adjust.h"
 #include "tests/reconstruction/survey/synthetic_network.h"
 
 namespace insitu {
@@ -15,8 +14,9 @@ namespace {
 using Eigen::Vector3d;
 
 Adjustment AdjustNetwork(const SyntheticNetwork& network, const Survey& survey,
-                         const AdjustmentOptions& options = {}) {
-  return Adjust(survey, network.photos, network.cameras, options);
+                         const AdjustmentOptions& options = {},
+                         const std::vector<PhotoLens>& lenses = {}) {
+  return Adjust(survey, network.photos, network.cameras, options, lenses);
 }
 
 // In the truth planes, plumb lines and the sun's rays are exact: these sigmas say so.
@@ -225,9 +225,13 @@ TEST(Adjust, SelfCalibrationObservesTheCalibration) {
   options.is_self_calibrating = true;
   Eigen::VectorXd sigma(12);
   sigma << 1, 1, 1, 1, 1e-3, 1e-3, 1e-4, 1e-4, 1e-3, 1e-3, 1e-3, 1e-3;
-  options.lenses.assign(network.photos.size(), {"wide", sigma.cwiseAbs2().asDiagonal()});
-  const Adjustment adjustment = AdjustNetwork(network, WithNoise(network.survey, 4), options);
-  const auto is_lens = [](const ObservationResidual& row) { return row.group == "lens"; };
+  const std::vector<PhotoLens> lenses(network.photos.size(),
+                                      {"wide", sigma.cwiseAbs2().asDiagonal()});
+  const Adjustment adjustment =
+      AdjustNetwork(network, WithNoise(network.survey, 4), options, lenses);
+  const auto is_lens = [](const ObservationResidual& row) {
+    return row.kind == ObservationKind::kLens;
+  };
   EXPECT_EQ(std::count_if(adjustment.residuals.begin(), adjustment.residuals.end(), is_lens), 12);
   const auto first =
       std::find_if(adjustment.residuals.begin(), adjustment.residuals.end(), is_lens);

@@ -7,7 +7,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "reconstruction/report/verdict.h"
+#include "reconstruction/adjustment/adjust.h"
+#include "reconstruction/verdict/verdict.h"
 #include "tests/reconstruction/survey/synthetic_network.h"
 
 namespace insitu {
@@ -89,8 +90,8 @@ TEST(PlaneEffect, FindsAWallThatIsNotFlat) {
   ASSERT_TRUE(corner && corner->w);
   EXPECT_GT(std::abs(*corner->w), adjustment.critical_w);
   EXPECT_LT(corner->difference.y(), -0.04);  // the planes pull it back
-  const auto objections = Judge(adjustment);
-  EXPECT_TRUE(std::any_of(objections.begin(), objections.end(), [](const Objection& each) {
+  const auto findings = Judge(adjustment);
+  EXPECT_TRUE(std::any_of(findings.begin(), findings.end(), [](const Finding& each) {
     return each.reason.find("the planes do not all hold") != std::string::npos;
   }));
 }

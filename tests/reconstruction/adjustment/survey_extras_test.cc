@@ -4,7 +4,7 @@
 
 #include <numbers>
 
-#include "reconstruction/survey/survey.h"
+#include "reconstruction/survey/read_survey.h"
 #include "tests/reconstruction/survey/survey_files.h"
 
 namespace insitu {

@@ -5,7 +5,7 @@
 
 #include <random>
 
-#include "reconstruction/adjustment/adjusted_observations.h"
+#include "reconstruction/adjustment/adjusted_unknowns.h"
 #include "tests/reconstruction/network/random_network.h"
 
 namespace insitu {

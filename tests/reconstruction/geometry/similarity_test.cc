@@ -227,5 +227,19 @@ TEST(AdjustSimilarity, RefusesSigmasThatDifferByAxis) {
   EXPECT_THROW(AdjustSimilarity(pairs, false), CheckError);
 }
 
+TEST(FitSimilarity, NamesTheOptionThatIsWrong) {
+  const auto fault = [](const SimilarityOptions& options) {
+    try {
+      FitSimilarity({}, options);
+    } catch (const CheckError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  EXPECT_EQ(fault({}), "");
+  EXPECT_NE(fault({.limit_sigma = 0}).find("limit_sigma"), std::string::npos);
+  EXPECT_NE(fault({.max_trials = 0}).find("max_trials"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace insitu

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "reconstruction/geometry/triangulate.h"
+
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
@@ -6,7 +8,6 @@
 #include <random>
 
 #include "reconstruction/geometry/plane.h"
-#include "reconstruction/geometry/scene_geometry.h"
 
 namespace insitu {
 namespace {

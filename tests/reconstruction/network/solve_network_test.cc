@@ -149,7 +149,7 @@ TEST(SolveNetwork, NamesAMarkWhosePointLiesBehindTheCamera) {
     FAIL() << "expected no solution";
   } catch (const NoSolution& failure) {
     ASSERT_TRUE(failure.row);
-    EXPECT_EQ(failure.row->kind, ObservationKind::kMark);
+    EXPECT_EQ(failure.row->kind, ObservationRow::Kind::kMark);
     EXPECT_EQ(network.marks[failure.row->index].point, network.marks[10].point);
   }
 }

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "calibration/files/error.h"
 #include "calibration/files/whole_file.h"
 #include "reconstruction/report/montage_points.h"
 

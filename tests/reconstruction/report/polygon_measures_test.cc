@@ -6,6 +6,7 @@
 #include <Eigen/Geometry>
 #include <random>
 
+#include "reconstruction/adjustment/adjust.h"
 #include "tests/reconstruction/survey/synthetic_network.h"
 
 namespace insitu {

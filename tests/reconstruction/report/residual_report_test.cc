@@ -12,6 +12,9 @@
 
 #include "calibration/files/json_file.h"
 #include "calibration/files/whole_file.h"
+#include "reconstruction/adjustment/adjust.h"
+#include "reconstruction/report/residual_csv.h"
+#include "reconstruction/report/residual_page.h"
 #include "tests/calibration/program/embedded_report.h"
 #include "tests/reconstruction/survey/synthetic_network.h"
 
@@ -205,8 +208,9 @@ TEST_F(Report, SumsUpTiePointsInsteadOfListingThem) {
     tie.rays = 3 + i % 2;
     adjustment_.points.push_back(tie);
     for (int k = 0; k < tie.rays; ++k) {
-      for (const char* group : {"image x", "image y"}) {
-        ObservationResidual row{group, network_.photos[k], tie.name, (i * 7 + k) % 1000 + 0.5, 0.1};
+      for (const int axis : {0, 1}) {
+        ObservationResidual row{ObservationKind::kImage,  axis, network_.photos[k], tie.name,
+                                (i * 7 + k) % 1000 + 0.5, 0.1};
         row.sigma = 1;
         row.redundancy = 0.5;
         row.w = 0.1;

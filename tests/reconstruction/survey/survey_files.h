@@ -6,7 +6,9 @@
 
 #include <string>
 
+#include "calibration/files/error.h"
 #include "calibration/files/whole_file.h"
+#include "reconstruction/survey/read_survey.h"
 #include "tests/reconstruction/survey/synthetic_network.h"
 
 namespace insitu {

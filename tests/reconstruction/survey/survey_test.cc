@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "reconstruction/survey/survey.h"
-
 #include <gtest/gtest.h>
 
 #include "calibration/files/whole_file.h"
+#include "reconstruction/survey/read_survey.h"
 #include "tests/reconstruction/survey/survey_files.h"
 
 namespace insitu {

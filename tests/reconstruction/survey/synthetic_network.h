@@ -7,7 +7,10 @@
 #include <string>
 #include <vector>
 
-#include "reconstruction/adjustment/adjustment.h"
+#include "calibration/lens/camera.h"
+#include "calibration/lens/rigid3.h"
+#include "calibration/program/site.h"
+#include "reconstruction/survey/survey.h"
 
 namespace insitu {
 

@@ -11,6 +11,7 @@
 
 #include "calibration/files/error.h"
 #include "calibration/files/whole_file.h"
+#include "reconstruction/adjustment/adjust.h"
 #include "reconstruction/adjustment/align_tie_points.h"
 #include "reconstruction/adjustment/start_values.h"
 #include "reconstruction/colmap/select_tie_points.h"
@@ -69,7 +70,7 @@ double LargestCenterError(const SyntheticNetwork& network,
 }
 
 StartValues Start(const SyntheticNetwork& network, const Survey& survey) {
-  return FindStartValues(survey, network.photos, network.cameras, {});
+  return FindStartValues(survey, network.photos, network.cameras);
 }
 
 class TiePointsFile : public testing::Test {
@@ -135,6 +136,16 @@ TEST_F(TiePointsFile, RefusesPlacesThatNoPhotoHas) {
     } catch (const InputError& error) {
       EXPECT_NE(std::string(error.what()).find(":5: "), std::string::npos) << error.what();
     }
+  }
+}
+
+TEST(TiePointName, IsRecognised) {
+  EXPECT_EQ(TiePointName(0), "tie_000001");
+  for (const size_t index : {0, 999998, 999999, 12345678}) {
+    EXPECT_TRUE(IsTiePointName(TiePointName(index))) << index;
+  }
+  for (const char* name : {"tie_", "tie_12345", "tie_12345a", "tie_point", "Tie_000001", "a1"}) {
+    EXPECT_FALSE(IsTiePointName(name)) << name;
   }
 }
 

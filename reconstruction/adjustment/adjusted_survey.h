@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A survey adjusted: from its files' content to posed cameras, points, planes, sun and zenith, with
-// every statistic of the residual report. Control is observed with its sigma; check points never.
+// An adjusted survey: posed cameras, points, planes, sun and zenith, with every statistic of the
+// residual report.
 #pragma once
 
 #include <Eigen/Core>
@@ -9,34 +9,32 @@
 #include <string>
 #include <vector>
 
+#include "calibration/lens/rigid3.h"
 #include "reconstruction/geometry/scene_geometry.h"
-#include "reconstruction/survey/survey.h"
 
 namespace insitu {
 
-// What is known of a photo's lens besides its intrinsics.
-struct PhotoLens {
-  std::string camera = "camera";  // photos of one camera share their lens
-  Eigen::MatrixXd covariance;     // of its intrinsics, from its calibration; empty: exact
-};
-
-struct AdjustmentOptions {
-  double plane_sigma = 0.005;        // [m], distance of a vertex from its polygon's plane
-  bool has_hard_planes = false;      // planes hold their vertices to a hundredth of a millimetre
-  double zenith_sigma = 0.005;       // [m], across, of a vertical edge's ends
-  double sun_sigma = 0.02;           // [m], across, of a shadow point from the line to the sun
-  bool is_self_calibrating = false;  // the lens parameters are unknowns too
-  double significance = 0.001;       // alpha0 of each w-test (Baarda); its power is 80 %
-  std::vector<PhotoLens> lenses;     // as `photos`; empty: one exact camera
-  std::map<std::string, Rigid3> initial_cam_from_world;  // user's estimates, by photo; none needed
+// What an observation is of.
+enum class ObservationKind {
+  kImage,  // a mark, x and y
+  kEdge,
+  kControl,         // a surveyed point, x, y and z
+  kCameraPosition,  // a surveyed centre of projection, x, y and z
+  kLens,            // a parameter, from its calibration
+  kPlane,           // a vertex on its polygon's plane
+  kSun,
+  kZenith,
+  kDistance,
+  kHeight,
+  kAngle,
 };
 
 // One scalar observation after the adjustment; residual = adjusted - observed, in sigma's unit.
 struct ObservationResidual {
-  std::string group;    // "image x", "image y", "edge", "control x" ..., "camera x" ..., "lens",
-                        // "plane", "sun", "zenith", "distance", "height", "angle"
-  std::string photo;    // of image observations and camera positions, else empty
-  std::string subject;  // point, polygon or pair
+  ObservationKind kind = ObservationKind::kImage;
+  int axis = 0;         // 0, 1, 2: x, y, z of what has several; else 0
+  std::string photo;    // of image observations, edges and camera positions, else empty
+  std::string subject;  // point, pair of points, photo, parameter; both sides of an angle
   double observed = 0, residual = 0, sigma = 0;
   double redundancy = 0;                     // its redundancy number, 0..1
   std::optional<double> w = {};              // test value, standard normal; nullopt: not controlled
@@ -45,6 +43,7 @@ struct ObservationResidual {
                                              // function's sigmas: delta0 sqrt((1 - r) / r)
   std::optional<double> point_shift_m = {};  // its effect on the position of the point concerned
   bool is_tie_point = false;                 // of a point that COLMAP found, not a surveyor
+  std::string polygon = {};                  // of the plane on which the vertex `subject` lies
 };
 
 // An interior orientation after the adjustment.
@@ -116,9 +115,15 @@ struct GlobalTest {
   double p = 1;  // two-sided
 };
 
+// Correlations above this are told.
+inline constexpr double kHighCorrelation = 0.95;
+
+// Between two unknowns of one camera, photo or point.
 struct Correlation {
+  enum class Of { kCamera, kPhoto, kPoint };
+  Of of = Of::kPhoto;
   std::string first, second;  // "photo IMG_1 center x", ...
-  double value = 0;           // |value| > 0.95
+  double value = 0;           // |value| > kHighCorrelation
 };
 
 // The solution with planes against that without: do the planes hold, and what do they move?
@@ -163,16 +168,9 @@ struct Adjustment {
       left_out;                     // each control point predicted without its own coordinates
   double check_rms_over_sigma = 0;  // sqrt(mean((difference/sigma)^2)) over the check coordinates
   double left_out_rms_over_sigma = 0;     // the same over left_out
-  std::vector<Correlation> correlations;  // above 0.95, largest first
-  std::vector<std::string> warnings;
+  std::vector<Correlation> correlations;  // largest first
+  std::vector<std::string> warnings;      // besides a datum that is free
   std::string BriefReport() const;
 };
-
-// Resects, intersects, then adjusts. Throws InputError, at the survey line concerned: a photo that
-// nothing places, a point that nothing determines, a polygon whose vertices are far from planar
-// (over 20 sigma and 0.1 m), a rank defect (its parameters named). `cameras` and `photos` go
-// together.
-Adjustment Adjust(const Survey& survey, const std::vector<std::string>& photos,
-                  const std::vector<Camera>& cameras, const AdjustmentOptions& options = {});
 
 }  // namespace insitu

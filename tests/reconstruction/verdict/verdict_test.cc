@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "reconstruction/report/verdict.h"
+#include "reconstruction/verdict/verdict.h"
 
 #include <gtest/gtest.h>
 
-#include "reconstruction/report/advice.h"
+#include "reconstruction/adjustment/adjust.h"
+#include "reconstruction/verdict/advice.h"
 #include "tests/reconstruction/survey/synthetic_network.h"
 
 namespace insitu {
@@ -16,8 +17,9 @@ class Verdict : public testing::Test {
     options.plane_sigma = options.zenith_sigma = options.sun_sigma = 1e-4;
     const size_t count = network_.cameras[0].intrinsics().size();
     const Eigen::VectorXd sigma = Eigen::VectorXd::Constant(count, 1e-6);
-    options.lenses.assign(network_.photos.size(), {"camera", sigma.cwiseAbs2().asDiagonal()});
-    return Adjust(survey_, network_.photos, network_.cameras, options);
+    const PhotoLens lens{"camera", sigma.cwiseAbs2().asDiagonal()};
+    return Adjust(survey_, network_.photos, network_.cameras, options,
+                  std::vector<PhotoLens>(network_.photos.size(), lens));
   }
   // "single" is a vertex that one photo shows; surveyed, nothing is weak any more.
   void SurveyThePointOfOneRay() {
@@ -31,21 +33,21 @@ class Verdict : public testing::Test {
   Survey survey_ = WithNoise(network_.survey, 1);
 };
 
-const Objection* Find(const std::vector<Objection>& objections, const std::string& text) {
-  for (const Objection& objection : objections) {
-    if (objection.reason.find(text) != std::string::npos) return &objection;
+const Finding* Find(const std::vector<Finding>& findings, const std::string& text) {
+  for (const Finding& finding : findings) {
+    if (finding.reason.find(text) != std::string::npos) return &finding;
   }
   return nullptr;
 }
 
-std::string Status(const std::vector<Objection>& objections) {
-  return VerdictReport(objections)["status"].asString();
+std::string Status(const std::vector<Finding>& findings) {
+  return VerdictReport(findings)["status"].asString();
 }
 
 TEST_F(Verdict, ReviewsAPointOfOneRay) {
-  const auto objections = Judge(Adjusted());
-  EXPECT_EQ(Status(objections), "review");
-  const Objection* few = Find(objections, "fewer than two photos");
+  const auto findings = Judge(Adjusted());
+  EXPECT_EQ(Status(findings), "review");
+  const Finding* few = Find(findings, "fewer than two photos");
   ASSERT_TRUE(few);
   EXPECT_NE(few->reason.find("single"), std::string::npos);
   EXPECT_NE(few->remedy, "");
@@ -53,18 +55,18 @@ TEST_F(Verdict, ReviewsAPointOfOneRay) {
 
 TEST_F(Verdict, PassesWhenThereIsNothingToObjectTo) {
   SurveyThePointOfOneRay();
-  const auto objections = Judge(Adjusted());
-  for (const Objection& objection : objections) {
-    EXPECT_EQ(objection.severity, Severity::kNote) << objection.reason;
+  const auto findings = Judge(Adjusted());
+  for (const Finding& finding : findings) {
+    EXPECT_EQ(finding.severity, Severity::kNote) << finding.reason;
   }
-  EXPECT_EQ(Status(objections), "pass");
+  EXPECT_EQ(Status(findings), "pass");
 }
 
 TEST_F(Verdict, LeavesControlPointsOutWhereThereAreNoCheckPoints) {
   std::erase_if(survey_.control_points,
                 [](const auto& point) { return point.role == ControlRole::kCheck; });
-  const auto objections = Judge(Adjusted());
-  const Objection* unverified = Find(objections, "accuracy not verified independently");
+  const auto findings = Judge(Adjusted());
+  const Finding* unverified = Find(findings, "accuracy not verified independently");
   ASSERT_TRUE(unverified);
   EXPECT_NE(unverified->reason.find("predicted from the rest"), std::string::npos);
 }
@@ -72,11 +74,11 @@ TEST_F(Verdict, LeavesControlPointsOutWhereThereAreNoCheckPoints) {
 TEST_F(Verdict, FailsOnAGrossErrorAndNamesIt) {
   ImageObservation& wrong = survey_.observations[20];
   wrong.pixel.y() += 60;
-  const auto objections = Judge(Adjusted());
-  EXPECT_EQ(Status(objections), "fail");
-  EXPECT_TRUE(Find(objections, "global test"));
-  const Objection* suspect = Find(
-      objections, "the suspect is mark '" + wrong.point + "' on photo '" + wrong.photo + "' (y)");
+  const auto findings = Judge(Adjusted());
+  EXPECT_EQ(Status(findings), "fail");
+  EXPECT_TRUE(Find(findings, "global test"));
+  const Finding* suspect = Find(
+      findings, "the suspect is mark '" + wrong.point + "' on photo '" + wrong.photo + "' (y)");
   ASSERT_TRUE(suspect);
   EXPECT_NE(suspect->remedy.find("measure mark '" + wrong.point + "'"), std::string::npos);
 }
@@ -124,28 +126,27 @@ TEST_F(Verdict, FailsWhenCheckPointsAreFarOff) {
   for (ControlPoint& point : survey_.control_points) {
     if (point.role == ControlRole::kCheck) point.position.x() += 0.5;
   }
-  const auto objections = Judge(Adjusted());
-  EXPECT_EQ(Status(objections), "fail");
-  const Objection* differ = Find(objections, "the check points differ");
+  const auto findings = Judge(Adjusted());
+  EXPECT_EQ(Status(findings), "fail");
+  const Finding* differ = Find(findings, "the check points differ");
   ASSERT_TRUE(differ);
   EXPECT_NE(differ->reason.find("b4"), std::string::npos);
 }
 
 TEST_F(Verdict, NamesCorrelationsAndAFreeDatumWithTheirRemedies) {
   Adjustment adjustment = Adjusted();
-  adjustment.correlations = {{"photo P1 center x", "photo P1 rotation y", -0.997}};
+  adjustment.correlations = {
+      {Correlation::Of::kPhoto, "photo P1 center x", "photo P1 rotation y", -0.997}};
   adjustment.datum_defect = 7;
   adjustment.datum = "free in 7 of 7";
-  adjustment.warnings = {"the datum is free in 7 of 7"};
-  const auto objections = Judge(adjustment);
-  const Objection* correlated =
-      Find(objections, "photo P1 center x with photo P1 rotation y -0.997");
+  const auto findings = Judge(adjustment);
+  const Finding* correlated = Find(findings, "photo P1 center x with photo P1 rotation y -0.997");
   ASSERT_TRUE(correlated);
   EXPECT_NE(correlated->remedy, "");
   EXPECT_EQ(correlated->severity, Severity::kReview);
   int said = 0;
-  for (const Objection& objection : objections) {
-    said += objection.reason.find("the datum is free") != std::string::npos;
+  for (const Finding& finding : findings) {
+    said += finding.reason.find("the datum is free") != std::string::npos;
   }
   EXPECT_EQ(said, 1);
 }
@@ -158,25 +159,25 @@ TEST_F(Verdict, SeesControlOnOneLineAndPhotosFromOnePlace) {
   for (AdjustedPose& pose : adjustment.poses) {
     pose.cam_from_world = adjustment.poses[0].cam_from_world;
   }
-  const auto objections = Judge(adjustment);
-  EXPECT_TRUE(Find(objections, "nearly on one line"));
-  EXPECT_TRUE(Find(objections, "from nearly one place"));
-  EXPECT_TRUE(Find(objections, "within 5 degrees"));
+  const auto findings = Judge(adjustment);
+  EXPECT_TRUE(Find(findings, "nearly on one line"));
+  EXPECT_TRUE(Find(findings, "from nearly one place"));
+  EXPECT_TRUE(Find(findings, "within 5 degrees"));
 }
 
 TEST_F(Verdict, NamesMarksWhereNoBoardWasPhotographed) {
-  ReportContext context;
-  CameraContext& camera = context.cameras[0];
+  CameraContexts cameras;
+  CameraContext& camera = cameras[0];
   camera.calibrated_region = {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}};  // mrcal's, the only word on it
-  const auto objections = Judge(Adjusted(), context);
-  const Objection* outside = Find(objections, "no board was photographed");
+  const auto findings = Judge(Adjusted(), cameras);
+  const Finding* outside = Find(findings, "no board was photographed");
   ASSERT_TRUE(outside);
   EXPECT_EQ(outside->severity, Severity::kReview);
   camera.calibration["width"] = network_.cameras[0].width();
   camera.calibration["height"] = network_.cameras[0].height();
   Json::Value& counts = camera.calibration["cells"]["counts"];
   counts[0][0] = counts[0][1] = counts[1][0] = counts[1][1] = 5;
-  EXPECT_FALSE(Find(Judge(Adjusted(), context), "no board was photographed"));
+  EXPECT_FALSE(Find(Judge(Adjusted(), cameras), "no board was photographed"));
 }
 
 TEST(IsCalibratedAt, CountsCellsFromTheFramesCorner) {
@@ -194,26 +195,26 @@ TEST(IsCalibratedAt, CountsCellsFromTheFramesCorner) {
 }
 
 TEST_F(Verdict, PassesOnWhatTheCalibrationObjectsTo) {
-  ReportContext context;
+  CameraContexts cameras;
   Json::Value reason;
   reason["severity"] = "fail";
   reason["reason"] = "NOT CALIBRATED";
   reason["remedy"] = "Photograph a chessboard.";
-  context.cameras[0].calibration["verdict"]["reasons"].append(reason);
+  cameras[0].calibration["verdict"]["reasons"].append(reason);
   Adjustment adjustment = Adjusted();
-  const auto objections = Judge(adjustment, context);
-  const Objection* objection = Find(objections, "NOT CALIBRATED");
-  ASSERT_TRUE(objection);
-  EXPECT_EQ(objection->severity, Severity::kFail);
-  EXPECT_EQ(objection->remedy, "Photograph a chessboard.");
+  const auto findings = Judge(adjustment, cameras);
+  const Finding* finding = Find(findings, "NOT CALIBRATED");
+  ASSERT_TRUE(finding);
+  EXPECT_EQ(finding->severity, Severity::kFail);
+  EXPECT_EQ(finding->remedy, "Photograph a chessboard.");
   adjustment.cameras[0].parameters[0].is_adjusted = true;
-  EXPECT_EQ(Find(Judge(adjustment, context), "NOT CALIBRATED")->severity, Severity::kReview);
-  context.cameras[0].calibration["verdict"]["reasons"][0]["severity"] = "review";
-  EXPECT_EQ(Find(Judge(adjustment, context), "NOT CALIBRATED")->severity, Severity::kNote);
+  EXPECT_EQ(Find(Judge(adjustment, cameras), "NOT CALIBRATED")->severity, Severity::kReview);
+  cameras[0].calibration["verdict"]["reasons"][0]["severity"] = "review";
+  EXPECT_EQ(Find(Judge(adjustment, cameras), "NOT CALIBRATED")->severity, Severity::kNote);
   adjustment.cameras[0].parameters[0].is_adjusted = false;
-  EXPECT_EQ(Find(Judge(adjustment, context), "NOT CALIBRATED")->severity, Severity::kReview);
-  context.cameras[0].calibration["verdict"]["reasons"][0]["severity"] = "note";
-  EXPECT_EQ(Find(Judge(adjustment, context), "NOT CALIBRATED")->severity, Severity::kNote);
+  EXPECT_EQ(Find(Judge(adjustment, cameras), "NOT CALIBRATED")->severity, Severity::kReview);
+  cameras[0].calibration["verdict"]["reasons"][0]["severity"] = "note";
+  EXPECT_EQ(Find(Judge(adjustment, cameras), "NOT CALIBRATED")->severity, Severity::kNote);
 }
 
 TEST_F(Verdict, ReviewsALensThatCountsAsExact) {
@@ -222,10 +223,9 @@ TEST_F(Verdict, ReviewsALensThatCountsAsExact) {
   EXPECT_FALSE(Find(Judge(adjustment), "counts as exact"));
   adjustment.cameras[0].is_considered = false;
   EXPECT_EQ(Status(Judge(adjustment)), "review");
-  const auto objections = Judge(adjustment);
-  ASSERT_TRUE(Find(objections, "counts as exact"));
-  EXPECT_NE(Find(objections, "counts as exact")->remedy.find("--self-calibrate"),
-            std::string::npos);
+  const auto findings = Judge(adjustment);
+  ASSERT_TRUE(Find(findings, "counts as exact"));
+  EXPECT_NE(Find(findings, "counts as exact")->remedy.find("--self-calibrate"), std::string::npos);
   adjustment.cameras[0].lens_model = "LENSMODEL_SPLINED_STEREOGRAPHIC_order=3_Nx=12_Ny=9";
   EXPECT_TRUE(Find(Judge(adjustment), "a splined model brings no covariance"));
   adjustment.cameras[0].parameters[0].is_adjusted = true;
@@ -235,7 +235,7 @@ TEST_F(Verdict, ReviewsALensThatCountsAsExact) {
 // Names of tie points are others at the next run, and no option leaves one out.
 TEST(Advice, OfATiePointIsWhatCanBeDone) {
   ObservationResidual row;
-  row.group = "image x";
+  row.kind = ObservationKind::kImage;
   row.subject = "tie_000123";
   row.photo = "P";
   row.is_tie_point = true;
@@ -244,15 +244,33 @@ TEST(Advice, OfATiePointIsWhatCanBeDone) {
 }
 
 TEST(Advice, TellsWhatToDoForEveryKindOfObservation) {
-  for (const char* group : {"image x", "edge", "control y", "camera z", "lens", "plane", "sun",
-                            "zenith", "distance", "height", "angle"}) {
+  using Kind = ObservationKind;
+  const std::pair<Kind, const char*> groups[] = {
+      {Kind::kImage, "image y"},     {Kind::kEdge, "edge"},
+      {Kind::kControl, "control y"}, {Kind::kCameraPosition, "camera y"},
+      {Kind::kLens, "lens"},         {Kind::kPlane, "plane"},
+      {Kind::kSun, "sun"},           {Kind::kZenith, "zenith"},
+      {Kind::kDistance, "distance"}, {Kind::kHeight, "height"},
+      {Kind::kAngle, "angle"}};
+  for (const auto& [kind, group] : groups) {
     ObservationResidual row;
-    row.group = group;
+    row.kind = kind;
+    row.axis = 1;
     row.subject = "S";
     row.photo = "P";
+    EXPECT_EQ(Group(row), group);
     EXPECT_NE(Advice(row), "") << group;
     EXPECT_NE(Describe(row), "") << group;
   }
+}
+
+TEST(Advice, NamesAVertexWithItsPolygon) {
+  ObservationResidual row;
+  row.kind = ObservationKind::kPlane;
+  row.polygon = "south wall";
+  row.subject = "a3";
+  EXPECT_EQ(Subject(row), "south wall a3");
+  EXPECT_EQ(Describe(row), "plane 'south wall a3'");
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "reconstruction/report/image_marks.h"
+#include "reconstruction/verdict/image_marks.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -26,16 +26,15 @@ std::vector<ImageMark> ImageMarks(const Adjustment& adjustment) {
   std::vector<ImageMark> marks;
   std::map<std::pair<std::string, std::string>, size_t> mark_index;  // by photo and point
   for (const ObservationResidual& row : adjustment.residuals) {
-    const int axis = row.group == "image x" ? 0 : row.group == "image y" ? 1 : -1;
-    if (axis < 0) continue;
+    if (row.kind != ObservationKind::kImage) continue;
     const auto [place, is_new] = mark_index.try_emplace({row.photo, row.subject}, marks.size());
     if (is_new) {
       marks.push_back({photo_index.at(row.photo), row.subject, Eigen::Vector2d::Zero(),
                        Eigen::Vector2d::Zero(), std::nullopt, row.is_tie_point});
     }
     ImageMark& mark = marks[place->second];
-    mark.pixel[axis] = row.observed;
-    mark.residual[axis] = row.residual;
+    mark.pixel[row.axis] = row.observed;
+    mark.residual[row.axis] = row.residual;
     mark.w = LargerMagnitude(mark.w, row.w);
   }
   return marks;

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "reconstruction/adjustment/adjustment.h"
+#include "reconstruction/adjustment/adjusted_survey.h"
 
 namespace insitu {
 

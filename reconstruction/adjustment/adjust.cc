@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "reconstruction/adjustment/adjustment.h"
+#include "reconstruction/adjustment/adjust.h"
 
 #include <ceres/sphere_manifold.h>
 
 #include <algorithm>
 #include <cmath>
-#include <cstdarg>
-#include <cstdio>
 #include <set>
 #include <utility>
 
+#include "calibration/files/error.h"
+#include "calibration/files/wording.h"
 #include "reconstruction/adjustment/adjusted_observations.h"
+#include "reconstruction/adjustment/adjusted_unknowns.h"
 #include "reconstruction/adjustment/planarity.h"
 #include "reconstruction/adjustment/plane_effect.h"
 #include "reconstruction/adjustment/polygon_covariance.h"
@@ -132,16 +133,6 @@ std::map<std::string, StartPoint> JudgedPoints(const std::vector<AdjustedPoint>&
   return judged;
 }
 
-std::string Format(const char* format, ...) __attribute__((format(printf, 1, 2)));
-std::string Format(const char* format, ...) {
-  char line[256];
-  va_list arguments;
-  va_start(arguments, format);
-  std::vsnprintf(line, sizeof line, format, arguments);
-  va_end(arguments);
-  return line;
-}
-
 void WarnOfMasks(const Survey& survey, Adjustment* adjustment) {
   for (const PolygonOutline& polygon : survey.polygons) {
     if (!polygon.mask) continue;
@@ -151,27 +142,24 @@ void WarnOfMasks(const Survey& survey, Adjustment* adjustment) {
 }
 
 // A control point that took no part although it lies where a point without coordinates is.
-void WarnOfMisnamedControl(const Survey& survey, Adjustment* adjustment) {
-  constexpr double kSamePlace = 0.05;  // [m], besides their sigmas
-  std::set<std::string> surveyed, used;
+void WarnOfMisnamedControl(const Survey& survey, const std::vector<Diagnosis>& diagnoses,
+                           Adjustment* adjustment) {
+  constexpr double kSamePlace = 0.05;       // [m], besides their sigmas
+  std::set<std::string> surveyed, settled;  // settled: used, or told of already
   for (const ControlPoint& point : survey.control_points) surveyed.insert(point.name);
-  for (const AdjustedPoint& point : adjustment->points) used.insert(point.name);
+  for (const AdjustedPoint& point : adjustment->points) settled.insert(point.name);
+  for (const Diagnosis& diagnosis : diagnoses) settled.insert(diagnosis.unused_control);
   for (const ControlPoint& point : survey.control_points) {
-    const std::string beginning = point.place.path.filename().string() + ":" +
-                                  std::to_string(point.place.line) + ": point '" + point.name +
-                                  "' is marked on no photo";
-    const bool is_said =
-        std::any_of(adjustment->warnings.begin(), adjustment->warnings.end(),
-                    [&](const std::string& warning) { return warning.starts_with(beginning); });
-    if (used.contains(point.name) || is_said) continue;
+    if (settled.contains(point.name)) continue;
     for (const AdjustedPoint& there : adjustment->points) {
       if (there.is_tie_point || surveyed.contains(there.name)) continue;
       const double sigma = std::sqrt(there.covariance.trace() + point.sigma.squaredNorm());
       const double distance = (there.position - point.position).norm();
       if (distance > kSamePlace + 3 * sigma || sigma > 1) continue;
       adjustment->warnings.push_back(
-          beginning + ", and point '" + there.name +
-          Format("', %.0f mm from it, has no coordinates: are they one? Expected: one name in all "
+          point.place.path.filename().string() + ":" + std::to_string(point.place.line) +
+          ": point '" + point.name + "' is marked on no photo, and point '" + there.name +
+          Number("', %.0f mm from it, has no coordinates: are they one? Expected: one name in all "
                  "files",
                  1000 * distance));
     }
@@ -222,56 +210,65 @@ std::map<std::string, int> CountUnknowns(const Network& network, const NetworkCo
   return counts;
 }
 
-void Warn(const NetworkSolution& solution, const SurveyNetwork& survey_network,
-          Adjustment* adjustment) {
-  if (survey_network.network.directions[*survey_network.zenith].is_fixed) {
-    adjustment->warnings.push_back("no zenith pairs: the z axis was taken for the zenith");
-  }
-  if (solution.datum.defect() > 0) {
-    adjustment->warnings.push_back("the datum is " + adjustment->datum);
-  }
-}
-
-NetworkSolution Solve(const Survey& survey, Network* network) {
+NetworkSolution Solve(const Survey& survey, SurveyNetwork* survey_network) {
   try {
-    return SolveNetwork(network);
+    return SolveNetwork(&survey_network->network);
   } catch (const NoSolution& failure) {
-    throw NoSolutionError(failure, *network, survey);
+    throw NoSolutionError(failure, survey_network->network, survey);
   } catch (const RankDefect& defect) {
-    throw RankDefectError(defect, *network, survey);
+    throw RankDefectError(defect, *survey_network, survey);
   }
 }
 
-// Start values of a survey that does not contradict itself; what else looks odd becomes a warning.
-StartValues FindSoundStart(const Survey& survey, const std::vector<std::string>& photos,
-                           const std::vector<Camera>& cameras, const AdjustmentOptions& options) {
-  const std::vector<Diagnosis> diagnoses = RequireSound(survey, photos, cameras);
+// Start values of a survey that does not contradict itself, with what looks odd in it nevertheless.
+struct SoundStart {
+  StartValues values;
+  std::vector<Diagnosis> diagnoses;
+};
+
+SoundStart FindSoundStart(const Survey& survey, const std::vector<std::string>& photos,
+                          const std::vector<Camera>& cameras,
+                          const std::map<std::string, Rigid3>& initial_cam_from_world,
+                          double plane_sigma) {
+  SoundStart start;
+  start.diagnoses = RequireSound(survey, photos, cameras);
   try {
-    StartValues start = FindStartValues(survey, photos, cameras, options);
-    RequirePlanar(survey, start.points, options.plane_sigma);
-    for (const Diagnosis& diagnosis : diagnoses) start.warnings.push_back(Text(diagnosis));
+    start.values = FindStartValues(survey, photos, cameras, initial_cam_from_world);
+    RequirePlanar(survey, start.values.points, plane_sigma);
     return start;
   } catch (const InputError& symptom) {
-    ThrowDiagnosed(diagnoses, symptom);
+    ThrowDiagnosed(start.diagnoses, symptom);
+  }
+}
+
+void WarnOfStart(const SoundStart& start, const Survey& survey, Adjustment* adjustment) {
+  adjustment->warnings = start.values.warnings;
+  for (const Diagnosis& diagnosis : start.diagnoses) {
+    adjustment->warnings.push_back(Text(diagnosis));
+  }
+  if (survey.zenith_pairs.empty()) {
+    adjustment->warnings.push_back("no zenith pairs: the z axis was taken for the zenith");
   }
 }
 
 }  // namespace
 
 Adjustment Adjust(const Survey& survey, const std::vector<std::string>& photos,
-                  const std::vector<Camera>& cameras, const AdjustmentOptions& options) {
-  INSITU_CHECK(options.plane_sigma > 0 && options.zenith_sigma > 0 && options.sun_sigma > 0);
-  INSITU_CHECK(options.lenses.empty() || options.lenses.size() == photos.size());
-  const StartValues start = FindSoundStart(survey, photos, cameras, options);
-  SurveyNetwork survey_network = MakeSurveyNetwork(survey, start, options);
-  const NetworkSolution solution = Solve(survey, &survey_network.network);
+                  const std::vector<Camera>& cameras, const AdjustmentOptions& options,
+                  const std::vector<PhotoLens>& lenses,
+                  const std::map<std::string, Rigid3>& initial_cam_from_world) {
+  options.Check();
+  INSITU_CHECK(lenses.empty() || lenses.size() == photos.size());
+  const SoundStart start =
+      FindSoundStart(survey, photos, cameras, initial_cam_from_world, options.plane_sigma);
+  SurveyNetwork survey_network = MakeSurveyNetwork(survey, start.values, lenses, options);
+  const NetworkSolution solution = Solve(survey, &survey_network);
   const Network& network = survey_network.network;
 
   Adjustment adjustment;
-  adjustment.warnings = start.warnings;
   AddStatistics(solution, options, &adjustment);
   adjustment.unknowns_of = CountUnknowns(network, solution.columns);
-  Warn(solution, survey_network, &adjustment);
+  WarnOfStart(start, survey, &adjustment);
   WarnOfMasks(survey, &adjustment);
   adjustment.residuals = AdjustedObservations(survey_network, solution, options.significance);
   adjustment.cameras = AdjustedCameras(network, solution);
@@ -282,7 +279,7 @@ Adjustment Adjust(const Survey& survey, const std::vector<std::string>& photos,
   adjustment.polygon_covariance = PolygonCovariances(survey, survey_network, solution);
   adjustment.correlations = HighCorrelations(network, solution);
   CompareWithSurvey(survey, &adjustment);
-  WarnOfMisnamedControl(survey, &adjustment);
+  WarnOfMisnamedControl(survey, start.diagnoses, &adjustment);
   adjustment.left_out = LeaveOneOut(survey_network, solution);
   adjustment.check_rms_over_sigma = RmsOverSigma(adjustment.check);
   adjustment.left_out_rms_over_sigma = RmsOverSigma(adjustment.left_out);
@@ -290,31 +287,6 @@ Adjustment Adjust(const Survey& survey, const std::vector<std::string>& photos,
   RequireSimpleOutlines(survey, JudgedPoints(adjustment.points));
   adjustment.scene = AdjustedScene(survey, survey_network, solution, adjustment);
   return adjustment;
-}
-
-std::string Adjustment::BriefReport() const {
-  std::string text = Format(
-      "%zu photos, %zu points, %zu polygons: %d observations, %d unknowns, redundancy %d\n",
-      poses.size(), points.size(), scene.polygons.size(), observations, unknowns, redundancy);
-  text += Format("sigma0 %.3f (1 expected; p of the global test %.3f), %d iterations\n", sigma0,
-                 chi_square_p, iterations);
-  for (const AdjustedPose& pose : poses) {
-    const Eigen::Vector3d sigma = pose.covariance.diagonal().tail<3>().cwiseSqrt();
-    text += Format("photo %s: %d points, RMS %.2f px, camera to %.1f mm\n", pose.photo.c_str(),
-                   pose.points, pose.rms_px, 1000 * sigma.norm());
-  }
-  if (check.empty()) {
-    text += "no check points: accuracy not verified\n";
-    if (!left_out.empty()) {
-      text += Format("leaving out one control point at a time: RMS %.2f of the expected sigma\n",
-                     left_out_rms_over_sigma);
-    }
-  } else {
-    text += Format("check points: %zu, RMS %.2f of their combined sigma\n", check.size(),
-                   check_rms_over_sigma);
-  }
-  for (const std::string& warning : warnings) text += "warning: " + warning + "\n";
-  return text;
 }
 
 }  // namespace insitu

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "reconstruction/report/verdict.h"
+#include "reconstruction/verdict/verdict.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include "calibration/files/wording.h"
-#include "reconstruction/report/advice.h"
-#include "reconstruction/report/geometry_verdict.h"
+#include "reconstruction/verdict/advice.h"
+#include "reconstruction/verdict/geometry_verdict.h"
 
 namespace insitu {
 namespace {
@@ -18,18 +18,18 @@ constexpr double kLikelyByChance = 0.05;  // that so large a test value is somew
 // thousands of tie points a test finds any.
 constexpr double kSigma0Band = 1.1;
 
-void JudgeGlobalTest(const Adjustment& adjustment, std::vector<Objection>* objections) {
+void JudgeGlobalTest(const Adjustment& adjustment, std::vector<Finding>* findings) {
   const GlobalTest& test = adjustment.global_test;
   if (adjustment.redundancy == 0) {
-    objections->push_back({Severity::kReview, "no redundancy: errors cannot be found",
-                           "measure more marks or survey more control points"});
+    findings->push_back({Severity::kReview, "no redundancy: errors cannot be found",
+                         "measure more marks or survey more control points"});
   } else if (adjustment.chi_square_p < test.alpha) {
     const bool is_worse = adjustment.sigma0 > 1;
     const std::string figures = "the global test is not met: sigma0 " +
                                 Number("%.2f", adjustment.sigma0) + ", p " +
                                 Number("%.4f", adjustment.chi_square_p);
     const bool is_harmless = adjustment.sigma0 > 1 / kSigma0Band && adjustment.sigma0 < kSigma0Band;
-    objections->push_back(
+    findings->push_back(
         {adjustment.sigma0 > 2 ? Severity::kFail
          : is_harmless         ? Severity::kNote
                                : Severity::kReview,
@@ -57,7 +57,7 @@ FlagCount CountFlagged(const Adjustment& adjustment, bool of_tie_points) {
 }
 
 // What the surveyor measured, one observation at a time.
-void JudgeObservations(const Adjustment& adjustment, std::vector<Objection>* objections) {
+void JudgeObservations(const Adjustment& adjustment, std::vector<Finding>* findings) {
   const std::optional<ObservationResidual> suspect = Suspect(adjustment);
   if (!suspect || suspect->is_tie_point) return;
   const double w = std::abs(*suspect->w);
@@ -68,19 +68,19 @@ void JudgeObservations(const Adjustment& adjustment, std::vector<Objection>* obj
       " a test value over " + Number("%.2f", adjustment.critical_w) + "; the suspect is " +
       Describe(*suspect) + ", w " + Number("%.1f", *suspect->w) +
       (is_by_chance ? ", which good observations reach where there are so many" : "");
-  objections->push_back({w > 2 * adjustment.critical_w ? Severity::kFail
-                         : is_by_chance                ? Severity::kNote
-                                                       : Severity::kReview,
-                         reason,
-                         Advice(*suspect) + "; then adjust again before judging the next one"});
+  findings->push_back({w > 2 * adjustment.critical_w ? Severity::kFail
+                       : is_by_chance                ? Severity::kNote
+                                                     : Severity::kReview,
+                       reason,
+                       Advice(*suspect) + "; then adjust again before judging the next one"});
 }
 
 // Tie points were chosen by a program out of thousands; only their share counts.
-void JudgeTiePoints(const Adjustment& adjustment, std::vector<Objection>* objections) {
+void JudgeTiePoints(const Adjustment& adjustment, std::vector<Finding>* findings) {
   const FlagCount count = CountFlagged(adjustment, true);
   const double by_chance = count.tested * std::erfc(adjustment.critical_w / std::sqrt(2.0));
   if (count.flagged <= by_chance + 3 * std::sqrt(by_chance) + 1) return;
-  objections->push_back(
+  findings->push_back(
       {Severity::kReview,
        std::to_string(count.flagged) + " of " + std::to_string(count.tested) +
            " coordinates of tie points have a test value over " +
@@ -90,15 +90,15 @@ void JudgeTiePoints(const Adjustment& adjustment, std::vector<Objection>* object
        "image matching errs: foliage, water, repeated windows"});
 }
 
-void JudgeControl(const Adjustment& adjustment, std::vector<Objection>* objections) {
+void JudgeControl(const Adjustment& adjustment, std::vector<Finding>* findings) {
   int weak = 0, marks = 0;
   for (const ObservationResidual& row : adjustment.residuals) {
-    if (!row.group.starts_with("image")) continue;
+    if (row.kind != ObservationKind::kImage) continue;
     ++marks;
     weak += row.redundancy < kWeaklyControlled;
   }
   if (weak == 0) return;
-  objections->push_back(
+  findings->push_back(
       {Severity::kNote,
        std::to_string(weak) + " of " + std::to_string(marks) +
            " image coordinates are hardly controlled by others (redundancy number below 0.1): an "
@@ -108,23 +108,24 @@ void JudgeControl(const Adjustment& adjustment, std::vector<Objection>* objectio
 
 // Centre and rotation of one photo are correlated by nature, and those of a far point lie along its
 // ray; only what can hardly be told apart spoils the result.
-void JudgeCorrelations(const Adjustment& adjustment, std::vector<Objection>* objections) {
+void JudgeCorrelations(const Adjustment& adjustment, std::vector<Finding>* findings) {
   if (adjustment.correlations.empty()) return;
   std::vector<std::string> pairs;
   Severity severity = Severity::kNote;
   bool is_of_lens = false;
   for (const Correlation& pair : adjustment.correlations) {
-    is_of_lens |= pair.first.starts_with("camera ");
+    is_of_lens |= pair.of == Correlation::Of::kCamera;
     pairs.push_back(pair.first + " with " + pair.second + " " + Number("%.3f", pair.value));
-    const bool is_point = pair.first.starts_with("point ");
-    if (!is_point && std::abs(pair.value) > kInseparable) severity = Severity::kReview;
+    if (pair.of != Correlation::Of::kPoint && std::abs(pair.value) > kInseparable)
+      severity = Severity::kReview;
   }
-  objections->push_back({severity, Listing("correlations above 0.95", pairs, 3),
-                         std::string("where that matters, take photos from other sides, some "
-                                     "turned by 90 degrees, and spread control in depth") +
-                             (is_of_lens ? "; of a lens, calibrate a model of fewer parameters "
-                                           "(insitu-calibrate --lens-model LENSMODEL_OPENCV4)"
-                                         : "")});
+  findings->push_back({severity,
+                       Listing("correlations above " + Number("%.2f", kHighCorrelation), pairs, 3),
+                       std::string("where that matters, take photos from other sides, some "
+                                   "turned by 90 degrees, and spread control in depth") +
+                           (is_of_lens ? "; of a lens, calibrate a model of fewer parameters "
+                                         "(insitu-calibrate --lens-model LENSMODEL_OPENCV4)"
+                                       : "")});
 }
 
 std::vector<std::string> WorstPoints(const std::vector<PointComparison>& comparisons) {
@@ -139,8 +140,8 @@ std::vector<std::string> WorstPoints(const std::vector<PointComparison>& compari
   return names;
 }
 
-Objection Disagreement(const std::string& what, double rms,
-                       const std::vector<PointComparison>& comparisons) {
+Finding Disagreement(const std::string& what, double rms,
+                     const std::vector<PointComparison>& comparisons) {
   const std::vector<std::string> worst = WorstPoints(comparisons);
   return {rms > 2 * kCheckLimit ? Severity::kFail : Severity::kReview,
           what + " by " + Number("%.2f", rms) + " times the sigma expected" +
@@ -149,9 +150,9 @@ Objection Disagreement(const std::string& what, double rms,
           "than their sigmas say"};
 }
 
-void JudgeAccuracy(const Adjustment& adjustment, std::vector<Objection>* objections) {
+void JudgeAccuracy(const Adjustment& adjustment, std::vector<Finding>* findings) {
   if (adjustment.check_rms_over_sigma > kCheckLimit) {
-    objections->push_back(
+    findings->push_back(
         Disagreement("the check points differ", adjustment.check_rms_over_sigma, adjustment.check));
   }
   if (!adjustment.check.empty()) return;
@@ -160,22 +161,22 @@ void JudgeAccuracy(const Adjustment& adjustment, std::vector<Objection>* objecti
     reason += "; each control point predicted from the rest of the network differs by " +
               Number("%.2f", adjustment.left_out_rms_over_sigma) + " times the sigma expected";
   }
-  objections->push_back({Severity::kReview, reason,
-                         "survey some well spread points more and give them the role check"});
+  findings->push_back({Severity::kReview, reason,
+                       "survey some well spread points more and give them the role check"});
   if (adjustment.left_out_rms_over_sigma > kCheckLimit) {
-    objections->push_back(Disagreement("control points contradict one another",
-                                       adjustment.left_out_rms_over_sigma, adjustment.left_out));
+    findings->push_back(Disagreement("control points contradict one another",
+                                     adjustment.left_out_rms_over_sigma, adjustment.left_out));
   }
 }
 
-void JudgeDatum(const Adjustment& adjustment, std::vector<Objection>* objections) {
+void JudgeDatum(const Adjustment& adjustment, std::vector<Finding>* findings) {
   if (adjustment.datum_defect == 0) return;
-  objections->push_back(
+  findings->push_back(
       {Severity::kReview, "the datum is " + adjustment.datum,
        "survey three control points or more, not on one line, and mark them on two photos each"});
 }
 
-void JudgePlanes(const PlaneEffect& effect, double critical_w, std::vector<Objection>* objections) {
+void JudgePlanes(const PlaneEffect& effect, double critical_w, std::vector<Finding>* findings) {
   if (effect.degrees == 0 || effect.statistic <= effect.limit) return;
   std::vector<std::pair<double, std::string>> moved;
   for (const PlaneEffect::Shift& shift : effect.shifts) {
@@ -187,7 +188,7 @@ void JudgePlanes(const PlaneEffect& effect, double critical_w, std::vector<Objec
   std::sort(moved.begin(), moved.end());
   std::vector<std::string> names;
   for (const auto& [minus_w, name] : moved) names.push_back(name);
-  objections->push_back(
+  findings->push_back(
       {Severity::kReview,
        "the planes do not all hold: they add " + Number("%.0f", effect.statistic) +
            " to the sum of squares where at most " + Number("%.0f", effect.limit) + " is expected" +
@@ -202,10 +203,10 @@ bool IsAdjusted(const AdjustedCamera& camera) {
 }
 
 // Sigmas without the lens's part are too small, and smaller than those of an honest calibration.
-void JudgeExactLens(const AdjustedCamera& camera, std::vector<Objection>* objections) {
+void JudgeExactLens(const AdjustedCamera& camera, std::vector<Finding>* findings) {
   if (camera.is_considered || IsAdjusted(camera)) return;
   const bool is_splined = camera.lens_model.starts_with("LENSMODEL_SPLINED");
-  objections->push_back(
+  findings->push_back(
       {Severity::kReview,
        "the lens of camera '" + camera.name + "' counts as exact, since " +
            (is_splined ? "a splined model brings no covariance"
@@ -220,29 +221,27 @@ void JudgeExactLens(const AdjustedCamera& camera, std::vector<Objection>* object
 // What the calibration's own report objects to, one degree less where the adjustment made the lens
 // its own: a failed calibration never leaves a pass.
 void JudgeCalibration(const AdjustedCamera& camera, const Json::Value& calibration,
-                      std::vector<Objection>* objections) {
+                      std::vector<Finding>* findings) {
   const bool is_adjusted = IsAdjusted(camera);
   const std::string name = "calibration of '" + camera.name + "': ";
   if (!calibration.isObject()) {
-    objections->push_back({Severity::kNote,
-                           name + "no report of it: how sure the lens is, is unknown",
-                           "run insitu-calibrate"});
+    findings->push_back({Severity::kNote,
+                         name + "no report of it: how sure the lens is, is unknown",
+                         "run insitu-calibrate"});
     return;
   }
-  for (const Json::Value& reason : calibration["verdict"]["reasons"]) {
-    const bool is_fail = reason["severity"] == Word(Severity::kFail);
-    Severity severity = is_fail ? Severity::kFail : Severity::kReview;
-    if (is_adjusted) severity = is_fail ? Severity::kReview : Severity::kNote;
-    if (reason["severity"] == Word(Severity::kNote)) severity = Severity::kNote;
-    objections->push_back(
-        {severity, name + reason["reason"].asString(), reason["remedy"].asString()});
+  for (const Finding& of_boards : FindingsOf(calibration["verdict"])) {
+    Finding finding{of_boards.severity, name + of_boards.reason, of_boards.remedy};
+    if (is_adjusted && finding.severity != Severity::kNote) {
+      finding.severity = finding.severity == Severity::kFail ? Severity::kReview : Severity::kNote;
+    }
+    findings->push_back(finding);
   }
 }
 
-void PassOnWarnings(const Adjustment& adjustment, std::vector<Objection>* objections) {
+void PassOnWarnings(const Adjustment& adjustment, std::vector<Finding>* findings) {
   for (const std::string& warning : adjustment.warnings) {
-    const bool is_said = warning == "the datum is " + adjustment.datum;
-    if (!is_said) objections->push_back({Severity::kReview, warning, ""});
+    findings->push_back({Severity::kReview, warning, ""});
   }
 }
 
@@ -262,45 +261,30 @@ std::optional<ObservationResidual> Suspect(const Adjustment& adjustment) {
   return std::nullopt;
 }
 
-std::vector<Objection> Judge(const Adjustment& adjustment, const ReportContext& context) {
-  std::vector<Objection> objections;
-  JudgeGlobalTest(adjustment, &objections);
+std::vector<Finding> Judge(const Adjustment& adjustment, const CameraContexts& cameras) {
+  std::vector<Finding> findings;
+  JudgeGlobalTest(adjustment, &findings);
   if (!adjustment.is_converged) {
-    objections.push_back({Severity::kFail, "the adjustment has not converged: no figure holds",
-                          "look for gross errors: names exchanged, units, a photo's start value"});
+    findings.push_back({Severity::kFail, "the adjustment has not converged: no figure holds",
+                        "look for gross errors: names exchanged, units, a photo's start value"});
   }
-  JudgeObservations(adjustment, &objections);
-  JudgeTiePoints(adjustment, &objections);
-  JudgeAccuracy(adjustment, &objections);
-  JudgeDatum(adjustment, &objections);
-  JudgePlanes(adjustment.plane_effect, adjustment.critical_w, &objections);
-  JudgeGeometry(adjustment, context, &objections);
+  JudgeObservations(adjustment, &findings);
+  JudgeTiePoints(adjustment, &findings);
+  JudgeAccuracy(adjustment, &findings);
+  JudgeDatum(adjustment, &findings);
+  JudgePlanes(adjustment.plane_effect, adjustment.critical_w, &findings);
+  JudgeGeometry(adjustment, cameras, &findings);
   for (size_t i = 0; i < adjustment.cameras.size(); ++i) {
-    JudgeExactLens(adjustment.cameras[i], &objections);
-    JudgeCalibration(adjustment.cameras[i], context.OfCamera(static_cast<int>(i)).calibration,
-                     &objections);
+    JudgeExactLens(adjustment.cameras[i], &findings);
+    JudgeCalibration(adjustment.cameras[i], ContextOf(cameras, static_cast<int>(i)).calibration,
+                     &findings);
   }
-  JudgeCorrelations(adjustment, &objections);
-  PassOnWarnings(adjustment, &objections);
-  JudgeControl(adjustment, &objections);
-  return objections;
-}
-
-Json::Value VerdictReport(std::vector<Objection> objections) {
-  std::stable_sort(objections.begin(), objections.end(),
-                   [](const auto& a, const auto& b) { return a.severity > b.severity; });
-  const Severity worst = objections.empty() ? Severity::kNote : objections.front().severity;
-  Json::Value json;
-  json["status"] = worst == Severity::kNote ? "pass" : Word(worst);
-  json["reasons"] = Json::Value(Json::arrayValue);
-  for (const Objection& objection : objections) {
-    Json::Value reason;
-    reason["severity"] = Word(objection.severity);
-    reason["reason"] = objection.reason;
-    reason["remedy"] = objection.remedy;
-    json["reasons"].append(reason);
-  }
-  return json;
+  JudgeCorrelations(adjustment, &findings);
+  PassOnWarnings(adjustment, &findings);
+  JudgeControl(adjustment, &findings);
+  std::stable_sort(findings.begin(), findings.end(),
+                   [](const Finding& a, const Finding& b) { return a.severity > b.severity; });
+  return findings;
 }
 
 }  // namespace insitu

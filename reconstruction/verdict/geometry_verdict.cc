@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "reconstruction/report/geometry_verdict.h"
+#include "reconstruction/verdict/geometry_verdict.h"
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
@@ -7,7 +7,7 @@
 #include <set>
 
 #include "calibration/files/wording.h"
-#include "reconstruction/geometry/plane.h"
+#include "reconstruction/verdict/image_marks.h"
 
 namespace insitu {
 namespace {
@@ -21,7 +21,7 @@ constexpr double kSmallCoverage = 0.1;
 // Control points are determined by the survey; only the others depend on their rays. Tie points
 // are too many to name: their numbers are in a section of their own.
 void JudgeRays(const Adjustment& adjustment, const std::vector<ImageMark>& marks,
-               std::vector<Objection>* objections) {
+               std::vector<Finding>* findings) {
   std::set<std::string> controlled;
   for (const PointComparison& point : adjustment.control) controlled.insert(point.name);
   const std::map<std::string, double> angles = LargestRayAngles(adjustment, marks);
@@ -33,24 +33,24 @@ void JudgeRays(const Adjustment& adjustment, const std::vector<ImageMark>& marks
     if (angle != angles.end() && angle->second < kSmallAngle) narrow.push_back(point.name);
   }
   if (!few.empty()) {
-    objections->push_back({Severity::kReview,
-                           Listing("points on fewer than two photos, held by planes or other "
-                                   "constraints alone",
-                                   few),
-                           "mark them on a second photo, or trust them no more than their planes"});
+    findings->push_back({Severity::kReview,
+                         Listing("points on fewer than two photos, held by planes or other "
+                                 "constraints alone",
+                                 few),
+                         "mark them on a second photo, or trust them no more than their planes"});
   }
   if (!narrow.empty()) {
-    objections->push_back({Severity::kReview,
-                           Listing("points whose rays meet within 5 degrees", narrow),
-                           "mark them on a photo taken further aside, or take one"});
+    findings->push_back({Severity::kReview,
+                         Listing("points whose rays meet within 5 degrees", narrow),
+                         "mark them on a photo taken further aside, or take one"});
   }
 }
 
-void JudgeBase(const Adjustment& adjustment, std::vector<Objection>* objections) {
+void JudgeBase(const Adjustment& adjustment, std::vector<Finding>* findings) {
   if (adjustment.poses.size() == 1) {
-    objections->push_back({Severity::kReview,
-                           "one photo only: nothing but the survey and its planes tells depth",
-                           "take a second photo from aside"});
+    findings->push_back({Severity::kReview,
+                         "one photo only: nothing but the survey and its planes tells depth",
+                         "take a second photo from aside"});
   }
   if (adjustment.poses.size() < 2 || adjustment.points.empty()) return;
   Eigen::Vector3d middle = Eigen::Vector3d::Zero();
@@ -65,14 +65,14 @@ void JudgeBase(const Adjustment& adjustment, std::vector<Objection>* objections)
     }
   }
   if (base >= kShortBase * distance) return;
-  objections->push_back({Severity::kReview,
-                         "the photos were taken from nearly one place: the longest base is " +
-                             Number("%.2f", base) + " m at a distance of " +
-                             Number("%.0f", distance) + " m",
-                         "take photos from further aside"});
+  findings->push_back({Severity::kReview,
+                       "the photos were taken from nearly one place: the longest base is " +
+                           Number("%.2f", base) + " m at a distance of " +
+                           Number("%.0f", distance) + " m",
+                       "take photos from further aside"});
 }
 
-void JudgeControlFigure(const Adjustment& adjustment, std::vector<Objection>* objections) {
+void JudgeControlFigure(const Adjustment& adjustment, std::vector<Finding>* findings) {
   const size_t count = adjustment.control.size();
   if (count < 3) return;  // the datum says the rest
   Eigen::Matrix3Xd points(3, count);
@@ -84,13 +84,13 @@ void JudgeControlFigure(const Adjustment& adjustment, std::vector<Objection>* ob
                                      centered * centered.transpose(), Eigen::EigenvaluesOnly)
                                      .eigenvalues();
   if (spread[1] > kNarrowControl * kNarrowControl * spread[2]) return;
-  objections->push_back({Severity::kReview,
-                         "the control points lie nearly on one line: the site can turn about it",
-                         "survey control points aside of that line"});
+  findings->push_back({Severity::kReview,
+                       "the control points lie nearly on one line: the site can turn about it",
+                       "survey control points aside of that line"});
 }
 
 void JudgeFrames(const Adjustment& adjustment, const std::vector<ImageMark>& marks,
-                 const ReportContext& context, std::vector<Objection>* objections) {
+                 const CameraContexts& cameras, std::vector<Finding>* findings) {
   std::vector<std::string> small, outside;
   size_t count = 0;
   for (const AdjustedPose& pose : adjustment.poses) {
@@ -100,18 +100,18 @@ void JudgeFrames(const Adjustment& adjustment, const std::vector<ImageMark>& mar
   }
   for (const ImageMark& mark : marks) {
     const AdjustedPose& pose = adjustment.poses[mark.photo];
-    const CameraContext& camera = context.OfCamera(pose.camera);
+    const CameraContext& camera = ContextOf(cameras, pose.camera);
     if (mark.is_tie_point) continue;
     ++count;
     if (!IsCalibratedAt(camera, mark.pixel)) outside.push_back(mark.point + " on " + pose.photo);
   }
   if (!small.empty()) {
-    objections->push_back({Severity::kReview,
-                           Listing("photos whose marks span less than a tenth of the frame", small),
-                           "spread marks over the frame, towards its corners"});
+    findings->push_back({Severity::kReview,
+                         Listing("photos whose marks span less than a tenth of the frame", small),
+                         "spread marks over the frame, towards its corners"});
   }
   if (outside.empty()) return;
-  objections->push_back(
+  findings->push_back(
       {outside.size() < kFewOutside * count ? Severity::kNote : Severity::kReview,
        Listing("marks where no board was photographed, so that the lens is hardly known", outside,
                3),
@@ -120,13 +120,13 @@ void JudgeFrames(const Adjustment& adjustment, const std::vector<ImageMark>& mar
 
 }  // namespace
 
-void JudgeGeometry(const Adjustment& adjustment, const ReportContext& context,
-                   std::vector<Objection>* objections) {
+void JudgeGeometry(const Adjustment& adjustment, const CameraContexts& cameras,
+                   std::vector<Finding>* findings) {
   const std::vector<ImageMark> marks = ImageMarks(adjustment);
-  JudgeRays(adjustment, marks, objections);
-  JudgeBase(adjustment, objections);
-  JudgeControlFigure(adjustment, objections);
-  JudgeFrames(adjustment, marks, context, objections);
+  JudgeRays(adjustment, marks, findings);
+  JudgeBase(adjustment, findings);
+  JudgeControlFigure(adjustment, findings);
+  JudgeFrames(adjustment, marks, cameras, findings);
 }
 
 }  // namespace insitu

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "reconstruction/survey/read_survey.h"
+
+#include <filesystem>
+#include <utility>
+
+#include "reconstruction/survey/survey_names.h"
+#include "reconstruction/survey/survey_shapes.h"
+#include "reconstruction/survey/survey_tables.h"
+
+namespace insitu {
+
+Survey ReadSurvey(const SitePaths& site, const std::vector<std::string>& photos,
+                  SurveyFolder files) {
+  const std::filesystem::path folder = site.survey();
+  const auto has = [&](const char* file) { return std::filesystem::exists(folder / file); };
+  const auto is_to_be_read = [&](const char* file) {
+    return files == SurveyFolder::kRequired || has(file);
+  };
+  Survey survey;
+  if (is_to_be_read("control_points.csv")) {
+    survey.control_points = ReadControlPoints(folder / "control_points.csv");
+  }
+  if (is_to_be_read("observations.csv")) {
+    survey.observations = ReadObservations(folder / "observations.csv", photos);
+  }
+  if (is_to_be_read("polygons.json")) {
+    survey.polygons = ReadPolygons(folder / "polygons.json", photos);
+  }
+  if (has("directions.json")) {
+    DirectionPairs pairs = ReadDirections(folder / "directions.json");
+    survey.sun_pairs = std::move(pairs.sun);
+    survey.zenith_pairs = std::move(pairs.zenith);
+  }
+  if (has("camera_positions.csv")) {
+    survey.camera_positions = ReadCameraPositions(folder / "camera_positions.csv", photos);
+  }
+  if (has("edges.csv")) survey.edges = ReadEdges(folder / "edges.csv", photos);
+  if (has("constraints.json")) {
+    survey.constraints = ReadConstraints(folder / "constraints.json", survey.polygons);
+  }
+  RequireKnownPoints(survey);
+  RequireNoNamesOfTiePoints(survey);
+  return survey;
+}
+
+}  // namespace insitu

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The survey folder, read whole.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "calibration/program/site.h"
+#include "reconstruction/survey/survey.h"
+
+namespace insitu {
+
+// Photographs with tie points need no survey at all.
+enum class SurveyFolder { kRequired, kOptional };
+
+// Reads the survey folder and resolves every name. Throws InputError at the offending line: a name
+// twice, an observation of a photo that is not there or of a point that no other file names, a
+// pair, edge or constraint of a point that is neither surveyed nor marked nor a vertex, a mark
+// outside any sensible frame, sigma <= 0, a polygon with fewer than three distinct vertices, an
+// unknown role, kind or key, a pair or edge of one point. Unknown names come with the nearest known
+// ones. control_points.csv, observations.csv and polygons.json must be there unless
+// `files` says otherwise, the other files may. tie_points stays empty: reconstruct_site.h sets it.
+Survey ReadSurvey(const SitePaths& site, const std::vector<std::string>& photos,
+                  SurveyFolder files = SurveyFolder::kRequired);
+
+}  // namespace insitu
