@@ -211,7 +211,7 @@ std::optional<Eigen::Vector2d> CoordinateConversion::operator()(const Eigen::Vec
   return converted ? std::optional<Eigen::Vector2d>(converted->head<2>()) : std::nullopt;
 }
 
-std::optional<Eigen::Vector3d> CoordinateConversion::operator()(const Eigen::Vector3d& xyz) const {
+std::optional<Eigen::Vector3d> CoordinateConversion::WithHeight(const Eigen::Vector3d& xyz) const {
   return Converted(pipelines_->with_heights.get(), xyz);
 }
 

@@ -46,9 +46,9 @@ class CoordinateConversion {
   // first whatever the definitions say. nullopt: PROJ has no conversion for this place.
   std::optional<Eigen::Vector2d> operator()(const Eigen::Vector2d& xy) const;
 
-  // With heights, which are converted where both systems define theirs and stay as they are where
-  // one has none.
-  std::optional<Eigen::Vector3d> operator()(const Eigen::Vector3d& xyz) const;
+  // The same with a height, which is converted where both systems define theirs and stays as it is
+  // where one has none.
+  std::optional<Eigen::Vector3d> WithHeight(const Eigen::Vector3d& xyz) const;
 
  private:
   struct Pipelines;  // PROJ's

@@ -166,7 +166,7 @@ void Convert(const std::filesystem::path& file, const Placement& placement, Mode
   const CoordinateConversion convert(MetricSystem(file, placement.model_crs),
                                      MetricSystem(file, placement.survey_crs));
   for (Vector3d& vertex : mesh->vertices) {
-    const auto converted = convert(vertex);
+    const auto converted = convert.WithHeight(vertex);
     if (!converted) {
       throw InputError(file, "PROJ cannot take (" + std::to_string(vertex.x()) + ", " +
                                  std::to_string(vertex.y()) + ") from " + placement.model_crs +

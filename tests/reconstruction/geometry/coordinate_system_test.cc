@@ -18,7 +18,7 @@ TEST(CoordinateConversion, TheSwissGridsAndTheirOrigin) {
   EXPECT_NEAR((*bern - Eigen::Vector2d(2600000, 1200000)).norm(), 0, 2);
   const CoordinateConversion convert = Between("EPSG:21781", "EPSG:2056");
   const auto flat = convert(Eigen::Vector2d(600100, 200200));
-  const auto with_height = convert(Eigen::Vector3d(600100, 200200, 430));
+  const auto with_height = convert.WithHeight({600100, 200200, 430});
   ASSERT_TRUE(flat && with_height);
   EXPECT_NEAR((*flat - Eigen::Vector2d(2600100, 1200200)).norm(), 0, 2);
   EXPECT_EQ(with_height->head<2>(), *flat);
@@ -29,18 +29,18 @@ TEST(CoordinateConversion, TheSwissGridsAndTheirOrigin) {
 // coordinate.
 TEST(CoordinateConversion, HeightsAreConvertedWhereBothSystemsHaveThem) {
   const Eigen::Vector3d point(500000, 4500000, 100);
-  const auto metres = Between("EPSG:32618+6360", "EPSG:32618+5703")(point);
+  const auto metres = Between("EPSG:32618+6360", "EPSG:32618+5703").WithHeight(point);
   ASSERT_TRUE(metres);
   EXPECT_NEAR(metres->z(), 100 * 1200.0 / 3937, 1e-6);
   EXPECT_NEAR((metres->head<2>() - point.head<2>()).norm(), 0, 1e-6);
-  const auto as_given = Between("EPSG:32618", "EPSG:32618+5703")(point);
+  const auto as_given = Between("EPSG:32618", "EPSG:32618+5703").WithHeight(point);
   ASSERT_TRUE(as_given);
   EXPECT_NEAR(as_given->z(), 100, 1e-6);
 }
 
 TEST(CoordinateConversion, APlaceThatASystemDoesNotReach) {
   EXPECT_FALSE(Between("EPSG:4326", "EPSG:2056")(Eigen::Vector2d(7, 1e9)));
-  EXPECT_FALSE(Between("EPSG:4326", "EPSG:2056")(Eigen::Vector3d(7, 1e9, 0)));
+  EXPECT_FALSE(Between("EPSG:4326", "EPSG:2056").WithHeight({7, 1e9, 0}));
 }
 
 TEST(CoordinateSystem, WhatIsNoSystemOfAPlace) {
