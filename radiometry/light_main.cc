@@ -3,7 +3,8 @@
 #include <iostream>
 
 #include "calibration/program/program.h"
-#include "radiometry/natural_environment.h"
+#include "radiometry/light_report.h"
+#include "radiometry/measure_daylight.h"
 
 namespace insitu {
 namespace {
@@ -28,7 +29,10 @@ int RunLight(int argc, char** argv) {
   return RunProgram(app, argc, argv, [&] {
     const LightMeasurement measurement = MeasureDaylight(site, options);
     WriteEnvironment(site, measurement);
-    std::cout << measurement.BriefReport();
+    std::cout << BriefReport(measurement);
+    for (const std::string& warning : measurement.warnings) {
+      std::cout << "warning: " << warning << "\n";
+    }
   });
 }
 

@@ -1,20 +1,19 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "radiometry/measure_daylight.h"
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <set>
-#include <sstream>
 
 #include "calibration/files/error.h"
+#include "calibration/photo/photograph.h"
 #include "radiometry/measure/surroundings.h"
-#include "radiometry/natural_environment.h"
 #include "reconstruction/geometry/ray_scene.h"
 
 namespace insitu {
 namespace {
 
 constexpr double kPoorCondition = 100;
-constexpr double kReportedDistance = 200;  // [m]
 
 std::vector<Photograph> ReadPhotographs(const SitePaths& site, const SceneGeometry& scene) {
   const std::vector<std::filesystem::path> paths = ListPhotographs(site);
@@ -203,10 +202,6 @@ void MeasureLightComponents(const std::vector<Photograph>& photos, const LightOp
   WarnOfWeakSamples(measured, has_sun, samples, measured.warnings);
 }
 
-std::ostream& operator<<(std::ostream& out, const Eigen::Vector3d& rgb) {
-  return out << rgb[0] << " " << rgb[1] << " " << rgb[2];
-}
-
 }  // namespace
 
 LightMeasurement MeasureDaylight(const SitePaths& site, const LightOptions& options) {
@@ -222,44 +217,6 @@ LightMeasurement MeasureDaylight(const SitePaths& site, const LightOptions& opti
   environment.air = measured.air_fit.air;
   MeasureLightComponents(photos, options, measured);
   return measured;
-}
-
-Eigen::Vector3d LightMeasurement::TransmittanceRgb(double distance) const {
-  const SpectralBasis& spectra = environment.spectra;
-  const Spectrum white = spectra.SpectrumFromRgb(Eigen::Vector3d::Ones());
-  return spectra.RgbFromSpectrum(white * TransmittanceOver(environment.air, distance));
-}
-
-Eigen::Vector3d LightMeasurement::SunIrradianceRgb() const {
-  const Daylight& light = environment.light;
-  return environment.spectra.RgbFromSpectrum(light.sun_radiance * light.sun_solid_angle);
-}
-
-Eigen::Vector3d LightMeasurement::OpenSkyRgb() const {
-  const Daylight& light = environment.light;
-  return environment.spectra.RgbFromSpectrum(light.sky_radiance + light.ambient_radiance);
-}
-
-std::string LightMeasurement::BriefReport() const {
-  const SpectralBasis& spectra = environment.spectra;
-  const Daylight& light = environment.light;
-  std::ostringstream out;
-  out.setf(std::ios::fixed);
-  out.precision(3);
-  out << "Horizon colour      " << spectra.RgbFromSpectrum(environment.air.horizon) << " (RGB)\n"
-      << "Haze: transmittance " << TransmittanceRgb(kReportedDistance) << " over 200 m, "
-      << samples.haze.size() << " samples, residuals " << air_fit.rms << " sigma\n"
-      << "Sun: irradiance     " << SunIrradianceRgb() << " across its rays\n"
-      << "Sky: radiance       " << spectra.RgbFromSpectrum(light.sky_radiance) << "\n"
-      << "Ambient: radiance   " << spectra.RgbFromSpectrum(light.ambient_radiance)
-      << ", with the sky " << OpenSkyRgb() << "\n"
-      << "Surroundings send   "
-      << daylight_fit.surroundings_weight.head(spectra.bins().count).mean()
-      << " of what their photographs show (0 with a uniform ambient light)\n"
-      << "Daylight: " << samples.daylight.size() << " samples, residuals " << daylight_fit.rms
-      << " sigma, condition " << daylight_fit.condition << "\n";
-  for (const std::string& warning : warnings) out << "Warning: " << warning << "\n";
-  return out.str();
 }
 
 }  // namespace insitu

@@ -119,10 +119,11 @@ void Converter::WarnOfPairs(const Placement& placement) {
   constexpr double kWorst = 3;  // sigmas
   for (size_t i = 0; i < placement.pairs.size(); ++i) {
     const double off = placement.adjusted->residuals[i].norm();
-    if (off <= kWorst * placement.pairs[i].sigma) continue;
+    const double sigma = placement.pairs[i].points.sigma.x();
+    if (off <= kWorst * sigma) continue;
     char text[200];
     std::snprintf(text, sizeof(text), "%s is %.3f m off, of a sigma of %.3f m",
-                  placement.pairs[i].name.c_str(), off, placement.pairs[i].sigma);
+                  placement.pairs[i].name.c_str(), off, sigma);
     Warn(file, text);
   }
   const double scale = placement.adjusted->free_scale;

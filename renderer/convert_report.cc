@@ -44,15 +44,16 @@ Json::Value PairsJson(const Placement& placement) {
   Json::Value json;
   json["sigma0"] = adjusted.sigma0;
   json["redundancy"] = adjusted.redundancy;
-  json["sigma_shift"] = PointJson(adjusted.sigma_shift);
-  json["sigma_rotation_rad"] = PointJson(adjusted.sigma_rotation);
-  json["sigma_scale"] = adjusted.sigma_scale;
+  const Eigen::VectorXd sigmas = adjusted.covariance.diagonal().cwiseSqrt();
+  json["sigma_shift"] = PointJson(sigmas.segment<3>(3));
+  json["sigma_rotation_rad"] = PointJson(sigmas.head<3>());
+  json["sigma_scale"] = sigmas[6] * adjusted.target_from_source.scale;
   json["scale_if_adjusted"] = adjusted.free_scale;
   for (size_t i = 0; i < placement.pairs.size(); ++i) {
     Json::Value pair;
     pair["name"] = placement.pairs[i].name;
-    pair["sigma"] = placement.pairs[i].sigma;
-    pair["residual"] = PointJson(adjusted.residuals[i]);
+    pair["sigma"] = placement.pairs[i].points.sigma.x();
+    pair["residual"] = PointJson(Vector3d::Zero() - adjusted.residuals[i]);  // survey minus model
     json["pairs"].append(pair);
   }
   return json;
@@ -61,8 +62,9 @@ Json::Value PairsJson(const Placement& placement) {
 Json::Value PlacementJson(const Placement& placement) {
   Json::Value json;
   json["scale"] = placement.world_from_model.scale;
-  json["rotation"] = ToJson(Eigen::MatrixXd(placement.world_from_model.rotation));
-  json["shift"] = PointJson(placement.world_from_model.shift);
+  json["rotation"] =
+      ToJson(Eigen::MatrixXd(placement.world_from_model.rotation.toRotationMatrix()));
+  json["shift"] = PointJson(placement.world_from_model.translation);
   if (placement.y_up) json["up"] = "y";
   if (!placement.model_crs.empty()) {
     json["model_crs"] = placement.model_crs;

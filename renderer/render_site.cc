@@ -8,6 +8,7 @@
 #include "calibration/files/error.h"
 #include "calibration/program/program.h"
 #include "calibration/site_cameras.h"
+#include "renderer/trace/make_montage_scene.h"
 #include "renderer/trace/profile.h"
 
 namespace insitu {

@@ -50,4 +50,11 @@ std::string Listing(const std::string& what, const std::vector<std::string>& nam
   return text;
 }
 
+std::string Quoted(std::string_view text) {
+  constexpr size_t kLongest = 40;
+  std::string quoted = "\"";
+  for (const char c : text.substr(0, kLongest)) quoted += (c >= ' ' && c <= '~') ? c : '?';
+  return quoted + (text.size() > kLongest ? "...\"" : "\"");
+}
+
 }  // namespace insitu

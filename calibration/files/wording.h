@@ -3,6 +3,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace insitu {
@@ -22,5 +23,8 @@ std::string QuotedList(const std::vector<std::string>& names);
 // "what (n): a, b, c and m more", at most `shown` names.
 std::string Listing(const std::string& what, const std::vector<std::string>& names,
                     size_t shown = 8);
+
+// A file's own words in a message: in quotes, short, and printable whatever the file holds.
+std::string Quoted(std::string_view text);
 
 }  // namespace insitu

@@ -102,11 +102,20 @@ Parts PartsOf(PJ_CONTEXT* context, Object system) {
   return {std::move(system), height};
 }
 
+std::optional<Eigen::Vector3d> Converted(PJ* pipeline, const Eigen::Vector3d& xyz) {
+  if (!pipeline) return std::nullopt;
+  const PJ_COORD result =
+      proj_trans(pipeline, PJ_FWD, proj_coord(xyz.x(), xyz.y(), xyz.z(), HUGE_VAL));
+  const Eigen::Vector3d converted(result.xyz.x, result.xyz.y, result.xyz.z);
+  return converted.allFinite() ? std::optional(converted) : std::nullopt;
+}
+
 }  // namespace
 
 struct CoordinateSystem::Definition {
   Context context = MakeContext();
-  Object object;
+  Object whole;   // as it was given
+  Object object;  // horizontal, or three-dimensional
   PJ_TYPE type = PJ_TYPE_UNKNOWN;
   Axis first_axis;
   std::optional<Axis> height;
@@ -121,6 +130,7 @@ std::optional<CoordinateSystem> CoordinateSystem::FromText(const std::string& te
   const std::string for_proj = ForProj(text);
   Object object(proj_create(context, for_proj.c_str()));
   if (!object || IsAccident(for_proj, object.get())) return std::nullopt;
+  definition->whole.reset(proj_clone(context, object.get()));
   auto [horizontal, height] = PartsOf(context, std::move(object));
   if (!horizontal) return std::nullopt;
   definition->type = proj_get_type(horizontal.get());
@@ -176,30 +186,33 @@ bool CoordinateSystem::operator==(const CoordinateSystem& other) const {
                                PJ_COMP_EQUIVALENT_EXCEPT_AXIS_ORDER_GEOGCRS) != 0;
 }
 
-struct CoordinateConversion::Pipeline {
+struct CoordinateConversion::Pipelines {
   Context context = MakeContext();
-  Object object;  // null: PROJ knows no conversion
+  Object flat, with_heights;  // null: PROJ knows no conversion
 };
 
 CoordinateConversion::CoordinateConversion(const CoordinateSystem& source,
                                            const CoordinateSystem& target) {
-  auto pipeline = std::make_shared<Pipeline>();
-  PJ_CONTEXT* context = pipeline->context.get();
-  const Object as_defined(proj_create_crs_to_crs_from_pj(context, source.definition_->object.get(),
-                                                         target.definition_->object.get(), nullptr,
-                                                         nullptr));
-  if (as_defined) {
-    pipeline->object.reset(proj_normalize_for_visualization(context, as_defined.get()));
-  }
-  pipeline_ = std::move(pipeline);
+  auto pipelines = std::make_shared<Pipelines>();
+  PJ_CONTEXT* context = pipelines->context.get();
+  const auto between = [context](const Object& from, const Object& to) -> Object {
+    const Object as_defined(
+        proj_create_crs_to_crs_from_pj(context, from.get(), to.get(), nullptr, nullptr));
+    if (!as_defined) return nullptr;
+    return Object(proj_normalize_for_visualization(context, as_defined.get()));
+  };
+  pipelines->flat = between(source.definition_->object, target.definition_->object);
+  pipelines->with_heights = between(source.definition_->whole, target.definition_->whole);
+  pipelines_ = std::move(pipelines);
 }
 
 std::optional<Eigen::Vector2d> CoordinateConversion::operator()(const Eigen::Vector2d& xy) const {
-  if (!pipeline_->object) return std::nullopt;
-  const PJ_COORD result =
-      proj_trans(pipeline_->object.get(), PJ_FWD, proj_coord(xy.x(), xy.y(), 0, HUGE_VAL));
-  if (!std::isfinite(result.xy.x) || !std::isfinite(result.xy.y)) return std::nullopt;
-  return Eigen::Vector2d(result.xy.x, result.xy.y);
+  const auto converted = Converted(pipelines_->flat.get(), {xy.x(), xy.y(), 0});
+  return converted ? std::optional<Eigen::Vector2d>(converted->head<2>()) : std::nullopt;
+}
+
+std::optional<Eigen::Vector3d> CoordinateConversion::WithHeight(const Eigen::Vector3d& xyz) const {
+  return Converted(pipelines_->with_heights.get(), xyz);
 }
 
 }  // namespace insitu

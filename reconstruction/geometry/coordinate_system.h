@@ -11,10 +11,10 @@ namespace insitu {
 
 class CoordinateSystem {
  public:
-  // "EPSG:2056", a PROJ string, WKT, "WGS84" or "WGS84 UTM 32N" as OpenDroneMap writes them. Of a
-  // compound system the horizontal one and the unit of its heights: these are never converted here.
-  // nullopt: PROJ does not know it, or it is neither geographic, projected nor local (geocentric,
-  // vertical).
+  // "EPSG:2056", "EPSG:2056+5728", a PROJ string, WKT, "WGS84" or "WGS84 UTM 32N" as OpenDroneMap
+  // writes them. What is told and compared of a compound system is its horizontal part and the unit
+  // of its heights. nullopt: PROJ does not know it, or it is neither geographic, projected nor
+  // local (geocentric, vertical).
   static std::optional<CoordinateSystem> FromText(const std::string& text);
 
   // The WGS 84 / UTM zone of a place [deg].
@@ -46,9 +46,13 @@ class CoordinateConversion {
   // first whatever the definitions say. nullopt: PROJ has no conversion for this place.
   std::optional<Eigen::Vector2d> operator()(const Eigen::Vector2d& xy) const;
 
+  // The same with a height, which is converted where both systems define theirs and stays as it is
+  // where one has none.
+  std::optional<Eigen::Vector3d> WithHeight(const Eigen::Vector3d& xyz) const;
+
  private:
-  struct Pipeline;  // PROJ's
-  std::shared_ptr<const Pipeline> pipeline_;
+  struct Pipelines;  // PROJ's
+  std::shared_ptr<const Pipelines> pipelines_;
 };
 
 }  // namespace insitu

@@ -2,10 +2,13 @@
 #include "reconstruction/geometry/similarity.h"
 
 #include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
+#include <Eigen/SVD>
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 #include <random>
 
 #include "calibration/files/error.h"
@@ -193,6 +196,49 @@ bool IsMirrored(const std::vector<SimilarityPair>& pairs, size_t inliers,
   return as_given && as_mirrored && *as_given > 10 * noise && *as_given > 100 * *as_mirrored;
 }
 
+// Isotropic.
+double Weight(const SimilarityPair& pair) { return 1 / (pair.sigma.x() * pair.sigma.x()); }
+
+CenteredPairs WeightedCentered(const std::vector<SimilarityPair>& pairs) {
+  CenteredPairs centered{Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(), pairs};
+  double weights = 0;
+  for (const SimilarityPair& pair : pairs) {
+    centered.source_origin += Weight(pair) * pair.source;
+    centered.target_origin += Weight(pair) * pair.target;
+    weights += Weight(pair);
+  }
+  centered.source_origin /= weights;
+  centered.target_origin /= weights;
+  for (SimilarityPair& pair : centered.pairs) {
+    pair.source -= centered.source_origin;
+    pair.target -= centered.target_origin;
+  }
+  return centered;
+}
+
+// Of pairs about their centroids; nullopt: they lie on a line.
+std::optional<Similarity3> WeightedUmeyama(const std::vector<SimilarityPair>& pairs) {
+  Eigen::Matrix3d mixed = Eigen::Matrix3d::Zero(), spread = Eigen::Matrix3d::Zero();
+  for (const SimilarityPair& pair : pairs) {
+    mixed += Weight(pair) * pair.target * pair.source.transpose();
+    spread += Weight(pair) * pair.source * pair.source.transpose();
+  }
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> extent(spread);
+  if (!(extent.eigenvalues()[1] > 1e-8 * extent.eigenvalues()[2])) return std::nullopt;
+  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(mixed, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  Eigen::Vector3d sign = Eigen::Vector3d::Ones();
+  if (svd.matrixU().determinant() * svd.matrixV().determinant() < 0) sign.z() = -1;
+  const Eigen::Matrix3d rotation = svd.matrixU() * sign.asDiagonal() * svd.matrixV().transpose();
+  return Similarity3{svd.singularValues().dot(sign) / spread.trace(),
+                     Eigen::Quaterniond(rotation).normalized(), Eigen::Vector3d::Zero()};
+}
+
+// About other origins than the centroids.
+Similarity3 Uncentered(const CenteredPairs& centered, const Similarity3& fit) {
+  return Similarity3{1, Eigen::Quaterniond::Identity(), centered.target_origin} * fit *
+         Similarity3{1, Eigen::Quaterniond::Identity(), -centered.source_origin};
+}
+
 }  // namespace
 
 Similarity3 operator*(const Similarity3& c_from_b, const Similarity3& b_from_a) {
@@ -229,9 +275,7 @@ std::optional<SimilarityFit> FitSimilarity(const std::vector<SimilarityPair>& pa
   const Similarity3 fit = LeastSquares(centered.pairs, *inliers, *start);
 
   SimilarityFit result;
-  result.target_from_source =
-      Similarity3{1, Eigen::Quaterniond::Identity(), centered.target_origin} * fit *
-      Similarity3{1, Eigen::Quaterniond::Identity(), -centered.source_origin};
+  result.target_from_source = Uncentered(centered, fit);
   result.is_inlier.assign(pairs.size(), false);
   for (const size_t i : *inliers) result.is_inlier[i] = true;
   result.inliers = static_cast<int>(inliers->size());
@@ -247,6 +291,35 @@ std::optional<SimilarityFit> FitSimilarity(const std::vector<SimilarityPair>& pa
     result.sigma0 = std::sqrt(WeightedSquares(centered.pairs, *inliers, fit) / redundancy);
   }
   result.is_mirrored = IsMirrored(centered.pairs, inliers->size(), options);
+  return result;
+}
+
+std::optional<AdjustedSimilarity> AdjustSimilarity(const std::vector<SimilarityPair>& pairs,
+                                                   bool adjust_scale) {
+  for (const SimilarityPair& pair : pairs) {
+    INSITU_CHECK(pair.sigma.x() > 0 && (pair.sigma.array() == pair.sigma.x()).all());
+  }
+  if (pairs.size() < 3) return std::nullopt;
+  const CenteredPairs centered = WeightedCentered(pairs);
+  auto fit = WeightedUmeyama(centered.pairs);
+  if (!fit) return std::nullopt;
+  AdjustedSimilarity result;
+  result.free_scale = fit->scale;
+  if (!adjust_scale) fit->scale = 1;
+  result.target_from_source = Uncentered(centered, *fit);
+  std::vector<size_t> all(pairs.size());
+  std::iota(all.begin(), all.end(), size_t{0});
+  for (const SimilarityPair& pair : centered.pairs) {
+    result.residuals.push_back(*fit * pair.source - pair.target);
+  }
+  result.redundancy = 3 * static_cast<int>(pairs.size()) - (adjust_scale ? 7 : 6);
+  result.sigma0 = std::sqrt(WeightedSquares(centered.pairs, all, *fit) / result.redundancy);
+  // About the weighted centroids nothing ties the scale to the other six.
+  result.covariance = Normal(centered.pairs, all, *fit).normal.inverse();
+  if (!adjust_scale) {
+    result.covariance.row(6).setZero();
+    result.covariance.col(6).setZero();
+  }
   return result;
 }
 

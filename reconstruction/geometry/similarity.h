@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Similarity transformations (Helmert, seven parameters), named target-from-source, and their
-// robust fit to points known in both frames.
+// Similarity transformations (Helmert, seven parameters), named target-from-source, and their fit
+// to points known in both frames: robust where any pair may be wrong, plain where each was
+// measured.
 #pragma once
 
 #include <Eigen/Core>
@@ -63,5 +64,21 @@ struct SimilarityFit {
 // nullopt: fewer than three pairs, or the consensus has fewer than three, or they lie on one line.
 std::optional<SimilarityFit> FitSimilarity(const std::vector<SimilarityPair>& pairs,
                                            const SimilarityOptions& options = {});
+
+struct AdjustedSimilarity {
+  Similarity3 target_from_source;
+  std::vector<Eigen::Vector3d> residuals;  // transformed source - target
+  double sigma0 = 0;                       // a posteriori; 1 if the sigmas tell the truth
+  int redundancy = 0;
+  // As in SimilarityFit, the centroid being the weighted one; zero for a scale that is held.
+  Eigen::Matrix<double, 7, 7> covariance;
+  double free_scale = 1;  // what the scale would be if it were adjusted
+};
+
+// Least squares over all pairs, in closed form; a scale that is held is 1. The sigmas of a pair
+// must be alike along all axes (INSITU_CHECK). [Umeyama 1991, weighted] nullopt: fewer than three
+// pairs, or all of them on one line.
+std::optional<AdjustedSimilarity> AdjustSimilarity(const std::vector<SimilarityPair>& pairs,
+                                                   bool adjust_scale);
 
 }  // namespace insitu

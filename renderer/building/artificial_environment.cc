@@ -246,4 +246,25 @@ ArtificialEnvironment ReadArtificialEnvironment(const SitePaths& site) {
   return environment;
 }
 
+std::vector<std::string> NotShown(const ArtificialEnvironment& environment) {
+  std::vector<std::string> lines;
+  for (const SurfaceMaterial& material : environment.materials) {
+    const std::string name = "material \"" + material.name + "\": ";
+    if (material.specular && material.roughness != 0) {
+      lines.push_back(name + "its rough reflection is shown as a smooth mirror");
+    }
+    if (material.transmission != 0) lines.push_back(name + "its transmission is not shown");
+    if (!material.texture.empty()) {
+      lines.push_back(name + "its texture is not shown, but its mean colour");
+    }
+  }
+  for (const PointLight& light : environment.lights) {
+    if (light.candela == 0 || light.intensity_rgb.maxCoeff() > 0) continue;
+    lines.push_back("light \"" + light.name +
+                    "\" is not shown: lights.json does not say what luminance the site's unit is "
+                    "(site_luminance_cd_m2)");
+  }
+  return lines;
+}
+
 }  // namespace insitu

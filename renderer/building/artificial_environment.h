@@ -10,6 +10,7 @@
 
 #include "calibration/program/site.h"
 #include "radiometry/light/material.h"
+#include "renderer/building/light_distribution.h"
 
 namespace insitu {
 
@@ -27,18 +28,6 @@ struct SurfaceMaterial {
   double roughness = 0;      // of the mirroring share, 0..1
   double transmission = 0;   // 0..1
   std::string texture = {};  // image of the albedo, relative to building/; empty: none
-};
-
-// Relative intensity by direction, as in an IES file: gamma is the angle to the lamp's axis, C the
-// angle about it. Linear between the angles given; over C it goes round if it covers a full turn,
-// is mirrored if it covers 90 or 180 degrees, and does not matter if there is one.
-struct LightDistribution {
-  Eigen::Matrix3d world_from_lamp;  // columns: C = 0, C = 90, the axis (gamma = 0)
-  std::vector<double> gamma_deg;    // rising
-  std::vector<double> c_deg;        // rising
-  std::vector<double> values;       // >= 0, all gammas of the first C, then of the next
-
-  double At(const Eigen::Vector3d& direction) const;  // unit vector, from the lamp, world
 };
 
 // Shines alike in all directions unless it has a distribution. Area lights are several of these.

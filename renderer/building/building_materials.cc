@@ -11,7 +11,6 @@
 #include "calibration/files/json_file.h"
 #include "calibration/photo/photograph.h"
 #include "renderer/building/spectral_table.h"
-#include "renderer/dxf/dxf_drawing.h"
 
 namespace insitu {
 namespace {
@@ -165,11 +164,11 @@ BuildingMaterials BuildingMaterials::Read(const fs::path& path) {
 BuildingMaterials::Entry* BuildingMaterials::FindIn(Section* section, const std::string& name) {
   if (name.empty()) return nullptr;
   if (const auto exact = section->find(name); exact != section->end()) return &exact->second;
-  const std::string key = DxfKey(name);
+  const std::string key = NameKey(name);
   Entry* best = nullptr;
   size_t longest = 0;
   for (auto& [pattern, entry] : *section) {
-    const std::string pattern_key = DxfKey(pattern);
+    const std::string pattern_key = NameKey(pattern);
     if (pattern_key == key) return &entry;
     if (!HasPattern(pattern) || pattern.size() <= longest) continue;
     if (fnmatch(pattern_key.c_str(), key.c_str(), FNM_NOESCAPE) != 0) continue;

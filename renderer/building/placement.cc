@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "renderer/building/placement.h"
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/SVD>
+#include <Eigen/Geometry>
 #include <cmath>
 #include <map>
 #include <numbers>
 
 #include "calibration/files/csv_file.h"
 #include "calibration/files/json_file.h"
-#include "renderer/building/coordinate_system.h"
+#include "reconstruction/geometry/coordinate_system.h"
 
 namespace insitu {
 namespace {
@@ -33,13 +32,13 @@ double MetresOf(const JsonNode& unit) {
   return found->second;
 }
 
-Matrix3d RotationOf(const JsonNode& node) {
+Eigen::Quaterniond RotationOf(const JsonNode& node) {
   if (const auto degrees = node.Find("rotation_deg")) {
     const double angle = degrees->Number() * std::numbers::pi / 180;
-    return Eigen::AngleAxisd(angle, Vector3d::UnitZ()).toRotationMatrix();
+    return Eigen::Quaterniond(Eigen::AngleAxisd(angle, Vector3d::UnitZ()));
   }
   const auto rows = node.Find("rotation");
-  if (!rows) return Matrix3d::Identity();
+  if (!rows) return Eigen::Quaterniond::Identity();
   Matrix3d rotation;
   const std::vector<JsonNode> items = rows->Items();
   if (items.size() != 3) throw rows->Error("has not 3 rows, expected a 3 x 3 rotation");
@@ -48,7 +47,7 @@ Matrix3d RotationOf(const JsonNode& node) {
   if (misfit > 1e-6 || rotation.determinant() < 0) {
     throw rows->Error("is no rotation, expected orthogonal rows of length 1, right-handed");
   }
-  return rotation;
+  return Eigen::Quaterniond(rotation).normalized();
 }
 
 Vector3d ZUp(bool y_up, const Vector3d& v) { return y_up ? Vector3d(v.x(), -v.z(), v.y()) : v; }
@@ -63,17 +62,18 @@ std::map<std::string, CsvRow> SurveyPoints(const SitePaths& site) {
   return points;
 }
 
-double Sigma(const JsonNode& pair, double otherwise) {
+Vector3d SigmaOf(const JsonNode& pair, double otherwise) {
   const auto node = pair.Find("sigma");
-  if (!node) return otherwise;
-  if (!(node->Number() > 0)) throw node->Error("is not above 0, expected a standard deviation [m]");
-  return node->Number();
+  const double sigma = node ? node->Number() : otherwise;
+  if (sigma > 0) return Vector3d::Constant(sigma);
+  if (node) throw node->Error("is not above 0, expected a standard deviation [m]");
+  throw pair.Error("names a point of sigma 0, expected \"sigma\" of the pair beside it [m]");
 }
 
 PointPair ReadPair(const SitePaths& site, const JsonNode& node, double metres, bool y_up) {
   constexpr double kUsualSigma = 0.01;
   PointPair pair;
-  pair.in_model = metres * ZUp(y_up, node.At("model").Vector3());
+  pair.points.source = metres * ZUp(y_up, node.At("model").Vector3());
   if (const auto point = node.Find("point")) {
     const auto points = SurveyPoints(site);
     const auto found = points.find(point->Text());
@@ -83,12 +83,12 @@ PointPair ReadPair(const SitePaths& site, const JsonNode& node, double metres, b
     }
     const CsvRow& row = found->second;
     pair.name = point->Text();
-    pair.in_survey = {row.Number("x"), row.Number("y"), row.Number("z")};
+    pair.points.target = {row.Number("x"), row.Number("y"), row.Number("z")};
     const Vector3d sigma(row.Number("sigma_x"), row.Number("sigma_y"), row.Number("sigma_z"));
-    pair.sigma = Sigma(node, sigma.norm() / std::sqrt(3));
+    pair.points.sigma = SigmaOf(node, sigma.norm() / std::sqrt(3));
   } else {
-    pair.in_survey = node.At("survey").Vector3();
-    pair.sigma = Sigma(node, kUsualSigma);
+    pair.points.target = node.At("survey").Vector3();
+    pair.points.sigma = SigmaOf(node, kUsualSigma);
   }
   return pair;
 }
@@ -110,12 +110,16 @@ void ReadPairs(const SitePaths& site, const JsonNode& node, double metres, Place
   }
   const auto free = node.Find("adjust_scale");
   const double factor = ScaleOf(node);
-  for (PointPair& pair : placement->pairs) pair.in_model *= factor;
-  placement->adjusted = AdjustSimilarity(placement->pairs, free && free->Boolean());
+  std::vector<SimilarityPair> points;
+  for (PointPair& pair : placement->pairs) {
+    pair.points.source *= factor;
+    points.push_back(pair.points);
+  }
+  placement->adjusted = AdjustSimilarity(points, free && free->Boolean());
   if (!placement->adjusted) {
     throw pairs->Error("do not fix the model, expected three or more pairs not on one line");
   }
-  placement->world_from_model = placement->adjusted->world_from_model;
+  placement->world_from_model = placement->adjusted->target_from_source;
   placement->world_from_model.scale *= factor;
 }
 
@@ -131,7 +135,9 @@ Placement PlacementOf(const SitePaths& site, const JsonNode& node, double metres
   } else {
     placement.world_from_model.scale = ScaleOf(node);
     placement.world_from_model.rotation = RotationOf(node);
-    if (const auto shift = node.Find("shift")) placement.world_from_model.shift = shift->Vector3();
+    if (const auto shift = node.Find("shift")) {
+      placement.world_from_model.translation = shift->Vector3();
+    }
   }
   if (node.Find("model_crs") || node.Find("survey_crs")) {
     placement.model_crs = node.At("model_crs").Text();
@@ -140,77 +146,37 @@ Placement PlacementOf(const SitePaths& site, const JsonNode& node, double metres
   return placement;
 }
 
-struct Centred {
-  Vector3d model = Vector3d::Zero(), survey = Vector3d::Zero();
-  double weight = 0;
-};
-
-Centred CentreOf(const std::vector<PointPair>& pairs) {
-  Centred centre;
-  for (const PointPair& pair : pairs) {
-    const double w = 1 / (pair.sigma * pair.sigma);
-    centre.model += w * pair.in_model;
-    centre.survey += w * pair.in_survey;
-    centre.weight += w;
+// Vertices are metres by now: PROJ would take them for what the system counts in.
+CoordinateSystem MetricSystem(const std::filesystem::path& file, const std::string& name) {
+  const auto system = CoordinateSystem::FromText(name);
+  if (!system) {
+    throw InputError(file, "PROJ does not know the coordinate system \"" + name +
+                               "\", expected one such as EPSG:2056");
   }
-  centre.model /= centre.weight;
-  centre.survey /= centre.weight;
-  return centre;
+  const bool is_metric = !system->is_geographic() &&
+                         std::abs(system->metres_per_unit() - 1) < 1e-12 &&
+                         std::abs(system->metres_per_height() - 1) < 1e-12;
+  if (is_metric) return *system;
+  throw InputError(file, "the coordinate system \"" + name +
+                             "\" is not in metres, heights included; expected a projected one in "
+                             "metres, such as EPSG:2056");
 }
 
-// Sigmas of rotation and scale about the centre: normal equations of small turns.
-void AddPrecision(const std::vector<PointPair>& pairs, const Vector3d& centre, bool adjust_scale,
-                  AdjustedSimilarity* result) {
-  Matrix3d normal = Matrix3d::Zero();
-  double scale_normal = 0;
-  for (const PointPair& pair : pairs) {
-    const double w = 1 / (pair.sigma * pair.sigma);
-    const Similarity& t = result->world_from_model;
-    const Vector3d arm = t.scale * (t.rotation * (pair.in_model - centre));
-    normal += w * (arm.squaredNorm() * Matrix3d::Identity() - arm * arm.transpose());
-    scale_normal += w * arm.squaredNorm() / (t.scale * t.scale);
+void Convert(const std::filesystem::path& file, const Placement& placement, ModelMesh* mesh) {
+  const CoordinateConversion convert(MetricSystem(file, placement.model_crs),
+                                     MetricSystem(file, placement.survey_crs));
+  for (Vector3d& vertex : mesh->vertices) {
+    const auto converted = convert.WithHeight(vertex);
+    if (!converted) {
+      throw InputError(file, "PROJ cannot take (" + std::to_string(vertex.x()) + ", " +
+                                 std::to_string(vertex.y()) + ") from " + placement.model_crs +
+                                 " to " + placement.survey_crs);
+    }
+    vertex = *converted;
   }
-  result->sigma_rotation = normal.inverse().diagonal().cwiseSqrt();
-  if (adjust_scale) result->sigma_scale = 1 / std::sqrt(scale_normal);
 }
 
 }  // namespace
-
-std::optional<AdjustedSimilarity> AdjustSimilarity(const std::vector<PointPair>& pairs,
-                                                   bool adjust_scale) {
-  if (pairs.size() < 3) return std::nullopt;
-  const Centred centre = CentreOf(pairs);
-  Matrix3d mixed = Matrix3d::Zero(), spread = Matrix3d::Zero();
-  double model_square = 0;
-  for (const PointPair& pair : pairs) {
-    const double w = 1 / (pair.sigma * pair.sigma);
-    const Vector3d a = pair.in_model - centre.model, b = pair.in_survey - centre.survey;
-    mixed += w * b * a.transpose();
-    spread += w * a * a.transpose();
-    model_square += w * a.squaredNorm();
-  }
-  const Eigen::SelfAdjointEigenSolver<Matrix3d> extent(spread);
-  if (!(extent.eigenvalues()[1] > 1e-8 * extent.eigenvalues()[2])) return std::nullopt;
-  const Eigen::JacobiSVD<Matrix3d> svd(mixed, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  Vector3d sign = Vector3d::Ones();
-  if (svd.matrixU().determinant() * svd.matrixV().determinant() < 0) sign.z() = -1;
-  AdjustedSimilarity result;
-  Similarity& t = result.world_from_model;
-  t.rotation = svd.matrixU() * sign.asDiagonal() * svd.matrixV().transpose();
-  result.free_scale = svd.singularValues().dot(sign) / model_square;
-  t.scale = adjust_scale ? result.free_scale : 1;
-  t.shift = centre.survey - t.scale * (t.rotation * centre.model);
-  double square = 0;
-  for (const PointPair& pair : pairs) {
-    result.residuals.push_back(pair.in_survey - t * pair.in_model);
-    square += result.residuals.back().squaredNorm() / (pair.sigma * pair.sigma);
-  }
-  result.redundancy = 3 * static_cast<int>(pairs.size()) - (adjust_scale ? 7 : 6);
-  result.sigma0 = std::sqrt(square / result.redundancy);
-  result.sigma_shift = Vector3d::Constant(1 / std::sqrt(centre.weight));
-  AddPrecision(pairs, centre.model, adjust_scale, &result);
-  return result;
-}
 
 Placement ReadPlacement(const SitePaths& site, const std::string& name, double metres_per_unit) {
   const std::filesystem::path path = PlacementPath(site);
@@ -225,7 +191,7 @@ Placement ReadPlacement(const SitePaths& site, const std::string& name, double m
 void Place(const SitePaths& site, const Placement& placement, double metres_per_unit,
            ModelMesh* mesh) {
   const double unit = placement.metres_per_unit.value_or(metres_per_unit) / metres_per_unit;
-  const Matrix3d& rotation = placement.world_from_model.rotation;
+  const Eigen::Quaterniond& rotation = placement.world_from_model.rotation;
   for (Vector3d& vertex : mesh->vertices) {
     vertex = placement.world_from_model * ZUp(placement.y_up, unit * vertex);
   }
@@ -233,9 +199,7 @@ void Place(const SitePaths& site, const Placement& placement, double metres_per_
     normal = (rotation * ZUp(placement.y_up, normal.cast<double>())).cast<float>();
   }
   if (placement.model_crs.empty()) return;
-  const CoordinateTransformation transformation(PlacementPath(site), placement.model_crs,
-                                                placement.survey_crs);
-  for (Vector3d& vertex : mesh->vertices) vertex = transformation.Apply(vertex);
+  Convert(PlacementPath(site), placement, mesh);
 }
 
 }  // namespace insitu

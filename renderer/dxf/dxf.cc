@@ -67,7 +67,7 @@ class Assembly {
 };
 
 DxfLayer Assembly::LayerNamed(const std::string& name) const {
-  const auto found = drawing_.layers.find(DxfKey(name));
+  const auto found = drawing_.layers.find(NameKey(name));
   return found == drawing_.layers.end() ? DxfLayer{} : found->second;
 }
 
@@ -76,7 +76,7 @@ std::optional<std::string> Assembly::WhyHidden(const std::string& layer) const {
   const std::string quoted = "layer \"" + layer + "\" is ";
   if (state.frozen) return quoted + "frozen";
   if (state.off) return quoted + "switched off";
-  if (state.no_plot || DxfKey(layer) == "DEFPOINTS") return quoted + "not to be plotted";
+  if (state.no_plot || NameKey(layer) == "DEFPOINTS") return quoted + "not to be plotted";
   return std::nullopt;
 }
 

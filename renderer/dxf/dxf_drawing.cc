@@ -6,6 +6,8 @@
 #include <cstdlib>
 
 #include "renderer/dxf/dxf_color.h"
+#include "renderer/dxf/dxf_entity_reader.h"
+#include "renderer/dxf/dxf_reader.h"
 #include "renderer/dxf/dxf_units.h"
 
 namespace insitu {
@@ -42,7 +44,7 @@ void ReadTableEntry(const DxfRecord& record, DxfDrawing* drawing) {
   if (const DxfTag* tag = record.Find(420)) {
     layer.rgb = LinearFromSrgb24(static_cast<uint32_t>(record.IntegerOf(*tag)) & 0xFFFFFF);
   }
-  drawing->layers[DxfKey(record.Name(2))] = layer;
+  drawing->layers[NameKey(record.Name(2))] = layer;
 }
 
 // Reads the records of one section, whose end must come.
@@ -78,7 +80,7 @@ class SectionReader {
       if (record.kind() == "BLOCK") BeginBlock(record);
     } else if (record.kind() == "ENDBLK") {
       block_entities_->Finish();
-      drawing_->blocks[DxfKey(block_->name)] = std::move(*block_);
+      drawing_->blocks[NameKey(block_->name)] = std::move(*block_);
       block_entities_.reset();
       block_.reset();
     } else {
@@ -162,16 +164,8 @@ class InsertCheck {
 
 }  // namespace
 
-std::string DxfKey(const std::string& name) {
-  std::string key = name;
-  for (char& c : key) {
-    if (c >= 'a' && c <= 'z') c = static_cast<char>(c - 'a' + 'A');
-  }
-  return key;
-}
-
 const DxfBlock& InsertedBlock(const DxfDrawing& drawing, const DxfInsert& insert) {
-  const auto found = drawing.blocks.find(DxfKey(insert.block));
+  const auto found = drawing.blocks.find(NameKey(insert.block));
   if (found == drawing.blocks.end()) {
     throw insert.place.Error("INSERT of block \"" + insert.block +
                              "\", which the drawing does not define");

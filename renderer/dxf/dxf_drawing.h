@@ -22,13 +22,10 @@ struct DxfDrawing {
   std::string version;  // $ACADVER, "AC1032"; empty: not named
   bool binary = false;
   std::optional<double> metres_per_unit;   // nullopt: the drawing names none
-  std::map<std::string, DxfLayer> layers;  // by DxfKey; those of the layer table
-  std::map<std::string, DxfBlock> blocks;  // by DxfKey
+  std::map<std::string, DxfLayer> layers;  // by NameKey; those of the layer table
+  std::map<std::string, DxfBlock> blocks;  // by NameKey
   DxfBlock model_space;
 };
-
-// Names of layers and blocks that differ in case alone mean the same: their common key.
-std::string DxfKey(const std::string& name);
 
 // The block that an INSERT names. Throws InputError: the drawing does not define it.
 const DxfBlock& InsertedBlock(const DxfDrawing& drawing, const DxfInsert& insert);

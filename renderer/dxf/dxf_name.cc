@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Names of layers and blocks, from the drawing's code page to UTF-8.
+#include "renderer/dxf/dxf_name.h"
+
 #include <iconv.h>
 
 #include <charconv>
 #include <cstdint>
 #include <map>
-
-#include "renderer/dxf/dxf_record.h"
+#include <optional>
 
 namespace insitu {
 namespace {

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A DXF file, ASCII or binary, cut into records.
+#include "renderer/dxf/dxf_reader.h"
+
 #include <charconv>
 #include <cstring>
 
-#include "renderer/dxf/dxf_record.h"
+#include "calibration/files/error.h"
+#include "calibration/files/wording.h"
 
 namespace insitu {
 namespace {
@@ -90,7 +92,7 @@ void DxfReader::CheckItsEnd() {
   const std::string_view begin = std::string_view(buffer_).substr(next_);
   const std::string_view first = Trimmed(begin.substr(0, begin.find('\n')));
   if (!begin.empty() && begin.find('\n') != begin.npos && !GroupCode(first)) {
-    throw InputError(path_, 1, QuotedDxf(first) + ", expected a DXF group code (an integer)");
+    throw InputError(path_, 1, Quoted(first) + ", expected a DXF group code (an integer)");
   }
   std::ifstream file(path_, std::ios::binary);
   const auto size = static_cast<int64_t>(std::filesystem::file_size(path_));
@@ -160,7 +162,7 @@ DxfReader::RawTag DxfReader::ReadTag() {
   const std::optional<int> code = GroupCode(code_line);
   if (!code) {
     throw InputError(path_, static_cast<int>(line_),
-                     QuotedDxf(code_line) + ", expected a DXF group code (an integer)");
+                     Quoted(code_line) + ", expected a DXF group code (an integer)");
   }
   const std::string_view value = ReadLine();
   return {*code, value, line_};

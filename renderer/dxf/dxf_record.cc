@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "renderer/dxf/dxf_record.h"
 
+#include <Eigen/Geometry>
 #include <charconv>
 #include <cmath>
+
+#include "calibration/files/wording.h"
+#include "renderer/dxf/dxf_name.h"
 
 namespace insitu {
 namespace {
@@ -19,13 +23,6 @@ std::optional<T> Parsed(std::string_view text) {
 }
 
 }  // namespace
-
-std::string QuotedDxf(std::string_view text) {
-  constexpr size_t kLongest = 40;
-  std::string quoted = "\"";
-  for (const char c : text.substr(0, kLongest)) quoted += (c >= ' ' && c <= '~') ? c : '?';
-  return quoted + (text.size() > kLongest ? "...\"" : "\"");
-}
 
 InputError DxfPlace::Error(const std::string& message) const {
   if (binary) return InputError(file, "byte " + std::to_string(place) + ": " + message);
@@ -80,7 +77,7 @@ int DxfRecord::IntegerOf(const DxfTag& tag) const {
   const std::optional<int> value = Parsed<int>(tag.value);
   if (!value) {
     throw ErrorAt(
-        tag, QuotedDxf(tag.value) + ", expected an integer for group " + std::to_string(tag.code));
+        tag, Quoted(tag.value) + ", expected an integer for group " + std::to_string(tag.code));
   }
   return *value;
 }
@@ -88,7 +85,7 @@ int DxfRecord::IntegerOf(const DxfTag& tag) const {
 double DxfRecord::NumberOf(const DxfTag& tag) const {
   const std::optional<double> value = Parsed<double>(tag.value);
   if (!value || !(std::abs(*value) <= kLargestNumber)) {
-    throw ErrorAt(tag, QuotedDxf(tag.value) + ", expected a number of at most 1e12 for group " +
+    throw ErrorAt(tag, Quoted(tag.value) + ", expected a number of at most 1e12 for group " +
                            std::to_string(tag.code));
   }
   return *value;
@@ -100,6 +97,21 @@ InputError DxfRecord::Error(const std::string& message) const {
 
 InputError DxfRecord::ErrorAt(const DxfTag& tag, const std::string& message) const {
   return DxfPlace{*file_, binary_, tag.place}.Error(message);
+}
+
+Eigen::Matrix3d DxfEntityAxes(const DxfRecord& entity) {
+  const std::optional<Eigen::Vector3d> extrusion = entity.FindPoint(210);
+  if (!extrusion) return Eigen::Matrix3d::Identity();
+  if (extrusion->norm() == 0) {
+    throw entity.ErrorAt(*entity.Find(210), "an extrusion direction of no length");
+  }
+  const Eigen::Vector3d z = extrusion->normalized();
+  const bool near_world_z = std::abs(z.x()) < 1.0 / 64 && std::abs(z.y()) < 1.0 / 64;
+  const Eigen::Vector3d x =
+      (near_world_z ? Eigen::Vector3d::UnitY() : Eigen::Vector3d::UnitZ()).cross(z).normalized();
+  Eigen::Matrix3d axes;
+  axes << x, z.cross(x), z;
+  return axes;
 }
 
 }  // namespace insitu

@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// DXF as pairs of group code and value, gathered into records that begin with code 0. ASCII and
-// binary files are read alike, a record at a time, so that a drawing of any size takes little
-// memory.
+// DXF as pairs of group code and value, gathered into records that begin with code 0.
 #pragma once
 
 #include <Eigen/Core>
 #include <cstdint>
 #include <filesystem>
-#include <fstream>
 #include <optional>
 #include <span>
 #include <string>
@@ -66,60 +63,8 @@ class DxfRecord {
   std::vector<DxfTag> tags_;
 };
 
-// Reads records up to and including EOF. Comments (999) are left out.
-class DxfReader {
- public:
-  // Throws InputError: unreadable, a DWG or no DXF at all, an ASCII file without an EOF at its end.
-  explicit DxfReader(const std::filesystem::path& path);
-  DxfReader(const DxfReader&) = delete;
-  DxfReader& operator=(const DxfReader&) = delete;
-
-  // The next record, valid until the next call; nullptr after EOF. Throws InputError: a group code
-  // that is no number, a file that ends without EOF.
-  const DxfRecord* Next();
-
-  bool binary() const { return binary_; }
-  // Of names in drawings before 2007 ($DWGCODEPAGE), e.g. "ANSI_1252".
-  void SetCodePage(const std::string& code_page) { code_page_ = code_page; }
-
- private:
-  struct RawTag {
-    int code;
-    std::string_view value;  // until the next read
-    int64_t place;
-  };
-  RawTag ReadTag();
-  RawTag ReadBinaryTag();
-  void AppendBinaryValue(int code, std::string* text);
-  std::string_view ReadLine();  // blanks trimmed
-  bool Refill();
-  std::string_view Take(size_t count);
-  template <typename T>
-  T TakeNumber();
-  void CheckItsEnd();
-  [[noreturn]] void ThrowCutShort();
-  void AddTag(const RawTag& tag);
-  void FinishRecord();
-
-  std::filesystem::path path_;
-  std::ifstream stream_;
-  std::string buffer_;
-  size_t next_ = 0;       // in the buffer
-  int64_t consumed_ = 0;  // bytes before the buffer
-  int64_t line_ = 0;
-  bool binary_ = false, long_codes_ = true, at_eof_ = false;
-  std::string code_page_, written_, first_value_;
-  int64_t first_place_ = 0;
-  bool has_first_ = false;
-  DxfRecord record_;
-  std::vector<size_t> offsets_;  // of the record's values in its text
-};
-
-// Text for a message: short, in quotes, and printable whatever the file holds.
-std::string QuotedDxf(std::string_view text);
-
-// A name as UTF-8. Bytes that are no UTF-8 are read in the drawing's code page (ANSI_1250 to 1258,
-// 874, 932, 936, 949, 950; else Windows-1252); \U+XXXX becomes its character in any drawing.
-std::string Utf8FromDxf(std::string_view text, const std::string& code_page = "ANSI_1252");
+// The axes of an entity's own coordinate system, as columns, from its extrusion direction (group
+// 210; z if absent), by AutoCAD's arbitrary axis algorithm. Throws InputError: a zero direction.
+Eigen::Matrix3d DxfEntityAxes(const DxfRecord& entity);
 
 }  // namespace insitu

@@ -18,9 +18,14 @@
 #include <utility>
 
 #include "calibration/files/error.h"
+#include "calibration/files/json_file.h"
+#include "calibration/files/xml_file.h"
 #include "calibration/photo/photograph.h"
+#include "renderer/formats/cut_short.h"
+#include "renderer/formats/ifc_syntax.h"
 #include "renderer/formats/isolated.h"
-#include "renderer/formats/model_syntax.h"
+#include "renderer/formats/ply_syntax.h"
+#include "renderer/formats/stl_syntax.h"
 #include "renderer/mesh/face_triangles.h"
 
 namespace insitu {
@@ -245,15 +250,18 @@ class SceneReader {
   bool has_uvs_ = false, has_normals_ = false;
 };
 
+bool IsGlb(const fs::path& path) {
+  char magic[4] = {};
+  std::ifstream(path, std::ios::binary).read(magic, sizeof(magic));
+  return std::string_view(magic, sizeof(magic)) == "glTF";
+}
+
 const char* EndingFor(ModelFormat format, const fs::path& path) {
   if (format == ModelFormat::kIfc) return ".ifc";
   if (format == ModelFormat::kCollada) return ".dae";
   if (format == ModelFormat::kPly) return ".ply";
   if (format == ModelFormat::kStl) return ".stl";
-  std::ifstream file(path, std::ios::binary);
-  char magic[4] = {};
-  file.read(magic, sizeof(magic));
-  return std::string_view(magic, 4) == "glTF" ? ".glb" : ".gltf";
+  return IsGlb(path) ? ".glb" : ".gltf";
 }
 
 // Assimp goes by the ending; a file that ends otherwise is shown to it under another name.
@@ -308,10 +316,42 @@ int SecondsFor(const fs::path& path) {
       std::min(kMost, kLeast + kPerByte * static_cast<double>(fs::file_size(path))));
 }
 
+void CheckGlb(const fs::path& path) {
+  uint32_t head[3] = {};  // "glTF", version, length
+  std::ifstream(path, std::ios::binary).read(reinterpret_cast<char*>(head), sizeof(head));
+  if (head[1] != 2) {
+    throw InputError(path, "is binary glTF of version " + std::to_string(head[1]) + ", expected 2");
+  }
+  RequireLength(path, head[2]);
+}
+
+// Faults that Assimp passes over in silence, or tells no line of.
+void CheckSyntax(const fs::path& path, ModelFormat format) {
+  if (format == ModelFormat::kIfc) {
+    CheckIfcSchema(path);
+    RequireEnding(path, "END-ISO-10303-21");
+    CheckIfcStatements(path);
+  }
+  if (format == ModelFormat::kStl) CheckStl(path);
+  if (format == ModelFormat::kPly) CheckPly(path);
+  if (format == ModelFormat::kGltf && IsGlb(path)) CheckGlb(path);
+}
+
+// After Assimp has failed: throws InputError at the line if glTF is no JSON or COLLADA no XML.
+void ExplainFailure(const fs::path& path, ModelFormat format) {
+  if (format == ModelFormat::kGltf && !IsGlb(path)) ReadJson(path);
+  if (format == ModelFormat::kCollada) XmlNode::Load(path);
+}
+
+int64_t FacesOf(const Model& model) {
+  const auto faces = model.entities.find("face");
+  return faces == model.entities.end() ? 0 : faces->second;
+}
+
 }  // namespace
 
 Model ReadWithAssimp(const fs::path& path, ModelFormat format, int seconds) {
-  CheckModelSyntax(path, format);
+  CheckSyntax(path, format);
   const IsolationLimits limits{.seconds = std::min(seconds, SecondsFor(path))};
   IsolatedModel isolated = ReadIsolated([&] { return ReadHere(path, format); }, limits);
   if (!isolated.model) {
@@ -321,7 +361,7 @@ Model ReadWithAssimp(const fs::path& path, ModelFormat format, int seconds) {
     if (failure.starts_with(prefix)) failure.erase(0, prefix.size());
     throw InputError(path, failure + " (" + NameOf(format) + ", read by Assimp)");
   }
-  CheckModelWhole(path, format, *isolated.model);
+  if (format == ModelFormat::kPly) RequirePlyFaces(path, FacesOf(*isolated.model));
   isolated.model->format = NameOf(format);
   // IFC, glTF and COLLADA name their unit or define it; Assimp has turned it into metres.
   const bool has_unit = format != ModelFormat::kPly && format != ModelFormat::kStl;

@@ -8,7 +8,7 @@
 #include <string>
 
 #include "calibration/files/error.h"
-#include "renderer/dxf/dxf_record.h"
+#include "calibration/files/wording.h"
 
 namespace insitu {
 namespace {
@@ -120,7 +120,7 @@ void CheckIfcStatements(const std::filesystem::path& path) {
       in_data = text == "DATA";
     } else if (!IsInstance(text)) {
       throw InputError(path, statements.line(),
-                       QuotedDxf(text) + ", expected an instance such as #12=IFCWALL(...)");
+                       Quoted(text) + ", expected an instance such as #12=IFCWALL(...)");
     }
   }
 }

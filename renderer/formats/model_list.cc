@@ -5,7 +5,7 @@
 #include <map>
 
 #include "calibration/files/error.h"
-#include "renderer/formats/model_file.h"
+#include "renderer/formats/model_format.h"
 
 namespace insitu {
 namespace {

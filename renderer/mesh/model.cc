@@ -70,6 +70,14 @@ class Renumbering {
 
 }  // namespace
 
+std::string NameKey(const std::string& name) {
+  std::string key = name;
+  for (char& c : key) {
+    if (c >= 'a' && c <= 'z') c = static_cast<char>(c - 'a' + 'A');
+  }
+  return key;
+}
+
 int SurfaceIndex::IndexOf(const SurfaceNames& names) {
   const auto [found, is_new] =
       index_of_key_.try_emplace(KeyOf(names), static_cast<int>(surfaces_->size()));

@@ -26,6 +26,9 @@ struct SurfaceNames {
   bool operator==(const SurfaceNames&) const = default;
 };
 
+// Names that differ in case alone mean the same, as in a drawing: their common key.
+std::string NameKey(const std::string& name);
+
 struct ModelMesh {
   std::vector<SurfaceNames> surfaces;
   std::vector<Eigen::Vector3d> vertices;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Both environments made ready for rays: two Embree scenes about one local origin, materials as
-// spectra, sky facets, and the input images that natural surfaces take their colour from.
+// What rays meet: two Embree scenes about one local origin, materials as spectra, sky facets, and
+// the input images that natural surfaces take their colour from.
 #pragma once
 
 #include <Eigen/Core>
@@ -74,10 +74,5 @@ struct MontageScene {
     return {natural.scene, natural_rays, polygon_of_triangle, images, natural.air, natural.spectra};
   }
 };
-
-// `artificial` may be empty: the site as it is. `images` are the input images, in the order of
-// natural.scene.cameras, as are the pinhole cameras that see them.
-MontageScene MakeMontageScene(NaturalEnvironment natural, const ArtificialEnvironment& artificial,
-                              const std::vector<Camera>& pinholes, std::vector<Raster> images);
 
 }  // namespace insitu

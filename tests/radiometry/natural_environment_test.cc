@@ -5,21 +5,12 @@
 
 #include "calibration/files/error.h"
 #include "calibration/files/whole_file.h"
+#include "radiometry/light_report.h"
+#include "radiometry/measure_daylight.h"
 #include "tests/radiometry/measure/synthetic_site.h"
 
 namespace insitu {
 namespace {
-
-double RelativeError(const Eigen::Vector3d& value, const Eigen::Vector3d& truth) {
-  return (value.array() / truth.array() - 1).abs().maxCoeff();
-}
-
-bool HasWarning(const LightMeasurement& measured, const std::string& part) {
-  for (const std::string& warning : measured.warnings) {
-    if (warning.find(part) != std::string::npos) return true;
-  }
-  return false;
-}
 
 void Replace(const std::filesystem::path& path, const std::string& from, const std::string& to) {
   std::string text = ReadWhole(path);
@@ -39,68 +30,6 @@ std::string ErrorOf(Function function) {
 
 class BinsTest : public testing::TestWithParam<int> {};
 INSTANTIATE_TEST_SUITE_P(Counts, BinsTest, testing::Values(9, 16));
-
-TEST_P(BinsTest, MeasureDaylightFindsTheTruth) {
-  const SyntheticSite truth = MakeSyntheticSite("measure_" + std::to_string(GetParam()));
-  LightOptions options;
-  options.bins = GetParam();
-  options.polar_facets = 24;
-  options.uniform_ambient = true;  // as the site has it
-  const LightMeasurement measured = MeasureDaylight(truth.site, options);
-  const SpectralBasis& spectra = measured.environment.spectra;
-  const Daylight& light = measured.environment.light;
-  const Eigen::Vector3d tau = truth.transmittance.array().pow(200);
-  EXPECT_LT((measured.TransmittanceRgb(200) - tau).cwiseAbs().maxCoeff(), 0.005);
-  EXPECT_LT(RelativeError(measured.SunIrradianceRgb(), truth.sun_irradiance), 0.01);
-  EXPECT_LT(RelativeError(spectra.RgbFromSpectrum(light.sky_radiance), truth.sky_radiance), 0.04);
-  EXPECT_LT(RelativeError(measured.OpenSkyRgb(), truth.sky_radiance + truth.ambient_radiance),
-            0.03);
-  EXPECT_LT(measured.daylight_fit.rms, 0.5);
-}
-
-TEST(MeasureDaylight, PolygonsThatLieOnEachOtherDoNotShadeEachOther) {
-  const SyntheticSite truth = MakeSyntheticSite("coplanar");
-  LightOptions options;
-  options.uniform_ambient = true;
-  const LightMeasurement measured = MeasureDaylight(truth.site, options);
-  EXPECT_LT(std::abs(measured.daylight_fit.residuals[6]), 0.02);  // below the path, in full sun
-}
-
-TEST(MeasureDaylight, WarnsOfWhatIsMissing) {
-  const SyntheticSite truth = MakeSyntheticSite("warnings");
-  const std::filesystem::path samples = truth.site.survey() / "samples.json";
-  Replace(samples, "\"haze\"", "\"no_haze\"");
-  Replace(samples, "daylight_reflectance_rgb", "note");
-  const LightMeasurement measured = MeasureDaylight(truth.site);
-  EXPECT_TRUE(HasWarning(measured, "air is taken as clear"));
-  EXPECT_TRUE((measured.environment.air.transmittance == 1).all());
-  EXPECT_TRUE(HasWarning(measured, "daylight_reflectance_rgb"));
-  EXPECT_FALSE(measured.reflectance_known);
-  EXPECT_TRUE(HasWarning(measured, "concrete, gravel"));
-  EXPECT_EQ(measured.environment.materials.size(), 2u);
-}
-
-TEST(MeasureDaylight, WithoutSunDirectionTheSkyIsOvercast) {
-  SyntheticSite truth = MakeSyntheticSite("overcast");
-  truth.scene.sun.reset();
-  WriteSceneGeometry(truth.site, truth.scene);
-  const LightMeasurement measured = MeasureDaylight(truth.site);
-  EXPECT_TRUE((measured.environment.light.sun_radiance == 0).all());
-  EXPECT_TRUE(HasWarning(measured, "overcast"));
-}
-
-TEST(MeasureDaylight, RefusesPhotographsThatDoNotFit) {
-  const SyntheticSite truth = MakeSyntheticSite("photos");
-  WriteExr(truth.site.photos() / "B.exr", Raster(90, 60));
-  EXPECT_NE(ErrorOf([&] { MeasureDaylight(truth.site); })
-                .find("B.exr: is 90 x 60 pixels, expected "
-                      "900 x 600"),
-            std::string::npos);
-  std::filesystem::remove(truth.site.photos() / "B.exr");
-  EXPECT_NE(ErrorOf([&] { MeasureDaylight(truth.site); }).find("no photograph \"B\""),
-            std::string::npos);
-  EXPECT_FALSE(std::filesystem::exists(truth.site.environment()));
-}
 
 void ExpectSameScene(const SceneGeometry& a, const SceneGeometry& b) {
   EXPECT_EQ(a.origin, b.origin);
@@ -158,14 +87,6 @@ TEST_P(BinsTest, EnvironmentReturnsToTheLastBit) {
   EXPECT_FALSE(b.materials.at("concrete").specular);
 }
 
-TEST(WriteEnvironment, SameInputSameBytes) {
-  const SyntheticSite truth = MakeSyntheticSite("bytes");
-  WriteEnvironment(truth.site, MeasureDaylight(truth.site));
-  const std::string first = ReadWhole(truth.site.environment());
-  WriteEnvironment(truth.site, MeasureDaylight(truth.site));
-  EXPECT_EQ(ReadWhole(truth.site.environment()), first);
-}
-
 TEST(ReadEnvironment, FaultsNameFileAndLine) {
   const SyntheticSite truth = MakeSyntheticSite("bad_environment");
   const LightMeasurement measured = MeasureDaylight(truth.site);
@@ -183,13 +104,6 @@ TEST(ReadEnvironment, FaultsNameFileAndLine) {
   const std::string missing = error_after("\"gravel\" :", "\"grave\" :");
   EXPECT_NE(missing.find("lacks \"gravel\""), std::string::npos) << missing;
   EXPECT_NE(missing.find("environment.json:"), std::string::npos) << missing;
-}
-
-TEST(BriefReport, SaysWhatWasFound) {
-  const SyntheticSite truth = MakeSyntheticSite("report");
-  const std::string report = MeasureDaylight(truth.site).BriefReport();
-  EXPECT_NE(report.find("over 200 m, 6 samples"), std::string::npos) << report;
-  EXPECT_NE(report.find("Warning: materials without an entry"), std::string::npos) << report;
 }
 
 }  // namespace

@@ -9,10 +9,13 @@
 #include "calibration/files/error.h"
 #include "tests/calibration/files/scratch_folder.h"
 #include "tests/renderer/dxf/dxf_text.h"
+#include "tests/renderer/formats/model_texts.h"
 
 namespace insitu {
 namespace {
 
+using Eigen::Vector3d;
+using testing::Contains;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
@@ -58,7 +61,6 @@ class Convert : public testing::Test {
     return Complaint();
   }
 
- private:
   ScratchFolder folder_;
 };
 
@@ -201,6 +203,35 @@ TEST_F(Convert, RoughnessTransmissionAndTextureAreKept) {
   EXPECT_EQ(building.materials[0].texture, "brick.png");
   EXPECT_THAT(NotShown(building),
               ElementsAre(HasSubstr("texture"), HasSubstr("rough"), HasSubstr("transmission")));
+}
+
+TEST_F(Convert, MissingTextureIsRefusedUnlessTheMaterialIsListed) {
+  Write("house.obj", kObj);
+  Write("house.mtl", "newmtl BRICK\nKd 1 1 1\nmap_Kd brick.png\n");
+  EXPECT_THAT(Complaint(), HasSubstr("house.mtl:3: names the texture"));
+  EXPECT_THAT(Complaint(), HasSubstr("brick.png, which is not there"));
+  Write("materials.json", R"({"materials": {"BRICK": {"diffuse_rgb": [1, 0, 0]}}})");
+  EXPECT_EQ(Converted().environment.triangles.size(), 3u);
+}
+
+// As GLB and glTF mostly come: a red image inside the file.
+TEST_F(Convert, TexturesInsideTheModelBecomeFiles) {
+  std::string text = kGltf;
+  const auto replace = [&text](const std::string& what, const std::string& with) {
+    text.replace(text.find(what), what.size(), with);
+  };
+  replace("\"baseColorFactor\": [0.5, 0, 0, 1]", "\"baseColorTexture\": {\"index\": 0}");
+  replace("\"meshes\"", R"("textures": [{"source": 0}], "images": [{"mimeType": "image/png", "uri":
+      "data:image/png;base64,iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAIAAACQd1PeAAAADElEQVR4nGP4z8AAAAMBAQDJ/pLvAAAAAElFTkSuQmCC"
+      }], "meshes")");
+  Write("wall.gltf", text);
+  const SurfaceMaterial material = Converted().environment.materials.at(0);
+  EXPECT_EQ(material.texture, "../work/building_textures/wall.gltf_0.png");
+  EXPECT_TRUE(std::filesystem::is_regular_file(folder_.path() / "building" / material.texture));
+  EXPECT_NEAR((material.diffuse_rgb - Vector3d(1, 0, 0)).norm(), 0, 1e-6);
+  replace("iVBORw0KGgo", "AAAAAAAAAAA");
+  Write("wall.gltf", text);
+  EXPECT_THAT(Converted().warnings, Contains(HasSubstr("neither PNG nor JPEG")));
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "calibration/photo/photograph.h"
 #include "tests/radiometry/measure/synthetic_site.h"
 
 namespace insitu {

@@ -10,6 +10,7 @@
 
 #include "calibration/files/error.h"
 #include "calibration/files/whole_file.h"
+#include "calibration/photo/photograph.h"
 
 namespace insitu {
 namespace {

@@ -6,7 +6,8 @@
 #include <Eigen/Core>
 #include <string>
 
-#include "radiometry/natural_environment.h"
+#include "calibration/program/site.h"
+#include "reconstruction/geometry/scene_geometry.h"
 
 namespace insitu {
 

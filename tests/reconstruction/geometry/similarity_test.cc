@@ -140,6 +140,93 @@ TEST(FitSimilarity, TakesABlunderForNoMirrorImage) {
   }
 }
 
+Similarity3 SomeSimilarity(double scale) {
+  Similarity3 t;
+  t.scale = scale;
+  t.rotation = Eigen::AngleAxisd(0.7, Eigen::Vector3d(0.1, -0.2, 1).normalized());
+  t.translation = {2600100, 1200200, 430};
+  return t;
+}
+
+std::vector<SimilarityPair> BuildingPairs(const Similarity3& t, double noise, unsigned seed) {
+  std::mt19937 random(seed);
+  std::normal_distribution<double> normal(0, 1);
+  std::vector<SimilarityPair> pairs;
+  for (const Eigen::Vector3d& p :
+       {Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(20, 0, 0), Eigen::Vector3d(20, 12, 0),
+        Eigen::Vector3d(0, 12, 3), Eigen::Vector3d(10, 6, 9)}) {
+    const double sigma = 0.01 * (1 + static_cast<double>(pairs.size()));
+    SimilarityPair pair{p, t * p, Eigen::Vector3d::Constant(sigma)};
+    for (double& x : pair.target) x += noise * sigma * normal(random);
+    pairs.push_back(pair);
+  }
+  return pairs;
+}
+
+TEST(AdjustSimilarity, ExactPairsGiveTheTransformationBack) {
+  for (const bool free : {false, true}) {
+    const Similarity3 truth = SomeSimilarity(free ? 0.9 : 1);
+    const auto result = AdjustSimilarity(BuildingPairs(truth, 0, 1), free);
+    ASSERT_TRUE(result);
+    EXPECT_NEAR(result->target_from_source.scale, truth.scale, 1e-9);
+    EXPECT_NEAR(result->target_from_source.rotation.angularDistance(truth.rotation), 0, 1e-9);
+    for (const SimilarityPair& pair : BuildingPairs(truth, 0, 1)) {
+      EXPECT_NEAR((result->target_from_source * pair.source - pair.target).norm(), 0, 1e-8);
+    }
+    EXPECT_EQ(result->redundancy, free ? 8 : 9);
+  }
+}
+
+// Over many samples the mean of sigma0^2 is 1, and errors are as large as their sigmas say.
+TEST(AdjustSimilarity, SigmasTellTheTruth) {
+  const Similarity3 truth = SomeSimilarity(1);
+  constexpr int kSamples = 400;
+  double sigma0_square = 0;
+  Eigen::Vector3d turn_square = Eigen::Vector3d::Zero(), sigma = Eigen::Vector3d::Zero();
+  for (unsigned seed = 1; seed <= kSamples; ++seed) {
+    const auto result = AdjustSimilarity(BuildingPairs(truth, 1, seed), false);
+    sigma0_square += result->sigma0 * result->sigma0 / kSamples;
+    const Eigen::AngleAxisd turn(result->target_from_source.rotation * truth.rotation.conjugate());
+    turn_square += (turn.angle() * turn.axis()).cwiseAbs2() / kSamples;
+    sigma = result->covariance.diagonal().head<3>().cwiseSqrt();
+  }
+  EXPECT_NEAR(sigma0_square, 1, 0.1);
+  for (int axis = 0; axis < 3; ++axis) {
+    EXPECT_NEAR(std::sqrt(turn_square[axis]) / sigma[axis], 1, 0.12) << axis;
+  }
+}
+
+TEST(AdjustSimilarity, NeedsThreePairsOffALine) {
+  std::vector<SimilarityPair> pairs = BuildingPairs(SomeSimilarity(1), 0, 1);
+  pairs.resize(2);
+  EXPECT_FALSE(AdjustSimilarity(pairs, false));
+  pairs.push_back(pairs[0]);
+  pairs.back().source = {40, 0, 0};
+  EXPECT_FALSE(AdjustSimilarity(pairs, false));
+}
+
+// The robust fit and the closed form meet where nothing is wrong: alike sigmas, a free scale.
+TEST(AdjustSimilarity, AgreesWithTheRobustFit) {
+  const auto pairs = BuildingPairs(SomeSimilarity(0.9), 1, 5);
+  const auto closed = AdjustSimilarity(pairs, true);
+  const auto robust = FitSimilarity(pairs, {.limit_sigma = 20});
+  ASSERT_TRUE(closed && robust);
+  EXPECT_NEAR(closed->target_from_source.scale, robust->target_from_source.scale, 1e-9);
+  EXPECT_NEAR(closed->free_scale, closed->target_from_source.scale, 1e-15);
+  for (size_t i = 0; i < pairs.size(); ++i) {
+    EXPECT_NEAR((closed->residuals[i] - robust->residuals[i]).norm(), 0, 1e-8) << i;
+  }
+  EXPECT_NEAR(closed->sigma0, robust->sigma0, 1e-9);
+  EXPECT_NEAR(closed->covariance(6, 6) / robust->covariance(6, 6), 1, 1e-6);
+  EXPECT_EQ(AdjustSimilarity(pairs, false)->covariance(6, 6), 0);
+}
+
+TEST(AdjustSimilarity, RefusesSigmasThatDifferByAxis) {
+  auto pairs = BuildingPairs(SomeSimilarity(1), 0, 1);
+  pairs[2].sigma.z() *= 2;
+  EXPECT_THROW(AdjustSimilarity(pairs, false), CheckError);
+}
+
 TEST(FitSimilarity, NamesTheOptionThatIsWrong) {
   const auto fault = [](const SimilarityOptions& options) {
     try {

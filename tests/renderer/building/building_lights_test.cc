@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Lamps, spectra and materials by their closed forms.
+// Lamps by their closed forms.
 #include "renderer/building/building_lights.h"
 
 #include <gmock/gmock.h>
@@ -8,13 +8,8 @@
 #include <numbers>
 
 #include "calibration/files/error.h"
-#include "radiometry/spectrum/color.h"
-#include "renderer/building/building_materials.h"
 #include "renderer/building/ies.h"
-#include "renderer/building/spectral_table.h"
-#include "renderer/trace/light_split.h"
 #include "tests/calibration/files/scratch_folder.h"
-#include "tests/renderer/trace/small_site.h"
 
 namespace insitu {
 namespace {
@@ -131,106 +126,6 @@ TEST_F(Lights, BadInput) {
               HasSubstr("is negative"));
   EXPECT_THAT(Complaint(start + R"("spectrum": "A", "ies": "none.ies"})"),
               HasSubstr("which is not there"));
-}
-
-// Below a lamp 2 m up, straight down 8 / 2^2, and nothing where its cone does not reach.
-TEST(LampIrradiance, FollowsTheDistribution) {
-  const SmallSite site = MakeSmallSite();
-  ArtificialEnvironment building;
-  PointLight spot{"spot", site.natural.scene.origin + Vector3d(0, 0, 2 + kSurveyClearance),
-                  Vector3d::Constant(8)};
-  Eigen::Matrix3d axes;
-  axes << 1, 0, 0, 0, 1, 0, 0, 0, -1;
-  spot.distribution = LightDistribution{axes, {0, 30, 31}, {0}, {0.5, 0.5, 0}};
-  building.lights = {spot};
-  const MontageScene scene = site.With(building);
-  const SurfacePoint below{{0, 0, 0}, {0, 0, 1}}, aside{{3, 0, 0}, {0, 0, 1}};
-  EXPECT_NEAR(scene.natural.spectra.RgbFromSpectrum(LampIrradiance(scene, below)).x(), 1, 1e-9);
-  EXPECT_TRUE((LampIrradiance(scene, aside) == 0).all());
-}
-
-TEST(SpectralTable, KnownChromaticities) {
-  const auto xy = [](const SpectralTable& table) {
-    return Eigen::Vector2d(Chromaticity(Tristimulus(Sampled(table, {}), {})).head<2>());
-  };
-  EXPECT_NEAR((xy(IlluminantATable()) - Eigen::Vector2d(0.44758, 0.40745)).norm(), 0, 1e-3);
-  EXPECT_NEAR((xy(D65Table()) - Eigen::Vector2d(0.31271, 0.32902)).norm(), 0, 2e-3);
-  EXPECT_NEAR((xy(BlackbodyTable(6500)) - Eigen::Vector2d(0.3135, 0.3237)).norm(), 0, 1e-3);
-  EXPECT_NEAR((ColorOfReflectance({{380, 0.4}, {780, 0.4}}) - Vector3d::Constant(0.4)).norm(), 0,
-              2e-3);
-  EXPECT_NEAR(Sampled({{380, 0}, {780, 400}}, {})[0], 12.5, 1e-9);  // the middle of 25 nm
-}
-
-// CIELAB of the sRGB primaries, from Lindbloom's calculator: D65 as is, D50 adapted by Bradford.
-TEST(LinearFromLab, OfPublishedColors) {
-  EXPECT_NEAR((LinearFromLab({100, 0, 0}, false) - Vector3d(1, 1, 1)).norm(), 0, 2e-3);
-  EXPECT_NEAR((LinearFromLab({100, 0, 0}, true) - Vector3d(1, 1, 1)).norm(), 0, 2e-3);
-  EXPECT_NEAR((LinearFromLab({53.2408, 80.0925, 67.2032}, false) - Vector3d(1, 0, 0)).norm(), 0,
-              3e-3);
-  EXPECT_NEAR((LinearFromLab({54.2917, 80.8125, 69.8851}, true) - Vector3d(1, 0, 0)).norm(), 0,
-              3e-3);
-}
-
-class Materials : public testing::Test {
- protected:
-  BuildingMaterials Read(const std::string& text) {
-    return BuildingMaterials::Read(folder_.Write("materials.json", text));
-  }
-  std::string Complaint(const std::string& text) {
-    try {
-      Read(text);
-    } catch (const InputError& error) {
-      return error.what();
-    }
-    return "";
-  }
-  ScratchFolder folder_;
-};
-
-SurfaceNames Names(const std::string& layer, const std::string& block = "",
-                   const std::string& material = "") {
-  return {layer, block, material, std::nullopt, 1, "", ""};
-}
-
-TEST_F(Materials, MaterialGoesBeforeBlockBeforeLayer) {
-  BuildingMaterials materials = Read(R"({
-    "library": {"oak": {"diffuse_rgb": [0.3, 0.2, 0.1]}},
-    "materials": {"Glas": {"diffuse_rgb": [0, 0, 0]}},
-    "blocks": {"DOOR": {"use": "oak"}},
-    "layers": {"IfcWindow*": {"diffuse_srgb": [255, 255, 255]}, "Ifc*": {"hidden": true},
-               "WALL": {"diffuse_lab": [100, 0, 0]}, "Holz": {"diffuse_rgb": [1, 1, 0]}}})");
-  EXPECT_EQ(materials.Find(Names("WALL", "DOOR", "Glas"))->surface.name, "Glas");
-  EXPECT_EQ(materials.Find(Names("WALL", "DOOR"))->surface.diffuse_rgb, Vector3d(0.3, 0.2, 0.1));
-  EXPECT_EQ(materials.Find(Names("wall"))->surface.name, "WALL");
-  EXPECT_EQ(materials.Find(Names("x", "", "Holz"))->surface.name, "Holz");  // as OBJ materials
-  EXPECT_FALSE(materials.Find(Names("IfcWindow_EG-1"))->hidden);            // the longer pattern
-  EXPECT_TRUE(materials.Find(Names("IfcSite_x"))->hidden);
-  EXPECT_EQ(materials.Find(Names("roof")), nullptr);
-  EXPECT_TRUE(materials.Unused().empty());
-}
-
-TEST_F(Materials, ColorsInEveryForm) {
-  folder_.Write("brick.csv", "wavelength,value\n400,0.1\n700,0.5\n");
-  BuildingMaterials materials = Read(R"({"layers": {
-    "a": {"diffuse_srgb": [188, 188, 188]}, "b": {"reflectance": [[400, 0.2], [700, 0.2]]},
-    "c": {"reflectance_file": "brick.csv"}}})");
-  EXPECT_NEAR(materials.Find(Names("a"))->surface.diffuse_rgb.x(), 0.503, 1e-3);
-  EXPECT_NEAR(materials.Find(Names("b"))->surface.diffuse_rgb.y(), 0.2, 1e-3);
-  const Vector3d brick = materials.Find(Names("c"))->surface.diffuse_rgb;
-  EXPECT_GT(brick.x(), brick.z());
-}
-
-TEST_F(Materials, BadInput) {
-  const auto complaint = [&](const std::string& material) {
-    return Complaint("{\"layers\": {\n\"W\": {" + material + "}}}");
-  };
-  EXPECT_THAT(complaint(""), HasSubstr("names no colour"));
-  EXPECT_THAT(complaint(R"("diffuse_srgb": [0, 0, 256])"), HasSubstr("materials.json:2: "));
-  EXPECT_THAT(complaint(R"("reflectance": [[500, 1.5], [600, 0]])"), HasSubstr("above 1"));
-  EXPECT_THAT(complaint(R"("reflectance": [[500, 0.5], [500, 0]])"), HasSubstr("does not rise"));
-  EXPECT_THAT(complaint(R"("diffuse_rgb": [0, 0, 0], "texture": "no.png")"),
-              HasSubstr("no.png, which is not there"));
-  EXPECT_THAT(complaint(R"("use": "gold")"), HasSubstr("\"gold\", which is not in \"library\""));
 }
 
 }  // namespace

@@ -12,7 +12,6 @@
 
 #include "calibration/files/error.h"
 #include "renderer/dxf/dxf.h"
-#include "renderer/mesh/face_mesh.h"
 #include "renderer/mesh/solids.h"
 #include "tests/calibration/files/scratch_folder.h"
 #include "tests/renderer/dxf/dxf_text.h"
@@ -119,26 +118,6 @@ TEST(DxfPath, LinesWithoutEitherAreCounted) {
   const Model model = ReadEntities("0 LINE\n10 0\n20 0\n11 1\n21 0\n0 CIRCLE\n10 0\n20 0\n40 1\n");
   EXPECT_TRUE(model.mesh.triangles.empty());
   EXPECT_EQ(model.skipped.size(), 2u);
-}
-
-// Catmull and Clark: a cube of side 2 tends to a body of about 40 % of its volume, whose vertices
-// after one step are known: corner (1, 1, 1) moves to 5/9 of itself.
-TEST(FaceMesh, SmoothedCube) {
-  FaceMesh cube;
-  for (int i = 0; i < 8; ++i) {
-    cube.vertices.emplace_back(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1);
-  }
-  cube.faces = {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}};
-  const FaceMesh smooth = Smoothed(cube);
-  EXPECT_EQ(smooth.faces.size(), 24u);
-  EXPECT_EQ(smooth.vertices.size(), 26u);
-  EXPECT_NEAR((smooth.vertices[7] - Vector3d::Constant(5.0 / 9)).norm(), 0, 1e-12);
-  for (int a = 0; a < 8; ++a) {
-    for (const int bit : {1, 2, 4}) {
-      if (!(a & bit)) cube.creases[{a, a | bit}] = 5;
-    }
-  }
-  EXPECT_EQ(Smoothed(cube).vertices[7], Vector3d(1, 1, 1));  // every edge stays sharp
 }
 
 // The drawing as AutoCAD would write it in binary; until R12 a group code is one byte.

@@ -88,5 +88,21 @@ TEST(LampIrradiance, FollowsTheInverseSquareAndIsBlocked) {
   EXPECT_TRUE((LampIrradiance(site.With(shaded), kLawnOrigin) == 0).all());
 }
 
+// Below a lamp 2 m up, straight down 8 / 2^2, and nothing where its cone does not reach.
+TEST(LampIrradiance, FollowsTheDistribution) {
+  const SmallSite site = MakeSmallSite();
+  ArtificialEnvironment building;
+  PointLight spot{"spot", site.natural.scene.origin + Eigen::Vector3d(0, 0, 2 + kSurveyClearance),
+                  Eigen::Vector3d::Constant(8)};
+  Eigen::Matrix3d axes;
+  axes << 1, 0, 0, 0, 1, 0, 0, 0, -1;
+  spot.distribution = LightDistribution{axes, {0, 30, 31}, {0}, {0.5, 0.5, 0}};
+  building.lights = {spot};
+  const MontageScene scene = site.With(building);
+  const SurfacePoint below{{0, 0, 0}, {0, 0, 1}}, aside{{3, 0, 0}, {0, 0, 1}};
+  EXPECT_NEAR(scene.natural.spectra.RgbFromSpectrum(LampIrradiance(scene, below)).x(), 1, 1e-9);
+  EXPECT_TRUE((LampIrradiance(scene, aside) == 0).all());
+}
+
 }  // namespace
 }  // namespace insitu

@@ -3,6 +3,8 @@
 
 #include <numbers>
 
+#include "renderer/trace/make_montage_scene.h"
+
 namespace insitu {
 namespace {
 

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "renderer/dxf/dxf_block.h"
+#include "renderer/dxf/dxf_entity_reader.h"
 
 #include <cmath>
 #include <numbers>
 #include <set>
 
+#include "calibration/files/wording.h"
 #include "renderer/dxf/dxf_surfaces.h"
 
 namespace insitu {
@@ -86,7 +87,7 @@ std::string ReasonFor(std::string_view kind) {
 
 // As it can be shown, whatever a damaged file holds.
 std::string NameOfKind(std::string_view kind) {
-  const std::string quoted = QuotedDxf(kind);
+  const std::string quoted = Quoted(kind);
   return quoted.substr(1, quoted.size() - 2);
 }
 
@@ -95,20 +96,6 @@ bool HasThickness(const DxfRecord& record) { return record.Number(39, 0) != 0; }
 constexpr char kNoThickness[] = "without thickness or width, no surface";
 
 }  // namespace
-
-Eigen::Matrix3d DxfEntityAxes(const DxfRecord& entity) {
-  const std::optional<Vector3d> extrusion = entity.FindPoint(210);
-  if (!extrusion) return Eigen::Matrix3d::Identity();
-  if (extrusion->norm() == 0) {
-    throw entity.ErrorAt(*entity.Find(210), "an extrusion direction of no length");
-  }
-  const Vector3d z = extrusion->normalized();
-  const bool near_world_z = std::abs(z.x()) < 1.0 / 64 && std::abs(z.y()) < 1.0 / 64;
-  const Vector3d x = (near_world_z ? Vector3d::UnitY() : Vector3d::UnitZ()).cross(z).normalized();
-  Eigen::Matrix3d axes;
-  axes << x, z.cross(x), z;
-  return axes;
-}
 
 int DxfEntityReader::LookIndex(const DxfLook& look) {
   const std::string key = look.layer + '\0' + std::to_string(look.color) + '/' +

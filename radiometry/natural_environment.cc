@@ -1,19 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// work/environment.json. Numbers are written with 17 digits and read back to the same bits; the
-// RGB values beside the spectra are for people and are not read.
-#include <json/value.h>
+#include "radiometry/natural_environment.h"
 
 #include <cmath>
 
 #include "calibration/files/json_file.h"
-#include "radiometry/natural_environment.h"
 
 namespace insitu {
 namespace {
 
 constexpr char kFormat[] = "insitu natural environment";
 constexpr int kVersion = 1;
-constexpr double kReportedDistance = 200;  // [m]
 
 Json::Value Vector(const Eigen::Vector3d& vector) { return ToJson(Eigen::VectorXd(vector)); }
 
@@ -76,73 +72,22 @@ Json::Value MaterialToJson(const NaturalMaterial& material) {
   return json;
 }
 
-Json::Value SamplesToJson(const std::vector<PixelSample>& samples,
-                          const std::vector<double>& residuals, const SceneGeometry& scene) {
-  Json::Value array(Json::arrayValue);
-  for (size_t i = 0; i < residuals.size(); ++i) {
-    Json::Value json;
-    json["photo"] = scene.cameras[samples[i].photo].photo;
-    json["pixel"] = ToJson(Eigen::VectorXd(samples[i].pixel));
-    json["polygon"] = scene.polygons[*samples[i].polygon].name;
-    json["distance"] = samples[i].distance;
-    json["relative_residual"] = residuals[i];
-    array.append(json);
-  }
-  return array;
-}
-
-Json::Value AirToJson(const LightMeasurement& measured) {
-  const NaturalEnvironment& environment = measured.environment;
-  const SpectralBins& bins = environment.spectra.bins();
-  const AtmosphereFit& fit = measured.air_fit;
+Json::Value AirToJson(const Atmosphere& air, const SpectralBins& bins) {
   Json::Value json;
-  json["horizon"] = Bins(environment.air.horizon, bins);
-  json["horizon_rgb"] = Vector(environment.spectra.RgbFromSpectrum(environment.air.horizon));
-  json["transmittance_per_m"] = Bins(environment.air.transmittance, bins);
-  json["transmittance_per_m_sigma"] = Bins(fit.transmittance_sigma, bins);
-  json["transmittance_200m_rgb"] = Vector(measured.TransmittanceRgb(kReportedDistance));
-  json["condition"] = Bins(fit.condition, bins);
-  json["rms_over_sigma"] = fit.rms;
-  json["samples"] = SamplesToJson(measured.samples.haze, fit.residuals, environment.scene);
+  json["horizon"] = Bins(air.horizon, bins);
+  json["transmittance_per_m"] = Bins(air.transmittance, bins);
   return json;
 }
 
-Json::Value LightToJson(const LightMeasurement& measured) {
-  const NaturalEnvironment& environment = measured.environment;
-  const SpectralBasis& spectra = environment.spectra;
-  const Daylight& light = environment.light;
-  const DaylightFit& fit = measured.daylight_fit;
+Json::Value LightToJson(const Daylight& light, const SpectralBins& bins) {
   Json::Value json;
   json["sun_direction"] = Vector(light.sun_direction);
   json["sun_solid_angle"] = light.sun_solid_angle;
   json["zenith_direction"] = Vector(light.zenith_direction);
   json["polar_facets"] = light.polar_facets;
-  json["sun_radiance"] = Bins(light.sun_radiance, spectra.bins());
-  json["sun_radiance_sigma"] = Bins(fit.sun_sigma, spectra.bins());
-  json["sun_irradiance_rgb"] = Vector(measured.SunIrradianceRgb());
-  json["ambient_radiance"] = Bins(light.ambient_radiance, spectra.bins());
-  json["ambient_radiance_sigma"] = Bins(fit.ambient_sigma, spectra.bins());
-  json["ambient_radiance_rgb"] = Vector(spectra.RgbFromSpectrum(light.ambient_radiance));
-  json["sky_radiance"] = Bins(light.sky_radiance, spectra.bins());
-  json["sky_radiance_sigma"] = Bins(fit.sky_sigma, spectra.bins());
-  json["sky_radiance_rgb"] = Vector(spectra.RgbFromSpectrum(light.sky_radiance));
-  json["open_sky_radiance_rgb"] = Vector(measured.OpenSkyRgb());
-  json["surroundings_weight"] = Bins(fit.surroundings_weight, spectra.bins());
-  json["reflectance_known"] = measured.reflectance_known;
-  json["condition"] = fit.condition;
-  json["rms_over_sigma"] = fit.rms;
-  json["samples"] = SamplesToJson(measured.samples.daylight, fit.residuals, environment.scene);
-  return json;
-}
-
-Json::Value Provenance(const SceneGeometry& scene) {
-  Json::Value json;
-  json["software"] = "insitu " INSITU_VERSION;
-  for (const char* input :
-       {"work/reconstruction/scene.json", "survey/samples.json", "survey/materials.json"}) {
-    json["inputs"].append(input);
-  }
-  for (const PosedCamera& posed : scene.cameras) json["inputs"].append("photos/" + posed.photo);
+  json["sun_radiance"] = Bins(light.sun_radiance, bins);
+  json["ambient_radiance"] = Bins(light.ambient_radiance, bins);
+  json["sky_radiance"] = Bins(light.sky_radiance, bins);
   return json;
 }
 
@@ -287,23 +232,20 @@ SpectralBins ReadSpectralBins(const JsonNode& node) {
 
 }  // namespace
 
-void WriteEnvironment(const SitePaths& site, const LightMeasurement& measured) {
-  const NaturalEnvironment& environment = measured.environment;
+Json::Value DescriptionOf(const NaturalEnvironment& environment) {
+  const SpectralBins& bins = environment.spectra.bins();
   Json::Value json;
   json["format"] = kFormat;
   json["version"] = kVersion;
-  json["provenance"] = Provenance(environment.scene);
-  json["bins"] = environment.spectra.bins().count;
+  json["bins"] = bins.count;
   json["scene"] = SceneToJson(environment.scene);
   json["materials"] = Json::Value(Json::objectValue);
   for (const auto& [name, material] : environment.materials) {
     json["materials"][name] = MaterialToJson(material);
   }
-  json["air"] = AirToJson(measured);
-  json["light"] = LightToJson(measured);
-  json["warnings"] = Json::Value(Json::arrayValue);
-  for (const std::string& warning : measured.warnings) json["warnings"].append(warning);
-  WriteJson(site.environment(), json);
+  json["air"] = AirToJson(environment.air, bins);
+  json["light"] = LightToJson(environment.light, bins);
+  return json;
 }
 
 NaturalEnvironment ReadEnvironment(const SitePaths& site) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "renderer/trace/montage_scene.h"
+#include "renderer/trace/make_montage_scene.h"
 
 #include <cmath>
 #include <numbers>

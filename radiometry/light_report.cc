@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "radiometry/light_report.h"
+
+#include <ostream>
+#include <sstream>
+
+#include "calibration/files/json_file.h"
+
+namespace insitu {
+namespace {
+
+constexpr double kReportedDistance = 200;  // [m]
+
+Json::Value Vector(const Eigen::Vector3d& vector) { return ToJson(Eigen::VectorXd(vector)); }
+
+Json::Value Bins(const Spectrum& spectrum, const SpectralBins& bins) {
+  return ToJson(Eigen::VectorXd(spectrum.head(bins.count).matrix()));
+}
+
+Json::Value SamplesToJson(const std::vector<PixelSample>& samples,
+                          const std::vector<double>& residuals, const SceneGeometry& scene) {
+  Json::Value array(Json::arrayValue);
+  for (size_t i = 0; i < residuals.size(); ++i) {
+    Json::Value json;
+    json["photo"] = scene.cameras[samples[i].photo].photo;
+    json["pixel"] = ToJson(Eigen::VectorXd(samples[i].pixel));
+    json["polygon"] = scene.polygons[*samples[i].polygon].name;
+    json["distance"] = samples[i].distance;
+    json["relative_residual"] = residuals[i];
+    array.append(json);
+  }
+  return array;
+}
+
+void AddAir(const LightMeasurement& measured, Json::Value* air) {
+  const NaturalEnvironment& environment = measured.environment;
+  const SpectralBins& bins = environment.spectra.bins();
+  const AtmosphereFit& fit = measured.air_fit;
+  Json::Value& json = *air;
+  json["horizon_rgb"] = Vector(environment.spectra.RgbFromSpectrum(environment.air.horizon));
+  json["transmittance_per_m_sigma"] = Bins(fit.transmittance_sigma, bins);
+  json["transmittance_200m_rgb"] = Vector(TransmittanceRgb(environment, kReportedDistance));
+  json["condition"] = Bins(fit.condition, bins);
+  json["rms_over_sigma"] = fit.rms;
+  json["samples"] = SamplesToJson(measured.samples.haze, fit.residuals, environment.scene);
+}
+
+void AddLight(const LightMeasurement& measured, Json::Value* light) {
+  const NaturalEnvironment& environment = measured.environment;
+  const SpectralBasis& spectra = environment.spectra;
+  const Daylight& daylight = environment.light;
+  const DaylightFit& fit = measured.daylight_fit;
+  Json::Value& json = *light;
+  json["sun_radiance_sigma"] = Bins(fit.sun_sigma, spectra.bins());
+  json["sun_irradiance_rgb"] = Vector(SunIrradianceRgb(environment));
+  json["ambient_radiance_sigma"] = Bins(fit.ambient_sigma, spectra.bins());
+  json["ambient_radiance_rgb"] = Vector(spectra.RgbFromSpectrum(daylight.ambient_radiance));
+  json["sky_radiance_sigma"] = Bins(fit.sky_sigma, spectra.bins());
+  json["sky_radiance_rgb"] = Vector(spectra.RgbFromSpectrum(daylight.sky_radiance));
+  json["open_sky_radiance_rgb"] = Vector(OpenSkyRgb(environment));
+  json["surroundings_weight"] = Bins(fit.surroundings_weight, spectra.bins());
+  json["reflectance_known"] = measured.reflectance_known;
+  json["condition"] = fit.condition;
+  json["rms_over_sigma"] = fit.rms;
+  json["samples"] = SamplesToJson(measured.samples.daylight, fit.residuals, environment.scene);
+}
+
+Json::Value Provenance(const SceneGeometry& scene) {
+  Json::Value json;
+  json["software"] = "insitu " INSITU_VERSION;
+  for (const char* input :
+       {"work/reconstruction/scene.json", "survey/samples.json", "survey/materials.json"}) {
+    json["inputs"].append(input);
+  }
+  for (const PosedCamera& posed : scene.cameras) json["inputs"].append("photos/" + posed.photo);
+  return json;
+}
+
+std::ostream& operator<<(std::ostream& out, const Eigen::Vector3d& rgb) {
+  return out << rgb[0] << " " << rgb[1] << " " << rgb[2];
+}
+
+}  // namespace
+
+Eigen::Vector3d TransmittanceRgb(const NaturalEnvironment& environment, double distance) {
+  const SpectralBasis& spectra = environment.spectra;
+  const Spectrum white = spectra.SpectrumFromRgb(Eigen::Vector3d::Ones());
+  return spectra.RgbFromSpectrum(white * TransmittanceOver(environment.air, distance));
+}
+
+Eigen::Vector3d SunIrradianceRgb(const NaturalEnvironment& environment) {
+  const Daylight& light = environment.light;
+  return environment.spectra.RgbFromSpectrum(light.sun_radiance * light.sun_solid_angle);
+}
+
+Eigen::Vector3d OpenSkyRgb(const NaturalEnvironment& environment) {
+  const Daylight& light = environment.light;
+  return environment.spectra.RgbFromSpectrum(light.sky_radiance + light.ambient_radiance);
+}
+
+std::string BriefReport(const LightMeasurement& measured) {
+  const NaturalEnvironment& environment = measured.environment;
+  const DaylightFit& fit = measured.daylight_fit;
+  const SpectralBasis& spectra = environment.spectra;
+  const Daylight& light = environment.light;
+  std::ostringstream out;
+  out.setf(std::ios::fixed);
+  out.precision(3);
+  out << "Horizon colour      " << spectra.RgbFromSpectrum(environment.air.horizon) << " (RGB)\n"
+      << "Haze: transmittance " << TransmittanceRgb(environment, kReportedDistance)
+      << " over 200 m, " << measured.samples.haze.size() << " samples, residuals "
+      << measured.air_fit.rms << " sigma\n"
+      << "Sun: irradiance     " << SunIrradianceRgb(environment) << " across its rays\n"
+      << "Sky: radiance       " << spectra.RgbFromSpectrum(light.sky_radiance) << "\n"
+      << "Ambient: radiance   " << spectra.RgbFromSpectrum(light.ambient_radiance)
+      << ", with the sky " << OpenSkyRgb(environment) << "\n"
+      << "Surroundings send   " << fit.surroundings_weight.head(spectra.bins().count).mean()
+      << " of what their photographs show (0 with a uniform ambient light)\n"
+      << "Daylight: " << measured.samples.daylight.size() << " samples, residuals " << fit.rms
+      << " sigma, condition " << fit.condition << "\n";
+  return out.str();
+}
+
+void WriteEnvironment(const SitePaths& site, const LightMeasurement& measured) {
+  Json::Value json = DescriptionOf(measured.environment);
+  json["provenance"] = Provenance(measured.environment.scene);
+  AddAir(measured, &json["air"]);
+  AddLight(measured, &json["light"]);
+  json["warnings"] = Json::Value(Json::arrayValue);
+  for (const std::string& warning : measured.warnings) json["warnings"].append(warning);
+  WriteJson(site.environment(), json);
+}
+
+}  // namespace insitu

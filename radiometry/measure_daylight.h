@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Haze and daylight of a site, measured in its photographs: the natural environment.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "calibration/program/site.h"
+#include "radiometry/measure/fit_atmosphere.h"
+#include "radiometry/measure/fit_daylight.h"
+#include "radiometry/measure/samples.h"
+#include "radiometry/natural_environment.h"
+
+namespace insitu {
+
+struct LightOptions {
+  int bins = kMaxBins;   // 16, or 9 as the paper's mode
+  int polar_facets = 8;  // m_h
+  bool average_over_wavelength = false;
+  bool uniform_ambient =
+      false;  // Eq. (4) in the inversion too, instead of photographed surroundings
+};
+
+// What the light inversion found.
+struct LightMeasurement {
+  NaturalEnvironment environment;
+  LightSamples samples;
+  AtmosphereFit air_fit;  // without haze samples: clear air, residuals empty
+  DaylightFit daylight_fit;
+  bool reflectance_known = false;  // false: rho = 1, the building's brightness is relative
+  std::vector<std::string> warnings;
+};
+
+// Horizon colour, haze (7), daylight (9) from the site's photographs and samples.
+// Throws InputError.
+LightMeasurement MeasureDaylight(const SitePaths& site, const LightOptions& options = {});
+
+}  // namespace insitu

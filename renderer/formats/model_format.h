@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Which format the model of a building is in.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+
+namespace insitu {
+
+enum class ModelFormat { kDxf, kIfc, kGltf, kCollada, kObj, kPly, kStl };
+
+// What a file is by its content, whatever its name ends in; nullopt: nothing that is read. Throws
+// InputError: unreadable.
+std::optional<ModelFormat> DetectModelFormat(const std::filesystem::path& path);
+
+// Whether a name ends as models do (.dxf, .ifc, .dwg, .skp, ...), read or not.
+bool IsNamedLikeAModel(const std::filesystem::path& path);
+
+// The format whose reader is to be asked. Throws InputError: unreadable, a format that is not read
+// (DWG, SketchUp, Rhino, ... are named).
+ModelFormat RequireModelFormat(const std::filesystem::path& path);
+
+}  // namespace insitu

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "renderer/building/building_materials.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "calibration/files/error.h"
+#include "tests/calibration/files/scratch_folder.h"
+
+namespace insitu {
+namespace {
+
+using Eigen::Vector3d;
+using testing::HasSubstr;
+
+class Materials : public testing::Test {
+ protected:
+  BuildingMaterials Read(const std::string& text) {
+    return BuildingMaterials::Read(folder_.Write("materials.json", text));
+  }
+  std::string Complaint(const std::string& text) {
+    try {
+      Read(text);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "";
+  }
+  ScratchFolder folder_;
+};
+
+SurfaceNames Names(const std::string& layer, const std::string& block = "",
+                   const std::string& material = "") {
+  return {layer, block, material, std::nullopt, 1, "", ""};
+}
+
+TEST_F(Materials, MaterialGoesBeforeBlockBeforeLayer) {
+  BuildingMaterials materials = Read(R"({
+    "library": {"oak": {"diffuse_rgb": [0.3, 0.2, 0.1]}},
+    "materials": {"Glas": {"diffuse_rgb": [0, 0, 0]}},
+    "blocks": {"DOOR": {"use": "oak"}},
+    "layers": {"IfcWindow*": {"diffuse_srgb": [255, 255, 255]}, "Ifc*": {"hidden": true},
+               "WALL": {"diffuse_lab": [100, 0, 0]}, "Holz": {"diffuse_rgb": [1, 1, 0]}}})");
+  EXPECT_EQ(materials.Find(Names("WALL", "DOOR", "Glas"))->surface.name, "Glas");
+  EXPECT_EQ(materials.Find(Names("WALL", "DOOR"))->surface.diffuse_rgb, Vector3d(0.3, 0.2, 0.1));
+  EXPECT_EQ(materials.Find(Names("wall"))->surface.name, "WALL");
+  EXPECT_EQ(materials.Find(Names("x", "", "Holz"))->surface.name, "Holz");  // as OBJ materials
+  EXPECT_FALSE(materials.Find(Names("IfcWindow_EG-1"))->hidden);            // the longer pattern
+  EXPECT_TRUE(materials.Find(Names("IfcSite_x"))->hidden);
+  EXPECT_EQ(materials.Find(Names("roof")), nullptr);
+  EXPECT_TRUE(materials.Unused().empty());
+}
+
+TEST_F(Materials, ColorsInEveryForm) {
+  folder_.Write("brick.csv", "wavelength,value\n400,0.1\n700,0.5\n");
+  BuildingMaterials materials = Read(R"({"layers": {
+    "a": {"diffuse_srgb": [188, 188, 188]}, "b": {"reflectance": [[400, 0.2], [700, 0.2]]},
+    "c": {"reflectance_file": "brick.csv"}}})");
+  EXPECT_NEAR(materials.Find(Names("a"))->surface.diffuse_rgb.x(), 0.503, 1e-3);
+  EXPECT_NEAR(materials.Find(Names("b"))->surface.diffuse_rgb.y(), 0.2, 1e-3);
+  const Vector3d brick = materials.Find(Names("c"))->surface.diffuse_rgb;
+  EXPECT_GT(brick.x(), brick.z());
+}
+
+TEST_F(Materials, BadInput) {
+  const auto complaint = [&](const std::string& material) {
+    return Complaint("{\"layers\": {\n\"W\": {" + material + "}}}");
+  };
+  EXPECT_THAT(complaint(""), HasSubstr("names no colour"));
+  EXPECT_THAT(complaint(R"("diffuse_srgb": [0, 0, 256])"), HasSubstr("materials.json:2: "));
+  EXPECT_THAT(complaint(R"("reflectance": [[500, 1.5], [600, 0]])"), HasSubstr("above 1"));
+  EXPECT_THAT(complaint(R"("reflectance": [[500, 0.5], [500, 0]])"), HasSubstr("does not rise"));
+  EXPECT_THAT(complaint(R"("diffuse_rgb": [0, 0, 0], "texture": "no.png")"),
+              HasSubstr("no.png, which is not there"));
+  EXPECT_THAT(complaint(R"("use": "gold")"), HasSubstr("\"gold\", which is not in \"library\""));
+}
+
+}  // namespace
+}  // namespace insitu

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "renderer/formats/model_format.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <utility>
+
+#include "calibration/files/error.h"
+#include "tests/calibration/files/scratch_folder.h"
+#include "tests/renderer/dxf/dxf_text.h"
+#include "tests/renderer/formats/model_texts.h"
+
+namespace insitu {
+namespace {
+
+using testing::HasSubstr;
+
+TEST(ModelFormat, IsToldByContent) {
+  const ScratchFolder folder;
+  const std::pair<std::string, ModelFormat> cases[] = {
+      {DrawingText(UnitSquare("W")), ModelFormat::kDxf},
+      {"999\nby hand\n0\nSECTION\n", ModelFormat::kDxf},
+      {kObj, ModelFormat::kObj},
+      {kPly, ModelFormat::kPly},
+      {kStl, ModelFormat::kStl},
+      {kGltf, ModelFormat::kGltf},
+      {kCollada, ModelFormat::kCollada},
+      {"ISO-10303-21;\nHEADER;", ModelFormat::kIfc}};
+  for (const auto& [content, format] : cases) {
+    EXPECT_EQ(DetectModelFormat(folder.Write("anything.txt", content)), format);
+  }
+  EXPECT_EQ(DetectModelFormat(folder.Write("anything.obj", "hello\n")), std::nullopt);
+}
+
+TEST(ModelFormat, WhatIsNotReadIsNamed) {
+  const ScratchFolder folder;
+  const auto complaint = [&](const std::string& name, const std::string& content) -> std::string {
+    try {
+      RequireModelFormat(folder.Write(name, content));
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_THAT(complaint("a.obj", "AC1032 ..."), HasSubstr("is a DWG drawing"));
+  EXPECT_THAT(complaint("a.3dm", "3D Geometry File Format "), HasSubstr("is a Rhino model"));
+  EXPECT_EQ(complaint("a.dxf", "hello"), "");  // its reader says what is wrong
+}
+
+}  // namespace
+}  // namespace insitu

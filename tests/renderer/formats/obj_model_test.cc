@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "renderer/formats/obj_model.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "calibration/files/error.h"
+#include "tests/calibration/files/scratch_folder.h"
+#include "tests/renderer/formats/model_texts.h"
+
+namespace insitu {
+namespace {
+
+using Eigen::Vector3d;
+using testing::HasSubstr;
+
+class ObjModel : public testing::Test {
+ protected:
+  Model Read(const std::string& name, const std::string& content) {
+    return ReadObj(folder_.Write(name, content));
+  }
+  std::string Complaint(const std::string& name, const std::string& content) {
+    try {
+      Read(name, content);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "";
+  }
+  ScratchFolder folder_;
+};
+
+TEST_F(ObjModel, KeepsEveryDigitAndItsNames) {
+  folder_.Write("house.mtl", "newmtl BRICK\nKd 0.4 0.2 0.1\nd 0.5\nmap_Kd -s 1 1 1 brick.png\n");
+  const Model model = Read("house.obj", kObj);
+  EXPECT_EQ(model.mesh.vertices[0], Vector3d(2600000.123456, 1200000.654321, 430.5));
+  EXPECT_EQ(model.mesh.triangles.size(), 3u);
+  ASSERT_EQ(model.mesh.surfaces.size(), 2u);
+  EXPECT_EQ(model.mesh.surfaces[0].layer, "house");
+  EXPECT_EQ(model.mesh.surfaces[1].layer, "house/roof");
+  EXPECT_EQ(model.mesh.surfaces[0].material, "BRICK");
+  EXPECT_EQ(model.mesh.surfaces[0].rgb, Vector3d(0.4, 0.2, 0.1));
+  EXPECT_EQ(model.mesh.surfaces[0].opacity, 0.5);
+  EXPECT_EQ(model.mesh.surfaces[0].texture, "brick.png");
+  EXPECT_THAT(model.mesh.surfaces[0].texture_place, HasSubstr("house.mtl:4"));
+  EXPECT_EQ(model.mesh.corner_normals.size(), 9u);
+  EXPECT_EQ(model.mesh.corner_uvs[2], Eigen::Vector2f(1, 1));
+  EXPECT_EQ(model.entities.at("f"), 2);
+  EXPECT_EQ(model.skipped.begin()->first.first, "l");
+}
+
+TEST_F(ObjModel, Faults) {
+  const auto complaint = [&](const std::string& line) {
+    return Complaint("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\n" + line + "\n");
+  };
+  EXPECT_EQ(complaint("f 1 2 3"), "");
+  EXPECT_THAT(complaint("f 1 2 4"), HasSubstr("a.obj:4: a face names vertex 4, expected 1 to 3"));
+  EXPECT_THAT(complaint("f 1 2 -4"), HasSubstr("names vertex -4"));
+  EXPECT_THAT(complaint("f 1 2 0"), HasSubstr("names vertex 0"));
+  EXPECT_THAT(complaint("f 1 2"), HasSubstr("at least 3 corners"));
+  std::string long_face = "f";
+  for (int i = 0; i < 5001; ++i) long_face += " 1 2";
+  EXPECT_THAT(complaint(long_face), HasSubstr("a.obj:4: a face has over 10000 corners"));
+  EXPECT_THAT(complaint("f 1/1 2/1 3/1"), HasSubstr("texture coordinate 1"));
+  EXPECT_THAT(complaint("f 1 2 x"), HasSubstr("a.obj:4: \"x\""));
+  EXPECT_THAT(complaint("v 1e300 0 0"), HasSubstr("at most 1e12"));
+  EXPECT_THAT(complaint("v nan 0 0"), HasSubstr("a.obj:4: \"nan\""));
+  EXPECT_THAT(complaint("v 1 2"), HasSubstr("the line ends"));
+}
+
+}  // namespace
+}  // namespace insitu
