@@ -100,7 +100,8 @@ check 'one after the other' runs 'render' --from render --jobs 1
 start_run
 check 'a second run is told who has the site' \
   fails 2 ": is in use by insitu-montage SITE --no-building \(process $run on .*; wait"
-kill -KILL "$run" && wait "$run" || true
+kill -KILL "$run"
+wait "$run" || true
 touch -- "$site/work/.scene.1234567.json"
 check 'after a killed run the next one goes on' runs 'calibrate'
 check 'and removes what it left' leaves_nothing
@@ -122,6 +123,7 @@ check 'a program of another version' with_programs 2 \
   'insitu-light: is insitu-light 0.0.1, expected insitu-light .*; install'
 rm -- "$programs/insitu-light"
 check 'a program that is missing' with_programs 2 'insitu-light: cannot be run; install'
+# shellcheck disable=SC2016 # it is the program that expands them
 printf '#!/bin/sh\n[ "$1" = --version ] && echo insitu-light %s || kill -SEGV $$\n' \
   "$("$INSITU_BIN/insitu" --version | cut -d ' ' -f 2)" >"$programs/insitu-light"
 chmod +x -- "$programs/insitu-light"
