@@ -150,7 +150,7 @@ class Run {
     for (int i = 0; i < threads; ++i) workers.emplace_back([this] { Work(); });
     for (std::thread& worker : workers) worker.join();
     hashes_.Save();
-    if (failure_) std::rethrow_exception(failure_);
+    if (failure_ && !ReceivedSignal()) std::rethrow_exception(failure_);
     RunSummary summary;
     summary.status = ReceivedSignal() ? 128 + *ReceivedSignal() : status_;
     for (size_t i = options_.first; i < stages_.size() && i <= options_.last; ++i) {
