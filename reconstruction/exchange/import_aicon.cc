@@ -54,11 +54,18 @@ int Insert(Indices* indices, const TextRow& row, const std::string& name, const 
   return place->second;
 }
 
+// A project's marks are millimetres with one sigma for both axes, a network's are pixels with one: its
+// unit of length is a square pixel, or the axes would weigh differently.
+MetricCamera InSquarePixels(MetricCamera lens) {
+  lens.pixel_mm.setConstant(std::sqrt(lens.pixel_mm.prod()));
+  return lens;
+}
+
 std::vector<NetworkCamera> Cameras(const std::filesystem::path& ior) {
   std::vector<NetworkCamera> cameras;
   for (const AiconCamera& camera : ReadAiconCameras(ior)) {
     cameras.push_back({camera.number,
-                       camera.lens,
+                       InSquarePixels(camera.lens),
                        {true, true, true, true, true, false, true, true, false, false}});
   }
   return cameras;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "renderer/run_stages.h"
+#include "renderer/stages/run_stages.h"
 
 #include <unistd.h>
 
@@ -16,9 +16,9 @@
 #include "calibration/files/wording.h"
 #include "calibration/program/child_process.h"
 #include "calibration/program/program.h"
-#include "renderer/file_hashes.h"
-#include "renderer/stage_program.h"
-#include "renderer/stage_record.h"
+#include "renderer/stages/file_hashes.h"
+#include "renderer/stages/stage_program.h"
+#include "renderer/stages/stage_record.h"
 
 namespace insitu {
 namespace {

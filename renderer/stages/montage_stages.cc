@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "renderer/montage_stages.h"
+#include "renderer/stages/montage_stages.h"
 
 #include <algorithm>
 
