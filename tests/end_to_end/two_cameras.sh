@@ -70,7 +70,8 @@ check 'are used when that stage is left as it is' \
   redoes 'undistort light render' --from undistort
 check 'else it is made anew' redoes 'reconstruct undistort light render'
 printf '# a remark\n' >>"$site/calibration/camera/camera.cameramodel"
-check 'a camera file that says the same goes no further' redoes 'calibrate'
+check 'a remark in a camera file goes no further than those who read it' \
+  redoes 'calibrate reconstruct undistort'
 longer_focal_length() {
   /usr/bin/python3 - "$site/calibration/camera/camera.cameramodel" <<'PYTHON'
 import sys
