@@ -221,31 +221,31 @@ BoardCalibration CalibrateFromBoards(const std::vector<fs::path>& board_photos, 
                                      const BoardCalibrationOptions& options) {
   INSITU_CHECK(!board_photos.empty());
   options.Check();
-  Progress progress("finding boards, step 1 of 5", 0);
-  const auto show = [&] { progress.Show(); };
   CommonSize(board_photos);
+  std::optional<Progress> progress;  // after that of the boards
+  const auto show = [&] { progress->Show(); };
   const Solver solver{board,
                       options.focal_px > 0 ? options.focal_px : StartFocal(board_photos.front()),
                       fs::absolute(output_model).parent_path() / "boards", show};
   LinkPhotos(board_photos, solver.folder);
-  const fs::path corners = FindBoardCorners(board, solver.folder, show);
+  const fs::path corners = FindBoardCorners(board, solver.folder);
 
   BoardCalibration result;
   CountBoards(board_photos, board, corners, &result);
   result.lens_model = options.lens_model;
-  progress.Next("solving for the lens, step 2 of 5");
+  progress.emplace("solving for the lens, step 1 of 4", 0);
   const fs::path lean = solver.Solve(result.lens_model, corners, "lean");
   result.splined_lens_model = SplinedLensModel(ReadCamera(lean));
-  progress.Next("solving for the splined lens, step 3 of 5");
+  progress->Next("solving for the splined lens, step 2 of 4");
   const fs::path splined = solver.Solve(result.splined_lens_model, corners, "splined");
 
-  progress.Next("assessing both, step 4 of 5");
+  progress->Next("assessing both, step 3 of 4");
   result.lens = AssessLens(lean, solver.folder, corners, show);
   result.splined = AssessLens(splined, solver.folder, corners, show);
   NamePhotos(board_photos, &result.lens);
   NamePhotos(board_photos, &result.splined);
   result.splined_difference = Difference(lean, splined, result.splined.uncertainty);
-  progress.Next("comparing two halves of the boards, step 5 of 5");
+  progress->Next("comparing two halves of the boards, step 4 of 4");
   result.halves = CrossValidate(solver, result, corners);
   result.model = output_model;
   WriteWhole(output_model, ReadWhole(lean));
