@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <cstdio>
+#include "calibration/site_undistortion.h"
+
 #include <map>
 
 #include "calibration/files/error.h"
+#include "calibration/files/wording.h"
 #include "calibration/lens/undistort.h"
 #include "calibration/photo/photograph.h"
 #include "calibration/program/program.h"
-#include "calibration/site_calibration.h"
 #include "calibration/site_cameras.h"
 
 namespace insitu {
@@ -71,9 +72,7 @@ std::string SiteUndistortion::BriefReport() const {
   std::string text = std::to_string(photos) + " photographs undistorted to ";
   text += pinholes.size() == 1 ? "a pinhole" : std::to_string(pinholes.size()) + " pinholes";
   for (size_t i = 0; i < pinholes.size(); ++i) {
-    char focal[32];
-    std::snprintf(focal, sizeof(focal), "%.2f", pinholes[i].focal_px());
-    text += (i == 0 ? " of " : ", ") + std::string(focal);
+    text += (i == 0 ? " of " : ", ") + Formatted("%.2f", pinholes[i].focal_px());
   }
   return text + " px focal length";
 }

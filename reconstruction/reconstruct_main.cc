@@ -3,6 +3,7 @@
 
 #include "calibration/files/json_file.h"
 #include "calibration/program/program.h"
+#include "reconstruction/colmap/colmap_text.h"
 #include "reconstruction/colmap_export.h"
 #include "reconstruction/reconstruct_site.h"
 

@@ -10,6 +10,7 @@
 #include "calibration/photo/distinct_photographs.h"
 #include "calibration/photo/photograph.h"
 #include "reconstruction/adjustment/align_tie_points.h"
+#include "reconstruction/colmap/colmap_text.h"
 #include "reconstruction/site_photos.h"
 #include "reconstruction/survey/read_survey.h"
 #include "reconstruction/survey/survey.h"
@@ -152,8 +153,14 @@ void NameWhatIsMissing(const std::vector<fs::path>& photos, TiePoints* tie_point
 
 }  // namespace
 
+void TiePointsOptions::Check() const {
+  colmap.Check();
+  selection.Check();
+}
+
 SiteTiePoints MakeTiePoints(const SitePaths& site, const std::vector<fs::path>& photos,
                             const std::vector<Camera>& cameras, const TiePointsOptions& options) {
+  options.Check();
   INSITU_CHECK(photos.size() == cameras.size());
   if (photos.size() < 2) throw InputError(site.photos(), "one photograph, expected two or more");
   RequireSizes(photos, cameras);

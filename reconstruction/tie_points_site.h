@@ -19,6 +19,8 @@ struct TiePointsOptions {
   // A COLMAP model of these photographs made elsewhere, to be taken instead of running COLMAP. Its
   // keypoints must be those of the original photographs.
   std::filesystem::path model;
+
+  void Check() const;  // throws CheckError that names the field
 };
 
 struct SiteTiePoints {

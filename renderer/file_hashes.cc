@@ -36,6 +36,15 @@ std::optional<Json::Value> ReadStore(const std::filesystem::path& store) {
   return std::nullopt;
 }
 
+// Size, inode, three times, hash.
+bool IsRow(const Json::Value& row) {
+  if (!row.isArray() || row.size() != 6 || !row[5].isString()) return false;
+  for (Json::ArrayIndex i = 0; i < 5; ++i) {
+    if (!row[i].isInt64()) return false;
+  }
+  return true;
+}
+
 }  // namespace
 
 FileHashes::FileHashes(std::filesystem::path store) : store_(std::move(store)) {
@@ -44,7 +53,7 @@ FileHashes::FileHashes(std::filesystem::path store) : store_(std::move(store)) {
   const Json::Value& files = (*json)["files"];
   for (const std::string& path : files.getMemberNames()) {
     const Json::Value& row = files[path];
-    if (!row.isArray() || row.size() != 6 || !row[5].isString()) continue;
+    if (!IsRow(row)) continue;
     Entry& entry = entries_[path];
     entry = {row[0].asInt64(), row[1].asInt64(), row[2].asInt64(),
              row[3].asInt64(), row[4].asInt64(), row[5].asString()};

@@ -26,7 +26,8 @@ void AddOptions(CLI::App* app, MontageCommand* command) {
       ->required()
       ->check(CLI::ExistingDirectory);
   app->add_flag("--no-building", command->no_building, "render the empty site");
-  app->add_option("--frame", command->frame, "pixel grid of the montages: photo or pinhole");
+  app->add_option("--frame", command->frame, "pixel grid of the montages: photo or pinhole")
+      ->check(CLI::IsMember({"photo", "pinhole"}));
   app->add_flag("--tie-points", command->request.with_tie_points,
                 "search tie points also where every photograph shows enough control");
   app->add_flag("--self-calibrate", command->self_calibrate, "adjust the lens with the site");

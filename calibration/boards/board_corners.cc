@@ -2,13 +2,13 @@
 #include "calibration/boards/board_corners.h"
 
 #include <algorithm>
-#include <cstdio>
 #include <map>
 #include <opencv2/calib3d.hpp>
 #include <opencv2/imgproc.hpp>
 #include <sstream>
 
 #include "calibration/files/whole_file.h"
+#include "calibration/files/wording.h"
 #include "calibration/photo/photograph.h"
 #include "calibration/program/external_program.h"
 #include "calibration/program/program.h"
@@ -63,9 +63,7 @@ void TurnRight(int columns, std::vector<cv::Point2f>* corners) {
 }
 
 std::string Line(const std::string& photo, const Eigen::Vector2d& corner) {
-  char numbers[64];
-  std::snprintf(numbers, sizeof(numbers), " %.6f %.6f 0\n", corner.x(), corner.y());
-  return photo + numbers;
+  return photo + Formatted(" %.6f %.6f 0\n", corner.x(), corner.y());
 }
 
 void FindRectangularBoards(const Board& board, const fs::path& folder) {
@@ -134,7 +132,8 @@ std::optional<std::vector<Eigen::Vector2d>> FindChessboard(const Raster& linear,
   return corners;
 }
 
-fs::path FindBoardCorners(const Board& board, const fs::path& folder) {
+fs::path FindBoardCorners(const Board& board, const fs::path& folder,
+                          const std::function<void()>& while_running) {
   if (board.interior_corners_x != board.interior_corners_y) {
     FindRectangularBoards(board, folder);
     return folder / kCorners;
@@ -144,7 +143,8 @@ fs::path FindBoardCorners(const Board& board, const fs::path& folder) {
                .package = "mrgingham",
                .folder = folder,
                .output = folder / kCorners,
-               .log = folder / "mrgingham.log"});
+               .log = folder / "mrgingham.log",
+               .while_running = while_running});
   SortByPhoto(folder / kCorners);
   return folder / kCorners;
 }

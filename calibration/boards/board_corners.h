@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -22,8 +23,10 @@ std::optional<std::vector<Eigen::Vector2d>> FindChessboard(const Raster& linear,
 
 // Finds the board in every file of folder/photos and writes folder/corners.vnl ("photo x y level"
 // or "photo - -", sorted by photo): mrgingham's corners of a square board, FindChessboard's of
-// another. Throws InputError: an unreadable photograph, mrgingham missing or failing.
-std::filesystem::path FindBoardCorners(const Board& board, const std::filesystem::path& folder);
+// another. `while_running` is called while mrgingham works. Throws InputError: an unreadable
+// photograph, mrgingham missing or failing.
+std::filesystem::path FindBoardCorners(const Board& board, const std::filesystem::path& folder,
+                                       const std::function<void()>& while_running = {});
 
 // The photos, as the table names them, whose board was found.
 std::vector<std::string> PhotosWithBoard(const std::filesystem::path& corners);

@@ -36,6 +36,7 @@ struct TextRow {
   double Number(size_t index, const std::string& what) const;
   int Integer(size_t index, const std::string& what) const;
   InputError Error(const std::string& message) const;
+  FilePlace place() const { return {path, line}; }
 };
 
 // How the words of a line are told apart; kGuess: by commas, else semicolons, else tabulators, else

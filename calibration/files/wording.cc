@@ -9,14 +9,19 @@
 namespace insitu {
 
 std::string Formatted(const char* format, ...) {
-  va_list arguments, counted;
+  char text[256];
+  va_list arguments, again;
   va_start(arguments, format);
-  va_copy(counted, arguments);
-  std::string text(static_cast<size_t>(std::vsnprintf(nullptr, 0, format, counted)), '\0');
-  va_end(counted);
-  std::vsnprintf(text.data(), text.size() + 1, format, arguments);
+  va_copy(again, arguments);
+  const auto size = static_cast<size_t>(std::vsnprintf(text, sizeof text, format, arguments));
   va_end(arguments);
-  return text;
+  std::string whole(text, std::min(size, sizeof text - 1));
+  if (size >= sizeof text) {
+    whole.resize(size);
+    std::vsnprintf(whole.data(), size + 1, format, again);
+  }
+  va_end(again);
+  return whole;
 }
 
 std::string Number(const char* format, double value) { return Formatted(format, value); }

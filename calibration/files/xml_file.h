@@ -40,6 +40,7 @@ class XmlNode {
   InputError Error(const std::string& message) const;
   const std::filesystem::path& path() const;
   int line() const;
+  FilePlace place() const { return {path(), line()}; }
 
  private:
   struct Document;

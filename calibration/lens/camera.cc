@@ -3,11 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <stdexcept>
 
 #include "calibration/files/error.h"
 #include "calibration/files/whole_file.h"
+#include "calibration/files/wording.h"
 
 // mrcal's headers are C without a guard for C++; only this file includes them.
 extern "C" {
@@ -107,11 +107,7 @@ CameraModelFile ReadCameraModel(const std::filesystem::path& path) {
 template <typename Numbers>
 std::string ListOf(const Numbers& numbers) {
   std::string list = "[ ";
-  for (const double number : numbers) {
-    char text[32];
-    std::snprintf(text, sizeof(text), "%.17g, ", number);
-    list += text;
-  }
+  for (const double number : numbers) list += Formatted("%.17g, ", number);
   return list + "]";
 }
 

@@ -11,13 +11,17 @@
 namespace insitu {
 namespace fs = std::filesystem;
 
-bool IsPhotograph(const fs::path& path) {
+bool HasPhotographEnding(const fs::path& name) {
   static constexpr std::array kEndings = {".jpg", ".jpeg", ".png", ".tif", ".tiff", ".exr"};
-  if (!fs::is_regular_file(path) || path.filename().string().starts_with('.')) return false;
-  std::string ending = path.extension().string();
+  std::string ending = name.extension().string();
   std::transform(ending.begin(), ending.end(), ending.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   return std::find(kEndings.begin(), kEndings.end(), ending) != kEndings.end();
+}
+
+bool IsPhotograph(const fs::path& path) {
+  return HasPhotographEnding(path) && fs::is_regular_file(path) &&
+         !path.filename().string().starts_with('.');
 }
 
 void RequireResult(const fs::path& result, const std::string& program) {

@@ -60,7 +60,10 @@ struct SitePaths {
   std::filesystem::path artificial() const { return root / "work/building.json"; }
 };
 
-// Whether a path is a file that ends as JPEG, PNG, TIFF or EXR do and is not hidden.
+// Whether a name ends as the photographs do that we read, in any case: JPEG, PNG, TIFF, EXR.
+bool HasPhotographEnding(const std::filesystem::path& name);
+
+// Whether a path is a file that ends so and is not hidden.
 bool IsPhotograph(const std::filesystem::path& path);
 
 // Throws InputError naming the program to run first, if a stage's result is not there.

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The binary form of COLMAP's model files: little-endian, without padding.
+#include "reconstruction/colmap/colmap_binary.h"
+
+// Little-endian, without padding.
 #include <bit>
 #include <cmath>
 #include <cstring>
 #include <limits>
 
 #include "calibration/files/whole_file.h"
-#include "reconstruction/colmap/colmap_files.h"
 
 namespace insitu {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Both forms of COLMAP's model files, and where in them each thing stands; for colmap_model.cc.
+// What both forms of COLMAP's model files hold, and where in them each thing stands.
 #pragma once
 
 #include <filesystem>
@@ -22,9 +22,5 @@ struct ColmapFiles {
 // An error at a line, or at an offset in bytes.
 InputError ColmapError(const std::filesystem::path& path, bool is_binary, size_t place,
                        const std::string& message);
-
-// Each throws InputError. References between the files are not yet checked.
-ColmapFiles ReadColmapTextFiles(const std::filesystem::path& folder);
-ColmapFiles ReadColmapBinaryFiles(const std::filesystem::path& folder);
 
 }  // namespace insitu

@@ -3,7 +3,9 @@
 
 #include <algorithm>
 
+#include "reconstruction/colmap/colmap_binary.h"
 #include "reconstruction/colmap/colmap_files.h"
+#include "reconstruction/colmap/colmap_text.h"
 
 namespace insitu {
 namespace {
@@ -56,12 +58,6 @@ void RequireReferencesOfPoint(const ColmapFiles& files, uint64_t id, const Colma
 }
 
 }  // namespace
-
-InputError ColmapError(const fs::path& path, bool is_binary, size_t place,
-                       const std::string& message) {
-  if (!is_binary) return InputError(path, static_cast<int>(place), message);
-  return InputError(path, "at byte " + std::to_string(place) + ": " + message);
-}
 
 bool HasColmapModel(const fs::path& folder) {
   return HasFiles(folder, ".bin") || HasFiles(folder, ".txt");

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A sparse model of COLMAP as its files hold it, text or binary, of COLMAP 3.8 to 4.x. Pixels are
-// COLMAP's own; calibration/colmap_lens.h converts. [colmap.github.io/format.html]
+// COLMAP's own; calibration/lens/colmap_lens.h converts. [colmap.github.io/format.html]
 #pragma once
 
 #include <Eigen/Core>
@@ -58,9 +58,5 @@ bool HasColmapModel(const std::filesystem::path& folder);
 // file: a file missing or cut short, an unknown lens model, a number that is none, an id twice, a
 // reference to what the model does not hold.
 ColmapModel ReadColmapModel(const std::filesystem::path& folder);
-
-// Each writes three files, whole or not at all, that every COLMAP reads. 17 digits.
-void WriteColmapText(const std::filesystem::path& folder, const ColmapModel& model);
-void WriteColmapBinary(const std::filesystem::path& folder, const ColmapModel& model);
 
 }  // namespace insitu

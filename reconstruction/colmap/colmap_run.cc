@@ -4,11 +4,11 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <cstdio>
 #include <sstream>
 
 #include "calibration/files/error.h"
 #include "calibration/files/whole_file.h"
+#include "calibration/files/wording.h"
 #include "calibration/photo/photograph.h"
 #include "calibration/program/external_program.h"
 #include "calibration/program/program.h"
@@ -21,9 +21,7 @@ namespace fs = std::filesystem;
 
 // What a photograph is called within COLMAP: names of any letters, blanks included, stay outside.
 std::string ColmapName(size_t photo, const std::string& ending) {
-  char number[32];
-  std::snprintf(number, sizeof(number), "%06zu", photo + 1);
-  return number + ending;
+  return Formatted("%06zu", photo + 1) + ending;
 }
 
 class Run {
@@ -240,8 +238,15 @@ class Run {
 
 }  // namespace
 
+void ColmapOptions::Check() const {
+  pairs.Check();
+  matching.Check();
+  INSITU_CHECK(max_image_size > 0);
+}
+
 std::vector<MatchedModel> RunColmap(const std::vector<MatchingPhoto>& photos,
                                     const fs::path& folder, const ColmapOptions& options) {
+  options.Check();
   return Run(photos, folder, options).Models();
 }
 

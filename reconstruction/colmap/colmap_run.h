@@ -24,6 +24,8 @@ struct ColmapOptions {
   PairSelection pairs;
   FeatureMatching matching;
   int max_image_size = 3200;  // [px], larger photographs are searched for features at this size
+
+  void Check() const;  // throws CheckError that names the field: a size that is not above 0
 };
 
 // One connected model.

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The text form of COLMAP's model files.
+#include "reconstruction/colmap/colmap_text.h"
+
 #include <charconv>
 #include <cmath>
-#include <cstdio>
 #include <string_view>
 
+#include "calibration/camera_files/colmap_cameras.h"
 #include "calibration/files/whole_file.h"
-#include "reconstruction/colmap/colmap_files.h"
+#include "calibration/files/wording.h"
 
 namespace insitu {
 namespace {
@@ -145,26 +146,9 @@ class TextFile {
 };
 
 void ReadCameras(ColmapFiles* files) {
-  TextFile file(files->cameras_path);
-  while (auto words = file.NextEntry()) {
-    const auto id = words->Whole<uint32_t>("camera id");
-    ColmapLens lens;
-    lens.model = words->Word("lens model");
-    const auto model = FindColmapLensModel(lens.model);
-    if (!model) throw words->Error("lens model '" + lens.model + "' is not one of COLMAP's");
-    lens.width = words->Whole<int>("width");
-    lens.height = words->Whole<int>("height");
-    if (lens.width <= 0 || lens.height <= 0) throw words->Error("expected a size above 0");
-    for (int i = 0; i < model->params; ++i) lens.params.push_back(words->Number("lens parameter"));
-    if (!words->IsAtEnd()) {
-      throw words->Error("expected " + std::to_string(model->params) + " parameters of " +
-                         lens.model);
-    }
-    if (!files->model.cameras.emplace(id, lens).second) {
-      throw words->Error("camera " + std::to_string(id) + " occurs twice");
-    }
+  for (const auto& [id, camera] : ReadColmapCameras(files->cameras_path)) {
+    files->model.cameras.emplace(id, camera.lens);
   }
-  file.RequireCount(files->model.cameras.size());
 }
 
 Rigid3 ReadPose(Words* words) {
@@ -239,11 +223,7 @@ void ReadPoints(ColmapFiles* files) {
 
 // Numbers with 17 digits, each followed by a blank.
 void Append(std::string* text, std::initializer_list<double> numbers) {
-  char digits[32];
-  for (const double number : numbers) {
-    const int size = std::snprintf(digits, sizeof(digits), "%.17g ", number);
-    text->append(digits, static_cast<size_t>(size));
-  }
+  for (const double number : numbers) *text += Formatted("%.17g ", number);
 }
 
 std::string CamerasText(const ColmapModel& model) {

@@ -10,6 +10,8 @@
 #include <optional>
 #include <set>
 
+#include "calibration/files/error.h"
+
 namespace insitu {
 namespace {
 
@@ -116,8 +118,21 @@ std::map<ColmapPair, double> CoarseScores(const std::map<uint32_t, ColmapFeature
 
 }  // namespace
 
+void FeatureMatching::Check() const {
+  INSITU_CHECK(max_ratio > 0);
+  INSITU_CHECK(max_angle > 0);
+}
+
+void PairSelection::Check() const {
+  INSITU_CHECK(exhaustive_photos >= 0);
+  INSITU_CHECK(neighbours >= 0);
+  INSITU_CHECK(partners >= 0);
+  INSITU_CHECK(coarse_features >= 0);
+}
+
 ColmapMatches MatchFeatures(const ColmapDescriptors& first, const ColmapDescriptors& second,
                             const FeatureMatching& options) {
+  options.Check();
   const Widened a = first.cast<int16_t>(), b = second.cast<int16_t>();
   std::vector<Best> of_first(static_cast<size_t>(a.rows())),
       of_second(static_cast<size_t>(b.rows()));
@@ -147,6 +162,7 @@ std::vector<ColmapPair> ChoosePairs(const std::map<uint32_t, ColmapFeatures>& fe
                                     const std::map<uint32_t, ColmapDescriptors>& descriptors,
                                     const std::map<uint32_t, Eigen::Vector3d>& centers,
                                     const PairSelection& selection) {
+  selection.Check();
   std::vector<uint32_t> images;
   for (const auto& [image, rows] : descriptors) images.push_back(image);
   const std::vector<ColmapPair> every_pair = EveryPair(images);

@@ -17,6 +17,8 @@ namespace insitu {
 struct FeatureMatching {
   double max_ratio = 0.8;  // angle to the best over that to the second best [Lowe 2004]
   double max_angle = 0.7;  // [rad], between the descriptors
+
+  void Check() const;  // throws CheckError that names the field: one that is not above 0
 };
 
 // Mutual best matches, in the order of the first photograph's features, by the angle between
@@ -29,6 +31,8 @@ struct PairSelection {
   int neighbours = 10;         // in the order of names, as one walks
   int partners = 20;           // of each photo: those whose coarsest features match best
   int coarse_features = 400;   // of each photo, asked for partners [Wu 2013, preemptive matching]
+
+  void Check() const;  // throws CheckError that names the field: one below 0
 };
 
 // Pairs of images to be matched, sorted. `centers`, where known, add each photo's nearest ones.

@@ -149,9 +149,17 @@ double SigmaPx(const std::vector<JudgedPoint>& points, size_t photos) {
 
 }  // namespace
 
+void TiePointSelection::Check() const {
+  INSITU_CHECK(points_per_photo >= 0);
+  INSITU_CHECK(columns > 0);
+  INSITU_CHECK(rows > 0);
+  INSITU_CHECK(min_angle >= 0);
+  INSITU_CHECK(limit_sigma > 0);
+}
+
 TiePointCounts SelectTiePoints(const std::map<std::string, Camera>& cameras,
                                const TiePointSelection& selection, TiePoints* tie_points) {
-  INSITU_CHECK(selection.points_per_photo >= 0 && selection.columns > 0 && selection.rows > 0);
+  selection.Check();
   TiePointCounts counts;
   counts.found = static_cast<int>(tie_points->points.size());
   std::vector<JudgedPoint> points = Judged(cameras, *tie_points);

@@ -15,6 +15,10 @@ struct TiePointSelection {
   int columns = 20, rows = 15;  // cells of a photo that share its points evenly
   double min_angle = 0.035;     // [rad], 2 degrees, largest between two of a point's rays
   double limit_sigma = 4;  // a mark that is off by more, of the median's robust sigma, is dropped
+
+  // Throws CheckError that names the field: a number of points or an angle below 0, of cells or
+  // sigmas that is not above.
+  void Check() const;
 };
 
 struct TiePointCounts {

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "reconstruction/exchange/dbat_tables.h"
+
 #include <algorithm>
 
 #include "calibration/files/text_table.h"
-#include "reconstruction/exchange/dbat_script.h"
 
 namespace insitu {
 namespace {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "reconstruction/exchange/export_survey.h"
 
-#include <cstdio>
 #include <map>
 
 #include "calibration/camera_files/dbat_camera.h"
 #include "calibration/files/text_table.h"
 #include "calibration/files/whole_file.h"
+#include "calibration/files/wording.h"
 #include "reconstruction/exchange/fit_brown.h"
 #include "reconstruction/geometry/coordinate_system.h"
 
@@ -15,12 +15,6 @@ namespace {
 
 std::string DigitsOf(const Eigen::Vector3d& v, const std::string& separator) {
   return Digits(v.x()) + separator + Digits(v.y()) + separator + Digits(v.z());
-}
-
-std::string Fixed(double value) {
-  char buffer[64];
-  std::snprintf(buffer, sizeof buffer, "%.3f", value);
-  return buffer;
 }
 
 // ---- DBAT ----------------------------------------------------------------------------------
@@ -110,8 +104,9 @@ std::string CamerasXml(const std::vector<Camera>& cameras, const std::filesystem
     if (!fit) throw InputError(folder, "no lens model of DBAT's comes near the camera's");
     xml += CameraXml(DbatFromMetric(fit->lens), i + 1);
     report->push_back("camera " + std::to_string(i + 1) +
-                      " is approximated by DBAT's model 3: RMS " + Fixed(fit->rms_px) +
-                      " px, at most " + Fixed(fit->largest_px) + " px over the frame");
+                      Formatted(" is approximated by DBAT's model 3: RMS %.3f px, at most %.3f px "
+                                "over the frame",
+                                fit->rms_px, fit->largest_px));
   }
   return xml + "</cameras>\n</document>\n";
 }

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The columns are known from the files themselves: with x = ck X / Z they reproduce the image
-// residuals that AICON wrote beside the marks to 1e-5 mm (tests/reconstruction/import_aicon_test).
-#include <algorithm>
+// The columns are known from the files themselves, as those of the camera are.
+#include "reconstruction/exchange/import_aicon.h"
+
+#include <cmath>
 #include <map>
 #include <set>
 
+#include "calibration/camera_files/aicon_camera.h"
 #include "calibration/files/text_table.h"
-#include "reconstruction/exchange/import_project.h"
 #include "reconstruction/geometry/omega_phi_kappa.h"
 
 namespace insitu {
@@ -53,32 +54,14 @@ int Insert(Indices* indices, const TextRow& row, const std::string& name, const 
   return place->second;
 }
 
-// A camera takes five lines: id -999 ck xh yh A1 A2 r0 / A3 / B1 B2 / C1 C2 / width height [mm px].
-NetworkCamera MakeCamera(const TextRow* rows) {
-  MetricCamera lens;
-  lens.model = MetricModel::kBalancedRadial;
-  const double ck = rows[0].Number(2, "ck");
-  if (!(ck < 0)) throw rows[0].Error("ck is not negative, as AICON's principal distances are");
-  lens.parameters = {-ck,
-                     rows[0].Number(3, "xh"),
-                     rows[0].Number(4, "yh"),
-                     rows[0].Number(5, "A1"),
-                     rows[0].Number(6, "A2"),
-                     rows[1].Number(0, "A3"),
-                     rows[2].Number(0, "B1"),
-                     rows[2].Number(1, "B2"),
-                     rows[3].Number(0, "C1"),
-                     rows[3].Number(1, "C2")};
-  lens.balanced_radius_mm = rows[0].Number(7, "r0");
-  const double width_mm = rows[4].Number(0, "sensor width");
-  lens.width = rows[4].Integer(2, "image width");
-  lens.height = rows[4].Integer(3, "image height");
-  if (!(width_mm > 0) || lens.width <= 0 || lens.height <= 0) {
-    throw rows[4].Error("sensor and image must have a size");
+std::vector<NetworkCamera> Cameras(const std::filesystem::path& ior) {
+  std::vector<NetworkCamera> cameras;
+  for (const AiconCamera& camera : ReadAiconCameras(ior)) {
+    cameras.push_back({camera.number,
+                       camera.lens,
+                       {true, true, true, true, true, false, true, true, false, false}});
   }
-  lens.pixel_mm.setConstant(width_mm / lens.width);
-  lens.origin_px = {(lens.width - 1) / 2.0, (lens.height - 1) / 2.0};
-  return {rows[0].words[0], lens, {true, true, true, true, true, false, true, true, false, false}};
+  return cameras;
 }
 
 Indices IndicesOf(const std::vector<NetworkCamera>& cameras) {
@@ -137,7 +120,7 @@ void ReadMarks(const std::filesystem::path& path, const Indices& photos, const I
     const auto& lens = std::get<MetricCamera>(
         network.cameras[static_cast<size_t>(network.photos[photo->second].camera)].lens);
     network.marks.push_back({photo->second, point->second, AiconPixel(lens, mm),
-                             options.mark_sigma_mm / lens.pixel_mm.x()});
+                             options.mark_sigma_mm / std::sqrt(lens.pixel_mm.prod())});
   }
   if (flagged) project->remarks.push_back(std::to_string(flagged) + " marks are flagged as unused");
   if (pointless) {
@@ -164,30 +147,15 @@ void ReadScales(const std::filesystem::path& path, const Indices& points, Networ
 
 }  // namespace
 
-std::vector<NetworkCamera> ReadAiconCameras(const std::filesystem::path& path) {
-  const std::vector<TextRow> rows = Rows(path);
-  if (rows.size() % 5 != 0) {
-    throw rows.back().Error("the file ends within a camera, expected five lines for each");
-  }
-  Indices indices;
-  std::vector<NetworkCamera> cameras;
-  for (size_t i = 0; i < rows.size(); i += 5) {
-    Insert(&indices, rows[i], rows[i].Text(0, "camera number"), "camera");
-    cameras.push_back(MakeCamera(&rows[i]));
-  }
-  return cameras;
-}
-
-Eigen::Vector2d AiconPixel(const MetricCamera& lens, const Eigen::Vector2d& mm) {
-  return {lens.origin_px.x() + mm.x() / lens.pixel_mm.x(),
-          lens.origin_px.y() - mm.y() / lens.pixel_mm.y()};
+void AiconOptions::Check() const {
+  INSITU_CHECK(mark_sigma_mm > 0 && std::isfinite(mark_sigma_mm));
 }
 
 ImportedProject ReadAiconProject(const std::filesystem::path& path, const AiconOptions& options) {
-  INSITU_CHECK(options.mark_sigma_mm > 0);
+  options.Check();
   const std::filesystem::path stem = SetStem(path);
   ImportedProject project;
-  project.network.cameras = ReadAiconCameras(File(stem, ".ior"));
+  project.network.cameras = Cameras(File(stem, ".ior"));
   const Indices cameras = IndicesOf(project.network.cameras);
   const Indices photos = ReadOrientations(File(stem, ".eor"), cameras, &project.network);
   const Indices points = ReadPoints(File(stem, ".obc"), &project.network, &project.remarks);

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "reconstruction/exchange/import_dbat.h"
+
 #include <cmath>
 #include <map>
 #include <set>
 
 #include "calibration/lens/lens_residual.h"
 #include "reconstruction/exchange/dbat_script.h"
-#include "reconstruction/exchange/import_project.h"
 #include "reconstruction/geometry/intersection.h"
 #include "reconstruction/geometry/omega_phi_kappa.h"
 #include "reconstruction/geometry/resection.h"

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "calibration/files/error.h"
 #include "calibration/files/text_table.h"
 #include "calibration/files/whole_file.h"
 #include "calibration/photo/photograph.h"
@@ -218,9 +219,15 @@ std::string CentersTable(const std::vector<CameraPosition>& centers) {
 
 }  // namespace
 
+void SurveyImportOptions::Check() const {
+  INSITU_CHECK(!sigma_m || *sigma_m > 0);
+  INSITU_CHECK(!mark_sigma_px || *mark_sigma_px > 0);
+}
+
 SurveyImport ImportSurvey(const std::vector<std::filesystem::path>& paths,
                           const std::set<std::string>& photos, const PhotoSize& photo_size,
                           const SurveyImportOptions& options) {
+  options.Check();
   SurveyImport import;
   std::vector<SurveyFile> files;
   for (const std::filesystem::path& path : paths) {

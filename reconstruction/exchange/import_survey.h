@@ -25,6 +25,8 @@ struct SurveyImportOptions {
   std::set<std::string> check_points;              // kept out of the adjustment
   bool keeps_unsurveyed = false;  // marks of points without coordinates: polygons' vertices
   bool may_replace = false;       // survey files that are there already
+
+  void Check() const;  // throws CheckError that names the field: a sigma that is not above 0
 };
 
 struct SurveyImport {

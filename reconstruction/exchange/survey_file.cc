@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "reconstruction/exchange/survey_file.h"
 
-#include "calibration/program/site.h"
-#include "reconstruction/exchange/survey_readers.h"
+#include "reconstruction/exchange/survey_file_formats.h"
 
 namespace insitu {
 namespace {
@@ -28,21 +27,6 @@ SurveyFile ReadText(const SurveyText& text) {
 }
 
 }  // namespace
-
-std::string PhotoName(const std::string& path) {
-  const size_t folder = path.find_last_of("/\\");
-  const std::string file = folder == std::string::npos ? path : path.substr(folder + 1);
-  return IsPhotoFileName(file) ? std::filesystem::path(file).stem().string() : file;
-}
-
-bool IsPhotoFileName(const std::string& text) {
-  std::string ending = std::filesystem::path(text).extension().string();
-  for (char& letter : ending) letter = static_cast<char>(std::tolower(letter));
-  for (const char* known : {".jpg", ".jpeg", ".png", ".tif", ".tiff", ".exr", ".dng"}) {
-    if (ending == known) return true;
-  }
-  return false;
-}
 
 SurveyFile ReadSurveyFile(const std::filesystem::path& path, const PhotoSize& photo_size) {
   const std::string content = ReadTextFile(path);

@@ -6,7 +6,7 @@
 #include <set>
 #include <sstream>
 
-#include "reconstruction/exchange/survey_readers.h"
+#include "reconstruction/exchange/survey_file_formats.h"
 
 namespace insitu {
 namespace {
@@ -185,7 +185,7 @@ class Line {
     }
     return sigma;
   }
-  FilePlace Place() const { return {row_.path, row_.line}; }
+  FilePlace Place() const { return row_.place(); }
   const TextRow& row() const { return row_; }
 
  private:

@@ -6,7 +6,7 @@
 #include <regex>
 #include <sstream>
 
-#include "reconstruction/exchange/import_project.h"
+#include "reconstruction/exchange/import_aicon.h"
 #include "tests/benchmarks/figure_parts.h"
 #include "tests/benchmarks/reconstruction_figures.h"
 

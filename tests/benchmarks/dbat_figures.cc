@@ -6,7 +6,7 @@
 #include <sstream>
 
 #include "calibration/files/error.h"
-#include "reconstruction/exchange/import_project.h"
+#include "reconstruction/exchange/import_dbat.h"
 #include "tests/benchmarks/figure_parts.h"
 #include "tests/benchmarks/reconstruction_figures.h"
 

@@ -8,8 +8,9 @@
 
 #include "calibration/files/error.h"
 #include "reconstruction/colmap/colmap_model.h"
+#include "reconstruction/colmap/colmap_text.h"
 #include "reconstruction/colmap_export.h"
-#include "reconstruction/exchange/import_project.h"
+#include "reconstruction/exchange/import_dbat.h"
 #include "tests/benchmarks/figure_parts.h"
 #include "tests/benchmarks/reconstruction_figures.h"
 

@@ -35,7 +35,7 @@ rm -- "$site"/photos/*
 cp -- "$gallery"/photos_direct/*.exr "$site/photos"
 mkdir -- "$site/work" # the same camera: its calibration need not run twice
 cp -r -- "$calibration" "$site/work"
-check 'direct light, montage' "$root/scripts/montage" "$site"
+check 'direct light, montage' "$root/scripts/montage" "$site" --from tie-points
 figures direct
 
 site=$temporary/photographs

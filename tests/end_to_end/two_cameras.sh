@@ -27,7 +27,8 @@ PYTHON
 runs() {
   local ran
   ran=$("$root/scripts/montage" "${@:2}" "$site" |
-    sed -n 's/^\[[0-9]\/[0-9]\] \([a-z-]*\) .* s$/\1/p' | xargs) || return 1
+    sed -n 's/^\[\([0-9]\)\/[0-9]\] \([a-z-]*\) .* s$/\1 \2/p' | sort | cut -d ' ' -f 2 | xargs) ||
+    return 1
   printf '%s' "$ran"
   [[ $ran == "$1" ]]
 }
@@ -65,12 +66,11 @@ check 'lenses of few photographs can be adjusted' \
   redoes 'reconstruct undistort light render' --self-calibrate
 check 'and be as calibrated again' redoes 'reconstruct undistort light render'
 check 'lenses adjusted by hand' self_calibrate --self-calibrate
-check 'are used too' redoes 'undistort light render'
-touch -- "$site/calibration/camera/camera.cameramodel"
-check 'a newer camera is heeded' \
-  redoes 'calibrate reconstruct undistort light render'
-printf '{"constraints": []}\n' >"$site/survey/constraints.json"
-check 'a new survey file is heeded' redoes 'reconstruct light render'
-touch -- "$site/survey/constraints.json"
-check 'a newer survey file is heeded' redoes 'reconstruct light render'
+check 'are used when that stage is left as it is' \
+  redoes 'undistort light render' --from undistort
+check 'else it is made anew' redoes 'reconstruct undistort light render'
+sed -i 's/^/ /' "$site/calibration/camera/camera.cameramodel"
+check 'a camera file that says the same goes no further' redoes 'calibrate'
+sed -i "s/^\(.*'intrinsics': \[ *[0-9]*\)[0-9]\./\17./" "$site/calibration/camera/camera.cameramodel"
+check 'another camera is heeded' redoes 'calibrate reconstruct undistort light render'
 finish

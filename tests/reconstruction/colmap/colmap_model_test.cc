@@ -7,6 +7,8 @@
 
 #include "calibration/files/error.h"
 #include "calibration/files/whole_file.h"
+#include "reconstruction/colmap/colmap_binary.h"
+#include "reconstruction/colmap/colmap_text.h"
 
 namespace insitu {
 namespace {

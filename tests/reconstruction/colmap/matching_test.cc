@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What stands between photographs and COLMAP: matches, pairs and ideal frames.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -7,6 +8,8 @@
 #include <numeric>
 #include <random>
 
+#include "calibration/files/error.h"
+#include "reconstruction/colmap/colmap_run.h"
 #include "reconstruction/colmap/ideal_frame.h"
 #include "reconstruction/colmap/match_features.h"
 
@@ -25,6 +28,33 @@ ColmapDescriptors RandomDescriptors(int count, unsigned seed) {
     descriptors.row(i) = direction.cwiseMin(255).array().round().cast<uint8_t>().transpose();
   }
   return descriptors;
+}
+
+// What Check says; empty: nothing.
+template <typename Options>
+std::string FaultOf(const Options& options) {
+  try {
+    options.Check();
+  } catch (const CheckError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(ColmapOptions, NameTheFieldThatIsWrong) {
+  using testing::HasSubstr;
+  EXPECT_EQ(FaultOf(ColmapOptions()), "");
+  ColmapOptions options;
+  options.max_image_size = 0;
+  EXPECT_THAT(FaultOf(options), HasSubstr("max_image_size"));
+  options.pairs.neighbours = -1;
+  EXPECT_THAT(FaultOf(options), HasSubstr("neighbours"));
+  EXPECT_THAT(FaultOf(FeatureMatching{.max_ratio = 0}), HasSubstr("max_ratio"));
+  EXPECT_THAT(FaultOf(FeatureMatching{.max_angle = -1}), HasSubstr("max_angle"));
+  EXPECT_THAT(FaultOf(PairSelection{.exhaustive_photos = -1}), HasSubstr("exhaustive_photos"));
+  EXPECT_THAT(FaultOf(PairSelection{.partners = -1}), HasSubstr("partners"));
+  EXPECT_THAT(FaultOf(PairSelection{.coarse_features = -1}), HasSubstr("coarse_features"));
+  EXPECT_THROW(RunColmap({}, "", options), CheckError);
 }
 
 TEST(MatchFeatures, FindsAPermutationAndNothingElse) {

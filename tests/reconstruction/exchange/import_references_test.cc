@@ -9,7 +9,8 @@
 #include "calibration/files/text_table.h"
 #include "calibration/files/whole_file.h"
 #include "calibration/lens/lens_residual.h"
-#include "reconstruction/exchange/import_project.h"
+#include "reconstruction/exchange/import_aicon.h"
+#include "reconstruction/exchange/import_dbat.h"
 #include "reconstruction/network/solve_network.h"
 #include "tests/shared_data.h"
 

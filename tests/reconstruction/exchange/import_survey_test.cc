@@ -52,6 +52,22 @@ TEST_F(SurveyImported, FilesAreMerged) {
   EXPECT_TRUE(Says(import, "without coordinates"));
 }
 
+TEST_F(SurveyImported, OptionsNameTheFieldThatIsWrong) {
+  const auto fault = [&] {
+    try {
+      Import({});
+    } catch (const CheckError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  options_.sigma_m = 0;
+  EXPECT_NE(fault().find("*sigma_m > 0"), std::string::npos);
+  options_.sigma_m = 0.01;
+  options_.mark_sigma_px = -1;
+  EXPECT_NE(fault().find("mark_sigma_px"), std::string::npos);
+}
+
 TEST_F(SurveyImported, SigmaMustComeFromSomewhere) {
   Write("points.txt", "# names\na 1 2 3\n");
   ExpectError([&] { Import({"points.txt"}); }, "points.txt", 2, "--sigma-m");

@@ -5,16 +5,14 @@
 #include <cmath>
 #include <map>
 
-#include "reconstruction/exchange/import_project.h"
-#include "reconstruction/exchange/survey_readers.h"
+#include "calibration/camera_files/aicon_camera.h"
+#include "reconstruction/exchange/survey_file_formats.h"
 
 namespace insitu {
 namespace {
 
 constexpr double kPix4dFirstPixelCenter = 0.5;
 constexpr double kMetresPerMm = 1e-3;
-
-FilePlace PlaceOf(const TextRow& row) { return {row.path, row.line}; }
 
 bool IsNumber(const TextRow& row, size_t index) {
   return index < row.words.size() && ParseNumber(row.words[index]).has_value();
@@ -68,7 +66,7 @@ class OdmPoints {
     }
     if (is_new) {
       file_->points.push_back({named->second, Eigen::Vector3d(place.data()), std::nullopt,
-                               ControlRole::kControl, PlaceOf(row)});
+                               ControlRole::kControl, row.place()});
     }
     return named->second;
   }
@@ -112,15 +110,14 @@ void ReadAiconMarks(const SurveyText& text, SurveyFile* file) {
     throw InputError(
         text.path, "marks in mm need the camera beside them, \"" + ior.filename().string() + "\"");
   }
-  const std::vector<NetworkCamera> cameras = ReadAiconCameras(ior);
+  const std::vector<AiconCamera> cameras = ReadAiconCameras(ior);
   if (cameras.size() != 1) throw InputError(ior, "expected one camera for the marks of all photos");
-  const auto& lens = std::get<MetricCamera>(cameras[0].lens);
   int flagged = 0;
   for (const TextRow& row : text.rows) {
     const Eigen::Vector2d mm(row.Number(2, "x"), row.Number(3, "y"));
     if (row.Integer(9, "flag") == 0 && ++flagged) continue;
-    file->marks.push_back({row.Text(0, "photo"), row.Text(1, "point"), AiconPixel(lens, mm),
-                           std::nullopt, PlaceOf(row)});
+    file->marks.push_back({row.Text(0, "photo"), row.Text(1, "point"),
+                           AiconPixel(cameras[0].lens, mm), std::nullopt, row.place()});
   }
   if (flagged) file->remarks.push_back(std::to_string(flagged) + " marks are flagged as unused");
 }
@@ -131,7 +128,7 @@ void ReadAiconPoints(const SurveyText& text, SurveyFile* file) {
     if (row.Integer(8, "flag") == 0 && ++unused) continue;
     const Eigen::Vector3d sigma(Sigma(row, 4), Sigma(row, 5), Sigma(row, 6));
     file->points.push_back({row.Text(0, "point"), kMetresPerMm * Position(row, 1),
-                            kMetresPerMm * sigma, ControlRole::kControl, PlaceOf(row)});
+                            kMetresPerMm * sigma, ControlRole::kControl, row.place()});
   }
   if (unused) file->remarks.push_back(std::to_string(unused) + " points are flagged as unused");
 }
@@ -143,7 +140,7 @@ SurveyedPoint ReadPoint(const TextRow& row) {
   SurveyedPoint point;
   point.name = row.Text(0, "the name");
   point.position = Position(row, 1);
-  point.place = PlaceOf(row);
+  point.place = row.place();
   if (row.words.size() == 6) point.sigma = {Sigma(row, 4), Sigma(row, 4), Sigma(row, 5)};
   if (row.words.size() == 7) point.sigma = {Sigma(row, 4), Sigma(row, 5), Sigma(row, 6)};
   if (row.words.size() == 5 || row.words.size() > 7) {
@@ -182,7 +179,7 @@ SurveyFile ReadOdmList(const SurveyText& text) {
     const Eigen::Vector2d pixel(row.Number(3, "px"), row.Number(4, "py"));
     const auto name = points.Add(row, row.words.size() > 6 ? row.words[6] : "");
     if (!name) continue;
-    file.marks.push_back({PhotoName(photo), *name, pixel, std::nullopt, PlaceOf(row)});
+    file.marks.push_back({PhotoName(photo), *name, pixel, std::nullopt, row.place()});
   }
   points.Finish();
   return file;
@@ -227,7 +224,7 @@ SurveyFile ReadMarkList(const SurveyText& text) {
                       row.Text(1 - photo, "the point's name"),
                       {row.Number(2, "x") - shift, row.Number(3, "y") - shift},
                       std::nullopt,
-                      PlaceOf(row)};
+                      row.place()};
     file.marks.push_back(mark);
   }
   if (is_pix4d && text.rows[0].words.size() > 4) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// One reader a format; ReadSurveyFile chooses. Each throws InputError at the offending line.
+// One reader a format, in the source named after whom it reads; ReadSurveyFile chooses. Each throws
+// InputError at the offending line.
 #pragma once
 
 #include "calibration/files/text_table.h"
@@ -16,25 +17,35 @@ struct SurveyText {
 
 // The photo's name in a path: without folders and ending.
 std::string PhotoName(const std::string& path);
+
+// Whether a word names a photograph: as site.h has it, or a raw .dng, which other programs take as
+// it is and whose developed photograph, of the same name, is ours.
 bool IsPhotoFileName(const std::string& text);
 
-// Tells whether a text is of a format, by its first lines.
+// survey_lists.cc; of what format a text is tell its first lines.
 bool IsOdmList(const SurveyText& text);
-bool IsHeaderTable(const SurveyText& text);
+SurveyFile ReadOdmList(const SurveyText& text);  // gcp_list.txt of OpenDroneMap and OpenSfM
 bool IsAicon(const SurveyText& text);
+SurveyFile ReadAicon(const SurveyText& text);  // .obc, .phc (with its .ior beside it)
 bool IsMarkList(const SurveyText& text);
-bool IsPointList(const SurveyText& text);
-
-SurveyFile ReadOdmList(const SurveyText& text);      // gcp_list.txt of OpenDroneMap and OpenSfM
-SurveyFile ReadHeaderTable(const SurveyText& text);  // Metashape's reference CSV, any with names
-SurveyFile ReadAicon(const SurveyText& text);        // .obc, .phc (with its .ior beside it)
 SurveyFile ReadMarkList(const SurveyText& text);  // Pix4D: image,point,x,y; MicMac: point image x y
+bool IsPointList(const SurveyText& text);
 SurveyFile ReadPointList(const SurveyText& text);  // Pix4D, JAG3D, COLMAP: name x y z [sigmas]
 
+// survey_header_table.cc
+bool IsHeaderTable(const SurveyText& text);
+SurveyFile ReadHeaderTable(const SurveyText& text);  // Metashape's reference CSV, any with names
+
+// opensfm_survey.cc
 SurveyFile ReadOpenSfmJson(const std::filesystem::path& path, const PhotoSize& photo_size);
 
+// metashape_survey.cc
 SurveyFile ReadMetashapeXml(const XmlNode& document);
+
+// micmac_survey.cc
 SurveyFile ReadMicMacXml(const XmlNode& root);  // both kinds of MicMac, both kinds of MMVII
+
+// dbat_survey.cc
 SurveyFile ReadDbatSurvey(const std::filesystem::path& script);
 
 }  // namespace insitu

@@ -2,7 +2,7 @@
 #include <algorithm>
 
 #include "calibration/files/json_file.h"
-#include "reconstruction/exchange/survey_readers.h"
+#include "reconstruction/exchange/survey_file_formats.h"
 
 namespace insitu {
 namespace {

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <map>
+
+#include "reconstruction/exchange/dbat_script.h"
+#include "reconstruction/exchange/survey_file_formats.h"
+
+namespace insitu {
+
+SurveyFile ReadDbatSurvey(const std::filesystem::path& path) {
+  const DbatScript script = ReadDbatScript(path);
+  SurveyFile file;
+  file.format = "script of DBAT with its tables";
+  int fixed = 0;
+  const auto add = [&](const DbatControlPoint& stated, ControlRole role) {
+    SurveyedPoint point{stated.id, script.metres_per_unit * stated.position, std::nullopt, role,
+                        stated.place};
+    if (stated.sigma.isZero(0)) {
+      ++fixed;
+    } else {
+      point.sigma = script.metres_per_unit * stated.sigma;
+    }
+    file.points.push_back(point);
+  };
+  for (const DbatControlPoint& point : script.control) add(point, ControlRole::kControl);
+  for (const DbatControlPoint& point : script.check) add(point, ControlRole::kCheck);
+  std::map<std::string, std::string> photos;
+  for (const DbatImage& image : script.images) photos[image.id] = image.photo;
+  for (const DbatMark& mark : script.marks) {
+    const auto photo = photos.find(mark.image);
+    if (photo == photos.end()) {
+      throw InputError(mark.place.path, mark.place.line,
+                       "image \"" + mark.image + "\" is not in the list of images");
+    }
+    file.marks.push_back({photo->second, mark.point, mark.pixel.array() - kDbatFirstPixelCenter,
+                          mark.sigma_px, mark.place});
+  }
+  if (fixed)
+    file.remarks.push_back(std::to_string(fixed) + " points are fixed there, without sigma");
+  return file;
+}
+
+}  // namespace insitu
