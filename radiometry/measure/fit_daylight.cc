@@ -175,11 +175,11 @@ std::vector<double> ResidualMagnitudes(const std::vector<DaylightSample>& sample
 
 void SetResiduals(const std::vector<DaylightSample>& samples, const Spectrum& brdf,
                   const SpectralBins& bins, DaylightFit* fit) {
-  const std::vector<double> magnitudes = ResidualMagnitudes(samples, fit, brdf, bins);
+  const std::vector<double> magnitudes = ResidualMagnitudes(samples, *fit, brdf, bins);
   fit->rms = Eigen::VectorXd::Map(magnitudes.data(), magnitudes.size()).norm() /
              std::sqrt(static_cast<double>(magnitudes.size()));
   for (const DaylightSample& sample : samples) {
-    const Spectrum model = ModelRadiance(fit, brdf, sample);
+    const Spectrum model = ModelRadiance(*fit, brdf, sample);
     const double measured = sample.true_color.head(bins.count).mean();
     fit->residuals.push_back((measured - model.head(bins.count).mean()) /
                              std::max(std::abs(measured), sample.sigma.head(bins.count).mean()));
