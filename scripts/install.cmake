@@ -2,6 +2,7 @@
 # What `cmake --install` and scripts/package put on a machine, besides the programs: a man page of each,
 # made from its --help, completion for bash, the licence; and the Debian package of it all.
 
+get_property(INSITU_PROGRAMS GLOBAL PROPERTY INSITU_PROGRAMS)
 find_program(HELP2MAN help2man)
 if(HELP2MAN)
   foreach(program IN LISTS INSITU_PROGRAMS)

@@ -54,8 +54,8 @@ int Insert(const TextRow& row, const std::string& name, const char* what, Indice
   return place->second;
 }
 
-// A project's marks are millimetres with one sigma for both axes, a network's are pixels with one: its
-// unit of length is a square pixel, or the axes would weigh differently.
+// A project's marks are millimetres with one sigma for both axes, a network's are pixels with one:
+// its unit of length is a square pixel, or the axes would weigh differently.
 MetricCamera InSquarePixels(MetricCamera lens) {
   lens.pixel_mm.setConstant(std::sqrt(lens.pixel_mm.prod()));
   return lens;

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Tie points by Debian's COLMAP on shared photographs, and our models read by COLMAP's own programs.
 # The data is no part of this repository: INSITU_SHARED names its folder, else ../shared is tried.
-# shellcheck disable=SC2317 # the functions are called through check
+# shellcheck disable=SC2119,SC2120,SC2317 # the functions are called through check
 set -euo pipefail
 # shellcheck source=assertions.sh
 source "$(dirname -- "${BASH_SOURCE[0]}")/assertions.sh"
