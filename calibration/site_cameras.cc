@@ -106,8 +106,9 @@ std::map<std::string, std::string> ReadAssignment(const SitePaths& site,
       throw camera.Error("is \"" + name +
                          "\", expected a folder of calibration/: " + Names(folders));
     }
-    const bool is_photo = std::any_of(photos.begin(), photos.end(),
-                                      [&](const fs::path& each) { return Stem(each) == photo; });
+    const bool is_photo =
+        std::any_of(photos.begin(), photos.end(),
+                    [&wanted = photo](const fs::path& each) { return Stem(each) == wanted; });
     if (!is_photo) throw camera.Error("is of a photo that is not in the folder photos");
     camera_of_photo[photo] = name;
   }
@@ -170,8 +171,9 @@ std::map<std::string, fs::path> FilmOfPhotos(const std::vector<CameraFolder>& fo
       if (!names.contains(photo)) {
         throw InputError(fiducials, "photo " + photo + " is not in the folder photos");
       }
-      if (std::any_of(folders.begin(), folders.end(),
-                      [&](const CameraFolder& each) { return each.name == photo; })) {
+      if (std::any_of(folders.begin(), folders.end(), [&wanted = photo](const CameraFolder& each) {
+            return each.name == wanted;
+          })) {
         throw InputError(fiducials, "photo " + photo +
                                         " is named as a camera folder, expected "
                                         "another name for one of them");

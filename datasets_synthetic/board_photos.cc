@@ -97,7 +97,8 @@ double PixelValue(const PlacedBoard& board, const SightTable& sights, int x, int
   constexpr int kGrid = 4;
   double sum = 0;
   for (int i = 0; i < kGrid * kGrid; ++i) {
-    const Vector2d offset((i % kGrid + 0.5) / kGrid - 0.5, (i / kGrid + 0.5) / kGrid - 0.5);
+    const int column = i % kGrid, row = i / kGrid;
+    const Vector2d offset((column + 0.5) / kGrid - 0.5, (row + 0.5) / kGrid - 0.5);
     sum += Reflectance(OnBoard(board, sights.Tangents(Vector2d(x, y) + offset)));
   }
   return sum / (kGrid * kGrid);

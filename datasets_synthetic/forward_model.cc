@@ -197,7 +197,8 @@ class Renderer {
     Vector3d before = Vector3d::Zero(), after = Vector3d::Zero();
     bool building = false;
     for (int i = 0; i < kGrid * kGrid; ++i) {
-      const Vector2d offset((i % kGrid + 0.5) / kGrid - 0.5, (i / kGrid + 0.5) / kGrid - 0.5);
+      const int column = i % kGrid, row = i / kGrid;
+      const Vector2d offset((column + 0.5) / kGrid - 0.5, (row + 0.5) / kGrid - 0.5);
       const uint64_t seed = Random(index, 2, i).Bits();
       const SampleColors colors = Sample(Sight(Vector2d(x, y) + offset), seed, block, record);
       before += colors.before / (kGrid * kGrid);
@@ -225,8 +226,9 @@ BeforeAfter VisibleSky(const Place& place, const Vector3d& point, const Vector3d
   const Eigen::Matrix3d site_from_normal = BasisAbout(normal);
   BeforeAfter seen;
   for (int i = 0; i < strata * strata; ++i) {
-    const double square_sine = (i / strata + random.Uniform()) / strata;
-    const double turn = 2 * std::numbers::pi * (i % strata + random.Uniform()) / strata;
+    const int column = i % strata, row = i / strata;
+    const double square_sine = (row + random.Uniform()) / strata;
+    const double turn = 2 * std::numbers::pi * (column + random.Uniform()) / strata;
     const double sine = std::sqrt(square_sine), cosine = std::sqrt(1 - square_sine);
     const Ray ray{
         point, site_from_normal * Vector3d(sine * std::cos(turn), sine * std::sin(turn), cosine)};

@@ -63,7 +63,8 @@ CameraFile FisheyeCamera(const fs::path& path, int line, const std::string& form
   const std::vector<double>& f = lens.intrinsics;
   // Angles off the axis, as x and y, to normalised image coordinates.
   const auto distort = [&]<typename T>(const Eigen::Matrix<T, 2, 1>& angle) {
-    const T x = angle.x(), y = angle.y();
+    const T& x = angle.x();
+    const T& y = angle.y();
     const T r2 = x * x + y * y;
     T radial(0), power(r2);
     for (const double k : lens.k) {

@@ -26,8 +26,9 @@ std::optional<std::vector<Sight>> Sights(const SightOfPixel& sight_of_pixel,
                                          int columns, int rows) {
   std::vector<Sight> sights;
   for (int i = 0; i < columns * rows; ++i) {
-    const Eigen::Vector2d pixel(width * (i % columns / (columns - 1.0)) - 0.5,
-                                height * (i / columns / (rows - 1.0)) - 0.5);
+    const int column = i % columns, row = i / columns;
+    const Eigen::Vector2d pixel(width * (column / (columns - 1.0)) - 0.5,
+                                height * (row / (rows - 1.0)) - 0.5);
     const auto direction = sight_of_pixel(pixel);
     if (!direction || !direction->allFinite()) return std::nullopt;
     const Eigen::Vector3d turned = turn * direction->normalized();

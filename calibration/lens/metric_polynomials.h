@@ -29,7 +29,8 @@ template <typename P, typename T>
 Eigen::Matrix<Product<P, T>, 2, 1> DistortBalancedRadial(const P* p, double balanced_radius,
                                                          const Eigen::Matrix<T, 2, 1>& ideal) {
   using R = Product<P, T>;
-  const T x = ideal.x(), y = ideal.y();
+  const T& x = ideal.x();
+  const T& y = ideal.y();
   const T r2 = x * x + y * y;
   const double b2 = balanced_radius * balanced_radius;
   const R d = p[3] * (r2 - b2) + p[4] * (r2 * r2 - b2 * b2) + p[5] * (r2 * r2 * r2 - b2 * b2 * b2);

@@ -101,7 +101,7 @@ Eigen::Vector3d SolveNonNegative(const Equations& equations, const std::vector<i
 void SetPrecision(const Equations& equations, const std::vector<int>& columns, Solution* solution) {
   const Eigen::JacobiSVD<Eigen::MatrixXd> svd(ScaledColumns(equations.A, columns),
                                               Eigen::ComputeThinV);
-  const Eigen::VectorXd singular = svd.singularValues();
+  const Eigen::VectorXd& singular = svd.singularValues();
   const double smallest = singular[singular.size() - 1];
   solution->condition = smallest > 0 ? std::min(kSingular, singular[0] / smallest) : kSingular;
   const double dof = static_cast<double>(equations.y.size()) - static_cast<double>(columns.size());

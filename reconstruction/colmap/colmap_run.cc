@@ -26,7 +26,8 @@ std::string ColmapName(size_t photo, const std::string& ending) {
 
 class Run {
  public:
-  Run(const std::vector<MatchingPhoto>& photos, fs::path folder, const ColmapOptions& options)
+  Run(const std::vector<MatchingPhoto>& photos, const fs::path& folder,
+      const ColmapOptions& options)
       : photos_(photos), folder_(fs::absolute(folder)), options_(options) {
     for (const char* part : {"images", "logs", "models"}) {
       fs::remove_all(folder_ / part);

@@ -220,7 +220,8 @@ bool Project::IntersectPoints() {
 }
 
 void Project::PlaceByTurns() {
-  while (ResectPhotos() | IntersectPoints()) {
+  // Both are asked each time: each may go on where the other has come further.
+  while (static_cast<int>(ResectPhotos()) + static_cast<int>(IntersectPoints()) > 0) {
   }
 }
 

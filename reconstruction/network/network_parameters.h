@@ -23,12 +23,12 @@ class NetworkParameters {
   void Load();   // the network's values into the arrays, but for lenses
   void Store();  // and back, with lenses that are adjusted
 
-  double* Rotation(int photo) { return &values_[7 * photo]; }  // x, y, z, w
-  double* Center(int photo) { return &values_[7 * photo + 4]; }
-  double* Point(int point) { return &values_[first_point_ + 3 * point]; }
-  double* Normal(int plane) { return &values_[first_plane_ + 4 * plane]; }
+  double* Rotation(int photo) { return &values_[size_t{7} * photo]; }  // x, y, z, w
+  double* Center(int photo) { return &values_[size_t{7} * photo + 4]; }
+  double* Point(int point) { return &values_[first_point_ + size_t{3} * point]; }
+  double* Normal(int plane) { return &values_[first_plane_ + size_t{4} * plane]; }
   double* Offset(int plane) { return Normal(plane) + 3; }
-  double* Unit(int direction) { return &values_[first_direction_ + 3 * direction]; }
+  double* Unit(int direction) { return &values_[first_direction_ + size_t{3} * direction]; }
   double* Unit(const UnitReference& reference);  // of a plane or a direction
   std::vector<double>& Lens(int camera) { return lenses_[camera]; }
 
