@@ -13,7 +13,11 @@ int main(int argc, char** argv) {
   insitu::SitePaths site;
   insitu::BoardCalibrationOptions options;
   insitu::AddSite(&app, &site);
+  const auto is_model = [](const std::string& name) {
+    return name.starts_with("LENSMODEL_") ? "" : "expected a model of mrcal, as LENSMODEL_OPENCV8";
+  };
   app.add_option("--lens-model", options.lens_model, "a lens model of mrcal")
+      ->check(CLI::Validator(is_model, ""))
       ->capture_default_str();
   app.add_option("--focal-px", options.focal_px,
                  "focal length to start from [px]; else from EXIF, else a 50 degree field of view")

@@ -164,4 +164,18 @@ std::string CalibrationPage(const Json::Value& report) {
                     kCalibrationPageScript);
 }
 
+std::optional<Eigen::MatrixXd> ReadIntrinsicsCovariance(const SitePaths& site,
+                                                        const std::string& camera) {
+  const std::filesystem::path path = site.calibration_report(camera);
+  if (!std::filesystem::exists(path)) return std::nullopt;
+  const JsonNode report = JsonNode::Load(path);
+  const auto node = report.Find("intrinsics_covariance");
+  if (!node) return std::nullopt;
+  Eigen::MatrixXd covariance = node->Matrix();
+  const auto count = static_cast<Eigen::Index>(report.At("intrinsics").Items().size());
+  if (covariance.rows() == count && covariance.cols() == count) return covariance;
+  throw node->Error("is not " + std::to_string(count) + " x " + std::to_string(count) +
+                    " as the intrinsics are many; run insitu-calibrate again");
+}
+
 }  // namespace insitu

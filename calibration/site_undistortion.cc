@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "calibration/site_undistortion.h"
+
 #include <map>
 
 #include "calibration/files/error.h"
+#include "calibration/files/wording.h"
 #include "calibration/lens/undistort.h"
 #include "calibration/photo/photograph.h"
 #include "calibration/program/program.h"
-#include "calibration/site_calibration.h"
 #include "calibration/site_cameras.h"
-#include "calibration/files/wording.h"
 
 namespace insitu {
 namespace fs = std::filesystem;

@@ -2,7 +2,7 @@
 #include <iostream>
 
 #include "calibration/program/program.h"
-#include "calibration/site_calibration.h"
+#include "calibration/site_undistortion.h"
 
 int main(int argc, char** argv) {
   CLI::App app("Removes the lens distortion from a site's photographs, in linear light.",

@@ -3,6 +3,7 @@
 #include <iostream>
 
 #include "calibration/program/program.h"
+#include "calibration/program/warnings.h"
 #include "radiometry/light_report.h"
 #include "radiometry/measure_daylight.h"
 
@@ -30,9 +31,7 @@ int RunLight(int argc, char** argv) {
     const LightMeasurement measurement = MeasureDaylight(site, options);
     WriteEnvironment(site, measurement);
     std::cout << BriefReport(measurement);
-    for (const std::string& warning : measurement.warnings) {
-      std::cout << "warning: " << warning << "\n";
-    }
+    std::cout << WarningLines(measurement.warnings);
   });
 }
 

@@ -51,6 +51,11 @@ void AddLight(const LightMeasurement& measured, Json::Value* light) {
   const Daylight& daylight = environment.light;
   const DaylightFit& fit = measured.daylight_fit;
   Json::Value& json = *light;
+  // The paper's: one k for all wavelengths, and L that of D65. [Durisch92, §4.3, §7]
+  json["relative_spectrum"] = Bins(IlluminantD65(spectra.bins()), spectra.bins());
+  json["k_s"] = WeightOfD65(daylight.sun_radiance, spectra.bins());
+  json["k_u"] = WeightOfD65(daylight.ambient_radiance, spectra.bins());
+  json["k_h"] = WeightOfD65(daylight.sky_radiance, spectra.bins());
   json["sun_radiance_sigma"] = Bins(fit.sun_sigma, spectra.bins());
   json["sun_irradiance_rgb"] = Vector(SunIrradianceRgb(environment));
   json["ambient_radiance_sigma"] = Bins(fit.ambient_sigma, spectra.bins());
@@ -68,8 +73,8 @@ void AddLight(const LightMeasurement& measured, Json::Value* light) {
 Json::Value Provenance(const SceneGeometry& scene) {
   Json::Value json;
   json["software"] = "insitu " INSITU_VERSION;
-  for (const char* input :
-       {"work/reconstruction/scene.json", "survey/samples.json", "survey/materials.json"}) {
+  for (const char* input : {"work/reconstruction/scene.json", "work/input_images",
+                            "survey/samples.json", "survey/materials.json"}) {
     json["inputs"].append(input);
   }
   for (const PosedCamera& posed : scene.cameras) json["inputs"].append("photos/" + posed.photo);
@@ -122,7 +127,7 @@ std::string BriefReport(const LightMeasurement& measured) {
 }
 
 void WriteEnvironment(const SitePaths& site, const LightMeasurement& measured) {
-  Json::Value json = DescriptionOf(measured.environment);
+  Json::Value json = DescriptionOf(measured.environment, site.environment());
   json["provenance"] = Provenance(measured.environment.scene);
   AddAir(measured, &json["air"]);
   AddLight(measured, &json["light"]);

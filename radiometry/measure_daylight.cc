@@ -7,6 +7,8 @@
 
 #include "calibration/files/error.h"
 #include "calibration/photo/photograph.h"
+#include "calibration/program/program.h"
+#include "calibration/site_cameras.h"
 #include "radiometry/measure/surroundings.h"
 #include "reconstruction/geometry/ray_scene.h"
 
@@ -15,7 +17,8 @@ namespace {
 
 constexpr double kPoorCondition = 100;
 
-std::vector<Photograph> ReadPhotographs(const SitePaths& site, const SceneGeometry& scene) {
+std::vector<Photograph> ReadPhotographs(const SitePaths& site, const SceneGeometry& scene,
+                                        Progress* progress) {
   const std::vector<std::filesystem::path> paths = ListPhotographs(site);
   std::vector<Photograph> photos;
   for (const PosedCamera& posed : scene.cameras) {
@@ -25,20 +28,31 @@ std::vector<Photograph> ReadPhotographs(const SitePaths& site, const SceneGeomet
       throw InputError(site.photos(), "no photograph \"" + posed.photo +
                                           "\", expected every one that was reconstructed");
     }
+    RequirePhotographSize(*path, posed.camera.width(), posed.camera.height());
     photos.push_back(ReadPhotograph(*path));
-    const Raster& image = photos.back().linear;
-    if (image.width == posed.camera.width() && image.height == posed.camera.height()) continue;
-    throw InputError(*path, "is " + std::to_string(image.width) + " x " +
-                                std::to_string(image.height) + " pixels, expected " +
-                                std::to_string(posed.camera.width()) + " x " +
-                                std::to_string(posed.camera.height()) + " as its camera has");
+    progress->Step();
   }
   return photos;
 }
 
+// The camera of each photograph's input image, and where that is.
+std::vector<InputImage> ListInputImages(const SitePaths& site, const SceneGeometry& scene) {
+  const std::vector<std::filesystem::path> paths = ListPhotographs(site);
+  const std::vector<std::string> cameras = CamerasOfPhotos(site, paths);
+  std::map<std::string, std::string> camera_of_photo;
+  for (size_t i = 0; i < paths.size(); ++i) camera_of_photo[paths[i].stem().string()] = cameras[i];
+  std::vector<InputImage> images;
+  for (const PosedCamera& posed : scene.cameras) {
+    const std::filesystem::path pinhole = site.pinhole_camera(camera_of_photo.at(posed.photo));
+    RequireResult(pinhole, "insitu-undistort");
+    images.push_back({site.input_image(posed.photo), ReadCamera(pinhole)});
+  }
+  return images;
+}
+
 std::map<std::string, NaturalMaterial> MaterialsOfPolygons(const SitePaths& site,
                                                            const SceneGeometry& scene,
-                                                           std::vector<std::string>& warnings) {
+                                                           std::vector<std::string>* warnings) {
   std::map<std::string, NaturalMaterial> materials = ReadNaturalMaterials(site);
   std::string missing;
   for (const Polygon& polygon : scene.polygons) {
@@ -46,7 +60,7 @@ std::map<std::string, NaturalMaterial> MaterialsOfPolygons(const SitePaths& site
     missing += (missing.empty() ? "" : ", ") + polygon.material;
   }
   if (!missing.empty()) {
-    warnings.push_back(
+    warnings->push_back(
         "materials without an entry in survey/materials.json, taken as purely "
         "diffuse: " +
         missing);
@@ -70,10 +84,10 @@ Spectrum HorizonColor(const std::vector<PixelSample>& samples, const SpectralBas
 }
 
 AtmosphereFit MeasureAir(const LightSamples& samples, const SpectralBasis& spectra,
-                         std::vector<std::string>& warnings) {
+                         std::vector<std::string>* warnings) {
   const Spectrum horizon = HorizonColor(samples.horizon, spectra);
   if (samples.haze.empty()) {
-    warnings.push_back("samples.json has no haze samples: the air is taken as clear");
+    warnings->push_back("samples.json has no haze samples: the air is taken as clear");
     AtmosphereFit clear;
     clear.air.horizon = horizon;
     return clear;
@@ -133,11 +147,11 @@ std::vector<LightGeometry> TraceLight(const std::vector<SurfacePoint>& points, c
 }
 
 Spectrum SampleBrdf(const LightSamples& samples, const SpectralBasis& spectra,
-                    std::vector<std::string>& warnings) {
+                    std::vector<std::string>* warnings) {
   if (samples.daylight_reflectance) {
     return spectra.ReflectanceFromRgb(*samples.daylight_reflectance) / std::numbers::pi;
   }
-  warnings.push_back(
+  warnings->push_back(
       "samples.json has no daylight_reflectance_rgb: it is taken as 1, so the "
       "building will come out too dark beside its surroundings");
   return spectra.Ones() / std::numbers::pi;
@@ -145,13 +159,13 @@ Spectrum SampleBrdf(const LightSamples& samples, const SpectralBasis& spectra,
 
 void WarnOfWeakSamples(const LightMeasurement& measured, bool has_sun,
                        const std::vector<DaylightSample>& samples,
-                       std::vector<std::string>& warnings) {
+                       std::vector<std::string>* warnings) {
   const bool any_sun = std::any_of(samples.begin(), samples.end(),
                                    [](const auto& sample) { return sample.geometry.sun > 0; });
-  if (!has_sun) warnings.push_back("no sun direction was measured: the sky is taken as overcast");
-  if (has_sun && !any_sun) warnings.push_back("no daylight sample sees the sun: it stays dark");
+  if (!has_sun) warnings->push_back("no sun direction was measured: the sky is taken as overcast");
+  if (has_sun && !any_sun) warnings->push_back("no daylight sample sees the sun: it stays dark");
   if (measured.daylight_fit.condition > kPoorCondition) {
-    warnings.push_back(
+    warnings->push_back(
         "the daylight samples hardly tell sun, sky and ambient light apart: choose "
         "some in sun, in open shade and in deep shade");
   }
@@ -186,36 +200,48 @@ std::vector<DaylightSample> DaylightSamples(const LightMeasurement& measured,
 }
 
 void MeasureLightComponents(const std::vector<Photograph>& photos, const LightOptions& options,
-                            LightMeasurement& measured) {
-  NaturalEnvironment& environment = measured.environment;
+                            LightMeasurement* measured) {
+  NaturalEnvironment& environment = measured->environment;
   Daylight& light = environment.light;
   light = IlluminationGeometry(environment.scene, options.polar_facets);
   const std::vector<DaylightSample> samples =
-      DaylightSamples(measured, photos, options.uniform_ambient);
+      DaylightSamples(*measured, photos, options.uniform_ambient);
   const bool has_sun = environment.scene.sun.has_value();
-  measured.daylight_fit =
-      FitDaylight(samples, SampleBrdf(measured.samples, environment.spectra, measured.warnings),
+  measured->daylight_fit =
+      FitDaylight(samples, SampleBrdf(measured->samples, environment.spectra, &measured->warnings),
                   has_sun, environment.spectra.bins(), {options.average_over_wavelength});
-  light.sun_radiance = measured.daylight_fit.sun_radiance;
-  light.ambient_radiance = measured.daylight_fit.ambient_radiance;
-  light.sky_radiance = measured.daylight_fit.sky_radiance;
-  WarnOfWeakSamples(measured, has_sun, samples, measured.warnings);
+  light.sun_radiance = measured->daylight_fit.sun_radiance;
+  light.ambient_radiance = measured->daylight_fit.ambient_radiance;
+  light.sky_radiance = measured->daylight_fit.sky_radiance;
+  WarnOfWeakSamples(*measured, has_sun, samples, &measured->warnings);
 }
 
 }  // namespace
 
+void LightOptions::Check() const {
+  INSITU_CHECK(bins >= kFewestBins && bins <= kMaxBins);
+  INSITU_CHECK(polar_facets >= 1 && polar_facets <= kMostPolarFacets);
+}
+
 LightMeasurement MeasureDaylight(const SitePaths& site, const LightOptions& options) {
+  options.Check();
   LightMeasurement measured;
   NaturalEnvironment& environment = measured.environment;
   environment.scene = ReadSceneGeometry(site);
   environment.spectra = SpectralBasis(Rec709(), {options.bins});
-  environment.materials = MaterialsOfPolygons(site, environment.scene, measured.warnings);
-  const std::vector<Photograph> photos = ReadPhotographs(site, environment.scene);
+  environment.materials = MaterialsOfPolygons(site, environment.scene, &measured.warnings);
+  constexpr int kMeasurements = 3;  // samples, air, light, each about as long as a photograph
+  Progress progress("haze and daylight",
+                    static_cast<int>(environment.scene.cameras.size()) + kMeasurements);
+  const std::vector<Photograph> photos = ReadPhotographs(site, environment.scene, &progress);
+  environment.input_images = ListInputImages(site, environment.scene);
   measured.samples = ReadSamples(site, environment.scene, photos);
+  progress.Step();
   measured.reflectance_known = measured.samples.daylight_reflectance.has_value();
-  measured.air_fit = MeasureAir(measured.samples, environment.spectra, measured.warnings);
+  measured.air_fit = MeasureAir(measured.samples, environment.spectra, &measured.warnings);
   environment.air = measured.air_fit.air;
-  MeasureLightComponents(photos, options, measured);
+  progress.Step();
+  MeasureLightComponents(photos, options, &measured);
   return measured;
 }
 

@@ -20,6 +20,8 @@ struct LightOptions {
   bool average_over_wavelength = false;
   bool uniform_ambient =
       false;  // Eq. (4) in the inversion too, instead of photographed surroundings
+
+  void Check() const;  // throws CheckError that names the field that is wrong
 };
 
 // What the light inversion found.

@@ -2,6 +2,7 @@
 #include "radiometry/natural_environment.h"
 
 #include <cmath>
+#include <stdexcept>
 
 #include "calibration/files/json_file.h"
 
@@ -9,7 +10,8 @@ namespace insitu {
 namespace {
 
 constexpr char kFormat[] = "insitu natural environment";
-constexpr int kVersion = 1;
+constexpr int kVersion = 2;               // 1: no input images, no covariances
+constexpr double kReferenceDistance = 1;  // d_a [m]
 
 Json::Value Vector(const Eigen::Vector3d& vector) { return ToJson(Eigen::VectorXd(vector)); }
 
@@ -17,19 +19,38 @@ Json::Value Bins(const Spectrum& spectrum, const SpectralBins& bins) {
   return ToJson(Eigen::VectorXd(spectrum.head(bins.count).matrix()));
 }
 
-Json::Value CameraToJson(const PosedCamera& posed) {
-  const Eigen::Quaterniond& rotation = posed.cam_from_world.rotation;
-  const std::vector<double>& intrinsics = posed.camera.intrinsics();
+Json::Value InteriorToJson(const Camera& camera) {
+  const std::vector<double>& intrinsics = camera.intrinsics();
   Json::Value json;
-  json["photo"] = posed.photo;
-  json["lens_model"] = posed.camera.lens_model();
+  json["lens_model"] = camera.lens_model();
   json["intrinsics"] =
       ToJson(Eigen::VectorXd(Eigen::VectorXd::Map(intrinsics.data(), intrinsics.size())));
-  json["width"] = posed.camera.width();
-  json["height"] = posed.camera.height();
-  json["cam_from_world"]["rotation_wxyz"] = ToJson(
+  json["width"] = camera.width();
+  json["height"] = camera.height();
+  return json;
+}
+
+Json::Value ExteriorToJson(const Rigid3& cam_from_world) {
+  const Eigen::Quaterniond& rotation = cam_from_world.rotation;
+  Json::Value json;
+  json["rotation_wxyz"] = ToJson(
       Eigen::VectorXd(Eigen::Vector4d(rotation.w(), rotation.x(), rotation.y(), rotation.z())));
-  json["cam_from_world"]["translation"] = Vector(posed.cam_from_world.translation);
+  json["translation"] = Vector(cam_from_world.translation);
+  return json;
+}
+
+Json::Value CameraToJson(const NaturalEnvironment& environment, size_t i,
+                         const std::filesystem::path& folder) {
+  const PosedCamera& posed = environment.scene.cameras[i];
+  const InputImage& image = environment.input_images[i];
+  Json::Value json = InteriorToJson(posed.camera);
+  json["photo"] = posed.photo;
+  json["cam_from_world"] = ExteriorToJson(posed.cam_from_world);
+  if (!environment.scene.camera_covariances.empty()) {
+    json["covariance"] = ToJson(environment.scene.camera_covariances[i]);
+  }
+  json["input_image"] = InteriorToJson(image.camera);
+  json["input_image"]["file"] = image.file.lexically_relative(folder).generic_string();
   return json;
 }
 
@@ -40,6 +61,7 @@ Json::Value PolygonToJson(const Polygon& polygon, const SceneGeometry& scene) {
   json["normal"] = Vector(polygon.normal);
   json["photo"] = polygon.photo ? Json::Value(scene.cameras[*polygon.photo].photo) : Json::Value();
   json["material"] = polygon.material;
+  if (polygon.covariance.size() > 0) json["covariance"] = ToJson(polygon.covariance);
   return json;
 }
 
@@ -50,11 +72,15 @@ Json::Value DirectionToJson(const Direction& direction) {
   return json;
 }
 
-Json::Value SceneToJson(const SceneGeometry& scene) {
+Json::Value SceneToJson(const NaturalEnvironment& environment,
+                        const std::filesystem::path& folder) {
+  const SceneGeometry& scene = environment.scene;
   Json::Value json;
   json["origin"] = Vector(scene.origin);
   json["cameras"] = Json::Value(Json::arrayValue);
-  for (const PosedCamera& posed : scene.cameras) json["cameras"].append(CameraToJson(posed));
+  for (size_t i = 0; i < scene.cameras.size(); ++i) {
+    json["cameras"].append(CameraToJson(environment, i, folder));
+  }
   json["polygons"] = Json::Value(Json::arrayValue);
   for (const Polygon& p : scene.polygons) json["polygons"].append(PolygonToJson(p, scene));
   json["sun"] = scene.sun ? DirectionToJson(*scene.sun) : Json::Value();
@@ -76,6 +102,7 @@ Json::Value AirToJson(const Atmosphere& air, const SpectralBins& bins) {
   Json::Value json;
   json["horizon"] = Bins(air.horizon, bins);
   json["transmittance_per_m"] = Bins(air.transmittance, bins);
+  json["reference_distance_m"] = kReferenceDistance;
   return json;
 }
 
@@ -91,14 +118,16 @@ Json::Value LightToJson(const Daylight& light, const SpectralBins& bins) {
   return json;
 }
 
-// Overwrites the used bins.
-void ReadBins(const JsonNode& node, const SpectralBins& bins, Spectrum& spectrum) {
+// `unused` in the bins beyond.
+Spectrum ReadBins(const JsonNode& node, const SpectralBins& bins, double unused = 0) {
   const std::vector<double> values = node.Numbers();
   if (static_cast<int>(values.size()) != bins.count) {
     throw node.Error("has " + std::to_string(values.size()) + " values, expected one for each of " +
                      std::to_string(bins.count) + " bins");
   }
+  Spectrum spectrum = Spectrum::Constant(unused);
   std::copy(values.begin(), values.end(), spectrum.data());
+  return spectrum;
 }
 
 Eigen::Vector3d ReadUnit(const JsonNode& node) {
@@ -117,18 +146,47 @@ Eigen::Quaterniond ReadRotation(const JsonNode& node) {
   return rotation;
 }
 
-PosedCamera ReadCameraOf(const JsonNode& node) {
-  const JsonNode pose = node.At("cam_from_world");
-  const Rigid3 cam_from_world{ReadRotation(pose.At("rotation_wxyz")),
-                              pose.At("translation").Vector3()};
+Camera ReadInterior(const JsonNode& node) {
   try {
-    return {node.At("photo").Text(),
-            Camera(node.At("lens_model").Text(), node.At("intrinsics").Numbers(),
-                   node.At("width").Integer(), node.At("height").Integer()),
-            cam_from_world};
+    return {node.At("lens_model").Text(), node.At("intrinsics").Numbers(),
+            node.At("width").Integer(), node.At("height").Integer()};
   } catch (const std::invalid_argument& error) {
     throw node.Error(std::string("is not a camera: ") + error.what());
   }
+}
+
+Rigid3 ReadExterior(const JsonNode& node) {
+  return {ReadRotation(node.At("rotation_wxyz")), node.At("translation").Vector3()};
+}
+
+Eigen::MatrixXd ReadCovariance(const JsonNode& node, size_t size) {
+  Eigen::MatrixXd covariance = node.Matrix();
+  const auto rows = static_cast<Eigen::Index>(size);
+  if (covariance.rows() == rows && covariance.cols() == rows) return covariance;
+  throw node.Error("is not a covariance of " + std::to_string(size) + " unknowns");
+}
+
+// Of six elements of the exterior orientation and, where they are uncertain, all of the interior.
+Eigen::MatrixXd ReadCameraCovariance(const JsonNode& node, const Camera& camera) {
+  const size_t rows = node.Items().size();
+  return ReadCovariance(node, rows == 6 ? rows : 6 + camera.intrinsics().size());
+}
+
+// Adds one camera with its input image.
+void ReadCameraOf(const JsonNode& node, NaturalEnvironment* environment) {
+  SceneGeometry& scene = environment->scene;
+  scene.cameras.push_back(
+      {node.At("photo").Text(), ReadInterior(node), ReadExterior(node.At("cam_from_world"))});
+  if (const auto covariance = node.Find("covariance")) {
+    scene.camera_covariances.push_back(
+        ReadCameraCovariance(*covariance, scene.cameras.back().camera));
+  }
+  if (scene.camera_covariances.size() % scene.cameras.size() != 0) {
+    throw node.Error("has a covariance or none, expected the same of all cameras");
+  }
+  const JsonNode image = node.At("input_image");
+  environment->input_images.push_back(
+      {node.path().parent_path() / image.At("file").Text(), ReadInterior(image)});
 }
 
 int PhotoIndex(const JsonNode& photo, const SceneGeometry& scene) {
@@ -148,6 +206,9 @@ Polygon ReadPolygon(const JsonNode& node, const SceneGeometry& scene) {
   }
   if (const auto photo = node.Find("photo")) polygon.photo = PhotoIndex(*photo, scene);
   polygon.material = node.At("material").Text();
+  if (const auto covariance = node.Find("covariance")) {
+    polygon.covariance = ReadCovariance(*covariance, 3 * polygon.vertices.size());
+  }
   return polygon;
 }
 
@@ -159,19 +220,17 @@ Direction ReadDirection(const JsonNode& node) {
   return direction;
 }
 
-SceneGeometry ReadScene(const JsonNode& node) {
-  SceneGeometry scene;
+// With its input images.
+void ReadScene(const JsonNode& node, NaturalEnvironment* environment) {
+  SceneGeometry& scene = environment->scene;
   scene.origin = node.At("origin").Vector3();
-  for (const JsonNode& camera : node.At("cameras").Items()) {
-    scene.cameras.push_back(ReadCameraOf(camera));
-  }
+  for (const JsonNode& camera : node.At("cameras").Items()) ReadCameraOf(camera, environment);
   for (const JsonNode& polygon : node.At("polygons").Items()) {
     scene.polygons.push_back(ReadPolygon(polygon, scene));
   }
   if (const auto sun = node.Find("sun")) scene.sun = ReadDirection(*sun);
   scene.zenith = ReadDirection(node.At("zenith"));
   scene.vertex_sigma = node.At("vertex_sigma").Number();
-  return scene;
 }
 
 NaturalMaterial ReadMaterial(const JsonNode& node) {
@@ -199,11 +258,13 @@ std::map<std::string, NaturalMaterial> ReadMaterials(const JsonNode& root,
 
 Atmosphere ReadAir(const JsonNode& node, const SpectralBins& bins) {
   Atmosphere air;
-  ReadBins(node.At("horizon"), bins, air.horizon);
-  ReadBins(node.At("transmittance_per_m"), bins, air.transmittance);
+  air.horizon = ReadBins(node.At("horizon"), bins);
+  air.transmittance = ReadBins(node.At("transmittance_per_m"), bins, 1);
   if (!(air.transmittance > 0 && air.transmittance <= 1).all()) {
     throw node.At("transmittance_per_m").Error("is out of range, expected above 0 and up to 1");
   }
+  const JsonNode distance = node.At("reference_distance_m");
+  if (distance.Number() != kReferenceDistance) throw distance.Error("is not 1, expected metres");
   return air;
 }
 
@@ -216,29 +277,35 @@ Daylight ReadLight(const JsonNode& node, const SpectralBins& bins) {
   if (light.polar_facets < 1 || light.polar_facets > kMostPolarFacets) {
     throw node.At("polar_facets").Error("is not within 1 to 16");
   }
-  ReadBins(node.At("sun_radiance"), bins, light.sun_radiance);
-  ReadBins(node.At("ambient_radiance"), bins, light.ambient_radiance);
-  ReadBins(node.At("sky_radiance"), bins, light.sky_radiance);
+  light.sun_radiance = ReadBins(node.At("sun_radiance"), bins);
+  light.ambient_radiance = ReadBins(node.At("ambient_radiance"), bins);
+  light.sky_radiance = ReadBins(node.At("sky_radiance"), bins);
   return light;
 }
 
 SpectralBins ReadSpectralBins(const JsonNode& node) {
   const int count = node.Integer();
-  if (count < 3 || count > kMaxBins) {
-    throw node.Error("is out of range, expected 3 to " + std::to_string(kMaxBins));
+  if (count < kFewestBins || count > kMaxBins) {
+    throw node.Error("is out of range, expected " + std::to_string(kFewestBins) + " to " +
+                     std::to_string(kMaxBins));
   }
   return {count};
 }
 
 }  // namespace
 
-Json::Value DescriptionOf(const NaturalEnvironment& environment) {
+Json::Value DescriptionOf(const NaturalEnvironment& environment,
+                          const std::filesystem::path& file) {
+  const size_t cameras = environment.scene.cameras.size(),
+               covariances = environment.scene.camera_covariances.size();
+  INSITU_CHECK(environment.input_images.size() == cameras);
+  INSITU_CHECK(covariances == 0 || covariances == cameras);
   const SpectralBins& bins = environment.spectra.bins();
   Json::Value json;
   json["format"] = kFormat;
   json["version"] = kVersion;
   json["bins"] = bins.count;
-  json["scene"] = SceneToJson(environment.scene);
+  json["scene"] = SceneToJson(environment, file.parent_path());
   json["materials"] = Json::Value(Json::objectValue);
   for (const auto& [name, material] : environment.materials) {
     json["materials"][name] = MaterialToJson(material);
@@ -255,12 +322,13 @@ NaturalEnvironment ReadEnvironment(const SitePaths& site) {
   if (format.Text() != kFormat) throw format.Error("expected \"" + std::string(kFormat) + "\"");
   const JsonNode version = root.At("version");
   if (version.Integer() != kVersion) {
-    throw version.Error("is not readable here, expected " + std::to_string(kVersion));
+    throw version.Error("is not this insitu's, expected " + std::to_string(kVersion) +
+                        ": run insitu-light again");
   }
   NaturalEnvironment environment;
   environment.spectra = SpectralBasis(Rec709(), ReadSpectralBins(root.At("bins")));
   const SpectralBins& bins = environment.spectra.bins();
-  environment.scene = ReadScene(root.At("scene"));
+  ReadScene(root.At("scene"), &environment);
   environment.materials = ReadMaterials(root, environment.scene);
   environment.air = ReadAir(root.At("air"), bins);
   environment.light = ReadLight(root.At("light"), bins);

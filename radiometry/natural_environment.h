@@ -4,9 +4,12 @@
 
 #include <json/value.h>
 
+#include <filesystem>
 #include <map>
 #include <string>
+#include <vector>
 
+#include "calibration/lens/camera.h"
 #include "calibration/program/site.h"
 #include "radiometry/light/atmosphere.h"
 #include "radiometry/light/daylight.h"
@@ -16,19 +19,28 @@
 
 namespace insitu {
 
+// A photograph without its lens's distortion, in linear light. [Durisch92, §4.1]
+struct InputImage {
+  std::filesystem::path file;
+  Camera camera;  // the pinhole that sees it, posed as its photograph
+};
+
 struct NaturalEnvironment {
   SceneGeometry scene;
+  std::vector<InputImage> input_images;  // as scene.cameras
   SpectralBasis spectra;
   Atmosphere air;
   Daylight light;
   std::map<std::string, NaturalMaterial> materials;  // every polygon's material has an entry
 };
 
-// What work/environment.json holds of it. Numbers come back to the same bits from a file of 17
-// digits; whoever writes the file may add what is not read, such as standard deviations.
-Json::Value DescriptionOf(const NaturalEnvironment& environment);
+// What `file` (work/environment.json) is to hold of it; input images are named relative to its
+// folder. Numbers come back to the same bits from a file of 17 digits; whoever writes the file may
+// add what is not read, such as standard deviations.
+Json::Value DescriptionOf(const NaturalEnvironment& environment, const std::filesystem::path& file);
 
-// From work/environment.json, which alone describes the environment. Throws InputError.
+// From work/environment.json, which with the input images is all that a renderer needs to know.
+// Throws InputError: not there, of another version, not as it was written.
 NaturalEnvironment ReadEnvironment(const SitePaths& site);
 
 }  // namespace insitu

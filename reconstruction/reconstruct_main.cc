@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <iostream>
 
-#include "reconstruction/colmap/colmap_text.h"
 #include "calibration/files/json_file.h"
 #include "calibration/program/program.h"
+#include "reconstruction/colmap/colmap_text.h"
 #include "reconstruction/colmap_export.h"
 #include "reconstruction/reconstruct_site.h"
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "reconstruction/site_photos.h"
 
+#include "calibration/calibration_report.h"
 #include "calibration/files/error.h"
 #include "calibration/photo/photograph.h"
-#include "calibration/site_calibration.h"
 #include "calibration/site_cameras.h"
 
 namespace insitu {

@@ -5,12 +5,12 @@
 #include <map>
 #include <set>
 
-#include "reconstruction/colmap/colmap_text.h"
 #include "calibration/files/error.h"
 #include "calibration/files/wording.h"
 #include "calibration/photo/distinct_photographs.h"
 #include "calibration/photo/photograph.h"
 #include "reconstruction/adjustment/align_tie_points.h"
+#include "reconstruction/colmap/colmap_text.h"
 #include "reconstruction/site_photos.h"
 #include "reconstruction/survey/read_survey.h"
 #include "reconstruction/survey/survey.h"

@@ -2,12 +2,14 @@
 #include "renderer/convert.h"
 
 #include <algorithm>
-#include <cstdio>
 #include <set>
 
 #include "calibration/files/error.h"
 #include "calibration/files/json_file.h"
+#include "calibration/files/wording.h"
 #include "calibration/photo/photograph.h"
+#include "calibration/program/program.h"
+#include "calibration/program/warnings.h"
 #include "renderer/building/building_lights.h"
 #include "renderer/building/building_materials.h"
 #include "renderer/building/site_check.h"
@@ -121,10 +123,8 @@ void Converter::WarnOfPairs(const Placement& placement) {
     const double off = placement.adjusted->residuals[i].norm();
     const double sigma = placement.pairs[i].points.sigma.x();
     if (off <= kWorst * sigma) continue;
-    char text[200];
-    std::snprintf(text, sizeof(text), "%s is %.3f m off, of a sigma of %.3f m",
-                  placement.pairs[i].name.c_str(), off, sigma);
-    Warn(file, text);
+    Warn(file, Formatted("%s is %.3f m off, of a sigma of %.3f m", placement.pairs[i].name.c_str(),
+                         off, sigma));
   }
   const double scale = placement.adjusted->free_scale;
   if (std::abs(scale - 1) > 0.01 && placement.world_from_model.scale == 1) {
@@ -306,17 +306,22 @@ ModelList ModelsOf(const SitePaths& site, const ConvertOptions& options) {
 }
 
 std::string Written(const Vector3d& point) {
-  char text[100];
-  std::snprintf(text, sizeof(text), "(%.3f, %.3f, %.3f)", point.x(), point.y(), point.z());
-  return text;
+  return Formatted("(%.3f, %.3f, %.3f)", point.x(), point.y(), point.z());
 }
 
 }  // namespace
 
+void ConvertOptions::Check() const { import.Check(); }
+
 Conversion ConvertBuilding(const SitePaths& site, const ConvertOptions& options) {
+  options.Check();
   const ModelList models = ModelsOf(site, options);
   Converter converter(site, options);
-  for (const fs::path& model : models.files) converter.Add(model);
+  Progress progress("the building", static_cast<int>(models.files.size()) + 1);
+  for (const fs::path& model : models.files) {
+    converter.Add(model);
+    progress.Step();
+  }
   Conversion conversion = converter.Finish();
   conversion.chord_tolerance = options.import.dxf.chord_tolerance;
   conversion.warnings.insert(conversion.warnings.begin(), models.warnings.begin(),
@@ -337,6 +342,7 @@ void RequireSurface(const SitePaths& site, const Conversion& conversion) {
 }
 
 std::string MaterialsTemplate(const SitePaths& site, const ConvertOptions& options) {
+  options.Check();
   std::map<std::string, std::map<std::string, Json::Value>> sections;
   for (const fs::path& path : ModelsOf(site, options).files) {
     for (const SurfaceNames& names : ReadModel(path, options.import).mesh.surfaces) {
@@ -365,8 +371,7 @@ std::string Conversion::BriefReport() const {
   for (const auto& [layer, triangles] : triangles_of_layer) {
     report += "  " + layer + ": " + std::to_string(triangles) + "\n";
   }
-  for (const std::string& warning : warnings) report += "warning: " + warning + "\n";
-  return report;
+  return report + WarningLines(warnings);
 }
 
 }  // namespace insitu

@@ -21,6 +21,8 @@ struct ConvertOptions {
   ImportOptions import;
   // Instead of the models in building/.
   std::vector<std::filesystem::path> models;
+
+  void Check() const;  // throws CheckError that names the field that is wrong
 };
 
 // One model file as it was read.

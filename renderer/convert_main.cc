@@ -24,13 +24,14 @@ int RunConvert(int argc, char** argv) {
   ConvertOptions options;
   std::string report;
   bool list = false, preview = false;
-  app.add_option("site", site.root, "the site folder")->required()->check(CLI::ExistingDirectory);
+  AddSite(&app, &site);
   app.add_option("--model", options.models, "read this model instead of those in building/")
       ->check(CLI::ExistingFile)
       ->take_all();
   app.add_option("--chord-tolerance", options.import.dxf.chord_tolerance,
-                 "how far a facet may be from its arc [m] (default 0.002)")
-      ->check(CLI::PositiveNumber);
+                 "how far a facet may be from its arc [m]")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
   app.add_option("--report", report, "write what was read and left out as JSON");
   app.add_flag("--preview", preview, "write work/building_preview.png and .html");
   app.add_flag("--list", list, "print a materials.json with every name found, and write nothing");

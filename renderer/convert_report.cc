@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "renderer/convert_report.h"
 
-#include <cstdio>
 #include <initializer_list>
 
 #include "calibration/files/json_file.h"
 #include "calibration/files/whole_file.h"
+#include "calibration/files/wording.h"
 #include "calibration/photo/photograph.h"
 #include "renderer/preview_image.h"
 
@@ -161,12 +161,6 @@ std::string SkippedTable(const SkippedEntities& skipped) {
   return table + "</table></section>\n";
 }
 
-std::string Number(double value) {
-  char text[40];
-  std::snprintf(text, sizeof(text), "%.3f", value);
-  return text;
-}
-
 std::string FilesTable(const Conversion& conversion) {
   std::string table =
       "<section><h2>Files</h2><table><tr><th>file</th><th>format</th><th>metres per unit</th>"
@@ -174,10 +168,8 @@ std::string FilesTable(const Conversion& conversion) {
   for (const ModelReport& model : conversion.models) {
     const auto unit =
         model.placement.metres_per_unit ? model.placement.metres_per_unit : model.metres_per_unit;
-    char metres[40];
-    std::snprintf(metres, sizeof(metres), "%g", unit.value_or(1));
-    table += Row({model.file.filename().string(), model.format, unit ? metres : "1 (not named)",
-                  std::to_string(model.triangles)});
+    table += Row({model.file.filename().string(), model.format,
+                  unit ? Number("%g", *unit) : "1 (not named)", std::to_string(model.triangles)});
   }
   return table + "</table></section>\n";
 }
@@ -188,8 +180,8 @@ std::string BoxTable(const Eigen::AlignedBox3d& box) {
       "<section><h2>Box</h2><table><tr><th></th><th>from [m]</th><th>to [m]</th>"
       "<th>size [m]</th></tr>\n";
   for (int axis = 0; axis < 3; ++axis) {
-    table += Row({std::string(1, "xyz"[axis]), Number(box.min()[axis]), Number(box.max()[axis]),
-                  Number(box.sizes()[axis])});
+    table += Row({std::string(1, "xyz"[axis]), Number("%.3f", box.min()[axis]),
+                  Number("%.3f", box.max()[axis]), Number("%.3f", box.sizes()[axis])});
   }
   return table + "</table></section>\n";
 }
@@ -221,7 +213,7 @@ std::string Page(const std::string& picture, const Conversion& conversion) {
   std::string page = kPageHead;
   page += "<p>" + std::to_string(conversion.environment.triangles.size()) + " triangles, " +
           std::to_string(conversion.environment.lights.size()) +
-          " lights. Arcs of drawings are within " + Number(conversion.chord_tolerance) +
+          " lights. Arcs of drawings are within " + Number("%.3f", conversion.chord_tolerance) +
           " m of their facets. Seen from the south-west, z up; material colours.</p>\n";
   page += "<img src=\"" + Escaped(picture) + "\" alt=\"three-quarter view of the building\">\n";
   if (!conversion.warnings.empty()) {

@@ -11,8 +11,8 @@
 
 #include "calibration/files/error.h"
 #include "calibration/program/program.h"
-#include "renderer/montage_stages.h"
-#include "renderer/stage_program.h"
+#include "renderer/stages/montage_stages.h"
+#include "renderer/stages/stage_program.h"
 
 namespace insitu {
 namespace {

@@ -8,8 +8,8 @@
 #include "calibration/program/child_process.h"
 #include "calibration/program/program.h"
 #include "calibration/program/site_lock.h"
-#include "renderer/run_stages.h"
-#include "renderer/stage_program.h"
+#include "renderer/stages/run_stages.h"
+#include "renderer/stages/stage_program.h"
 
 namespace insitu {
 namespace {

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
 #include <cstdio>
 #include <map>
 #include <memory>
@@ -24,6 +25,19 @@ void PrintReport(const RenderSiteReport& report) {
       1000 * report.uncertainty->worst_m);
 }
 
+const std::map<std::string, Frame> kFrames = {{"photo", Frame::kPhoto},
+                                              {"pinhole", Frame::kPinhole}};
+
+// "--frame photo|pinhole", as --help shows it.
+void AddFrame(CLI::App* app, Frame* frame) {
+  const auto is_default = [&](const auto& named) { return named.second == *frame; };
+  app->add_option_function<std::string>(
+         "--frame", [frame](const std::string& name) { *frame = kFrames.at(name); },
+         "pixel grid: the photograph's, or that of its input image")
+      ->check(CLI::IsMember(kFrames).description(""))
+      ->option_text("photo|pinhole [" + std::ranges::find_if(kFrames, is_default)->first + "]");
+}
+
 int RunRender(int argc, char** argv) {
   CLI::App app("Renders the planned building into the photographs of its site.", "insitu-render");
   app.footer(
@@ -33,17 +47,16 @@ int RunRender(int argc, char** argv) {
   SitePaths site;
   RenderSiteOptions options;
   bool no_building = false, timing = false;
-  app.add_option("SITE", site.root, "site folder")->required();
+  AddSite(&app, &site);
   app.add_option("--photo", options.photos, "only this photograph (may be repeated)");
-  const std::map<std::string, Frame> frames = {{"photo", Frame::kPhoto},
-                                               {"pinhole", Frame::kPinhole}};
-  app.add_option("--frame", options.frame, "pixel grid: photo (default) or pinhole")
-      ->transform(CLI::CheckedTransformer(frames));
+  AddFrame(&app, &options.frame);
   app.add_flag("--no-building", no_building, "render the empty site");
-  app.add_option("--most-rays", options.render.most_rays, "rays a pixel at most (default 16)")
-      ->check(CLI::IsMember({4, 8, 12, 16}));
-  app.add_option("--threads", options.render.threads, "threads (default: all cores)")
-      ->check(CLI::PositiveNumber);
+  app.add_option("--most-rays", options.render.most_rays, "rays a pixel at most")
+      ->check(CLI::IsMember({4, 8, 12, 16}))
+      ->capture_default_str();
+  app.add_option("--threads", options.render.threads, "threads; 0: all cores")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
   app.add_flag("--timing", timing, "print the shares of CPU time");
   return RunProgram(app, argc, argv, [&] {
     options.with_building = !no_building;

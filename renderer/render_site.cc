@@ -7,7 +7,6 @@
 
 #include "calibration/files/error.h"
 #include "calibration/program/program.h"
-#include "calibration/site_cameras.h"
 #include "renderer/trace/make_montage_scene.h"
 #include "renderer/trace/profile.h"
 
@@ -35,47 +34,27 @@ std::vector<std::filesystem::path> ChoosePhotographs(const SitePaths& site,
   return chosen;
 }
 
-const PosedCamera& CameraOf(const NaturalEnvironment& natural, const SitePaths& site,
-                            const std::string& photo) {
-  for (const PosedCamera& camera : natural.scene.cameras) {
-    if (camera.photo == photo) return camera;
+// Where the environment has a photograph.
+size_t IndexOf(const SitePaths& site, const SceneGeometry& scene, const std::string& photo) {
+  for (size_t i = 0; i < scene.cameras.size(); ++i) {
+    if (scene.cameras[i].photo == photo) return i;
   }
   throw InputError(site.environment(), "has no camera for photograph " + photo +
                                            "; run insitu-reconstruct and insitu-light again");
 }
 
-// The camera of each photograph's input image.
-std::map<std::string, Camera> ReadPinholes(const SitePaths& site) {
-  const std::vector<std::filesystem::path> photos = ListPhotographs(site);
-  const std::vector<std::string> cameras = CamerasOfPhotos(site, photos);
-  std::map<std::string, Camera> pinhole_of_photo;
-  for (size_t i = 0; i < photos.size(); ++i) {
-    const std::filesystem::path pinhole = site.pinhole_camera(cameras[i]);
-    RequireResult(pinhole, "insitu-undistort");
-    pinhole_of_photo.emplace(photos[i].stem().string(), ReadCamera(pinhole));
-  }
-  return pinhole_of_photo;
+Raster ReadInputImage(const InputImage& image) {
+  RequireResult(image.file, "insitu-undistort");
+  RequirePhotographSize(image.file, image.camera.width(), image.camera.height());
+  return ReadPhotograph(image.file).linear;
 }
 
-MontageScene LoadScene(const SitePaths& site, bool with_building) {
+MontageScene LoadScene(NaturalEnvironment natural, const ArtificialEnvironment& building) {
   const PhaseScope phase(Phase::kFiles);
-  NaturalEnvironment natural = ReadEnvironment(site);
-  const ArtificialEnvironment building =
-      with_building ? ReadArtificialEnvironment(site) : ArtificialEnvironment();
-  const std::map<std::string, Camera> pinhole_of_photo = ReadPinholes(site);
-  std::vector<Camera> pinholes;
   std::vector<Raster> images;
-  for (const PosedCamera& camera : natural.scene.cameras) {
-    const auto pinhole = pinhole_of_photo.find(camera.photo);
-    if (pinhole == pinhole_of_photo.end()) {
-      throw InputError(site.photos(), "no photograph is named " + camera.photo +
-                                          " as in the environment; run insitu-reconstruct again");
-    }
-    pinholes.push_back(pinhole->second);
-    images.push_back(ReadPhotograph(site.input_image(camera.photo)).linear);
-  }
+  for (const InputImage& image : natural.input_images) images.push_back(ReadInputImage(image));
   const PhaseScope shading(Phase::kShading);
-  return MakeMontageScene(std::move(natural), building, pinholes, std::move(images));
+  return MakeMontageScene(std::move(natural), building, std::move(images));
 }
 
 struct View {
@@ -86,18 +65,14 @@ struct View {
 View LoadView(const SitePaths& site, const MontageScene& scene,
               const std::filesystem::path& photograph, Frame frame) {
   const PhaseScope phase(Phase::kFiles);
-  const std::string name = photograph.stem().string();
-  View view = {CameraOf(scene.natural, site, name), ReadPhotograph(photograph)};
+  const NaturalEnvironment& natural = scene.natural;
+  const size_t index = IndexOf(site, natural.scene, photograph.stem().string());
+  View view = {natural.scene.cameras[index], {}};
+  RequirePhotographSize(photograph, view.camera.camera.width(), view.camera.camera.height());
+  view.photo = ReadPhotograph(photograph);
   if (frame == Frame::kPinhole) {
-    view.camera.camera = ReadPinholes(site).at(name);
-    view.photo.linear = ReadPhotograph(site.input_image(name)).linear;
-  }
-  const Raster& image = view.photo.linear;
-  if (image.width != view.camera.camera.width() || image.height != view.camera.camera.height()) {
-    throw InputError(photograph, "is " + std::to_string(image.width) + " x " +
-                                     std::to_string(image.height) + " pixels, its camera " +
-                                     std::to_string(view.camera.camera.width()) + " x " +
-                                     std::to_string(view.camera.camera.height()));
+    view.camera.camera = natural.input_images[index].camera;
+    view.photo.linear = scene.input_images[index];
   }
   return view;
 }
@@ -112,11 +87,10 @@ void WriteMontage(const SitePaths& site, const std::filesystem::path& photograph
 }
 
 // Of the building in every photograph, by name, with its file in montages/.
-std::map<std::string, UncertaintySummary> WriteUncertainties(const SitePaths& site) {
+std::map<std::string, UncertaintySummary> WriteUncertainties(
+    const SitePaths& site, const SceneGeometry& scene, const ArtificialEnvironment& building) {
   const PhaseScope phase(Phase::kFiles);
   std::map<std::string, UncertaintySummary> summaries;
-  const SceneGeometry scene = ReadSceneGeometry(site);
-  const ArtificialEnvironment building = ReadArtificialEnvironment(site);
   for (size_t i = 0; i < scene.cameras.size(); ++i) {
     const auto corners = BuildingUncertainty(scene, i, building);
     if (!corners || corners->empty()) continue;
@@ -129,11 +103,18 @@ std::map<std::string, UncertaintySummary> WriteUncertainties(const SitePaths& si
 
 }  // namespace
 
+void RenderSiteOptions::Check() const { render.Check(); }
+
 std::vector<RenderSiteReport> RenderSite(const SitePaths& site, const RenderSiteOptions& options) {
+  options.Check();
   const std::vector<std::filesystem::path> photographs = ChoosePhotographs(site, options.photos);
-  const MontageScene scene = LoadScene(site, options.with_building);
+  const ArtificialEnvironment building =
+      options.with_building ? ReadArtificialEnvironment(site) : ArtificialEnvironment();
+  const MontageScene scene = LoadScene(ReadEnvironment(site), building);
   std::map<std::string, UncertaintySummary> uncertainties;
-  if (options.with_building) uncertainties = WriteUncertainties(site);
+  if (options.with_building) {
+    uncertainties = WriteUncertainties(site, scene.natural.scene, building);
+  }
   std::vector<RenderSiteReport> reports;
   for (const std::filesystem::path& photograph : photographs) {
     const View view = LoadView(site, scene, photograph, options.frame);

@@ -23,6 +23,8 @@ struct RenderSiteOptions {
   bool with_building = true;
   std::vector<std::string> photos;  // names; empty: every photo of the site
   RenderOptions render;
+
+  void Check() const;  // throws CheckError that names the field that is wrong
 };
 
 struct RenderSiteReport {
@@ -33,7 +35,8 @@ struct RenderSiteReport {
                                                   // in the frame, or no covariances
 };
 
-// Reads work/environment.json, work/building.json, the input images and the photographs; writes
+// Reads work/environment.json and the input images that it names, work/building.json and the
+// photographs to render into, and nothing else; writes
 // montages/<photo>.exr, .png and .jpg, and how well the building's corners are known in
 // <photo>.uncertainty.csv. Throws InputError: a stage before is missing, an unknown
 // photo, a photograph whose size is not its camera's.

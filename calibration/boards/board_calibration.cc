@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <map>
 #include <numbers>
 #include <set>
@@ -12,10 +13,11 @@
 #include "calibration/boards/board_scripts.h"
 #include "calibration/files/error.h"
 #include "calibration/files/whole_file.h"
+#include "calibration/files/wording.h"
 #include "calibration/photo/exif.h"
 #include "calibration/photo/photograph.h"
 #include "calibration/program/external_program.h"
-#include "calibration/files/wording.h"
+#include "calibration/program/program.h"
 
 namespace insitu {
 namespace fs = std::filesystem;
@@ -129,6 +131,7 @@ struct Solver {
   Board board;
   double focal_px;
   fs::path folder;
+  std::function<void()> while_running;  // mrcal's programs
 
   // Solves from a corner table in `folder`; the model is named folder/NAME.cameramodel.
   fs::path Solve(const std::string& lens_model, const fs::path& corners,
@@ -142,13 +145,15 @@ fs::path Solver::Solve(const std::string& lens_model, const fs::path& corners,
   RunExternal(
       {.command = {kPython, "-c", kRunSeeded, "mrcal-calibrate-cameras", "--corners-cache",
                    corners.filename().string(), "--lensmodel", lens_model, "--focal",
-                   Formatted("%.17g", focal_px), "--object-spacing", Formatted("%.17g", board.square_m), "--object-width-n",
+                   Formatted("%.17g", focal_px), "--object-spacing",
+                   Formatted("%.17g", board.square_m), "--object-width-n",
                    std::to_string(board.interior_corners_x), "--object-height-n",
                    std::to_string(board.interior_corners_y), "--outdir", "made", "photos/*"},
        .package = "python3-mrcal",
        .folder = folder,
        .output = log,
-       .log = log});
+       .log = log,
+       .while_running = while_running});
   const fs::path model = folder / (name + ".cameramodel");
   CopyModel(made / "camera-0.cameramodel", model);
   fs::remove_all(made);
@@ -206,29 +211,41 @@ std::optional<ProjectionDifference> CrossValidate(const Solver& solver,
 
 }  // namespace
 
+void BoardCalibrationOptions::Check() const {
+  INSITU_CHECK(lens_model.starts_with("LENSMODEL_"));
+  INSITU_CHECK(focal_px >= 0 && std::isfinite(focal_px));
+}
+
 BoardCalibration CalibrateFromBoards(const std::vector<fs::path>& board_photos, const Board& board,
                                      const fs::path& output_model,
                                      const BoardCalibrationOptions& options) {
   INSITU_CHECK(!board_photos.empty());
+  options.Check();
   CommonSize(board_photos);
+  std::optional<Progress> progress;  // after that of the boards
+  const auto show = [&] { progress->Show(); };
   const Solver solver{board,
                       options.focal_px > 0 ? options.focal_px : StartFocal(board_photos.front()),
-                      fs::absolute(output_model).parent_path() / "boards"};
+                      fs::absolute(output_model).parent_path() / "boards", show};
   LinkPhotos(board_photos, solver.folder);
   const fs::path corners = FindBoardCorners(board, solver.folder);
 
   BoardCalibration result;
   CountBoards(board_photos, board, corners, &result);
   result.lens_model = options.lens_model;
+  progress.emplace("solving for the lens, step 1 of 4", 0);
   const fs::path lean = solver.Solve(result.lens_model, corners, "lean");
   result.splined_lens_model = SplinedLensModel(ReadCamera(lean));
+  progress->Next("solving for the splined lens, step 2 of 4");
   const fs::path splined = solver.Solve(result.splined_lens_model, corners, "splined");
 
-  result.lens = AssessLens(lean, solver.folder, corners);
-  result.splined = AssessLens(splined, solver.folder, corners);
+  progress->Next("assessing both, step 3 of 4");
+  result.lens = AssessLens(lean, solver.folder, corners, show);
+  result.splined = AssessLens(splined, solver.folder, corners, show);
   NamePhotos(board_photos, &result.lens);
   NamePhotos(board_photos, &result.splined);
   result.splined_difference = Difference(lean, splined, result.splined.uncertainty);
+  progress->Next("comparing two halves of the boards, step 4 of 4");
   result.halves = CrossValidate(solver, result, corners);
   result.model = output_model;
   WriteWhole(output_model, ReadWhole(lean));
@@ -237,11 +254,10 @@ BoardCalibration CalibrateFromBoards(const std::vector<fs::path>& board_photos, 
 
 std::string BoardCalibration::BriefReport() const {
   return Formatted(
-                "%s: %d of %d boards, %d corners, %d outliers, RMS %.3f px, worst %.2f px, "
-                "uncertainty at the centre %.3f px (splined %.3f px)",
-                lens_model.c_str(), boards_found, board_photos, lens.points, lens.outliers,
-                lens.rms_px, lens.worst_px, lens.uncertainty.center_px,
-                splined.uncertainty.center_px);
+      "%s: %d of %d boards, %d corners, %d outliers, RMS %.3f px, worst %.2f px, "
+      "uncertainty at the centre %.3f px (splined %.3f px)",
+      lens_model.c_str(), boards_found, board_photos, lens.points, lens.outliers, lens.rms_px,
+      lens.worst_px, lens.uncertainty.center_px, splined.uncertainty.center_px);
 }
 
 }  // namespace insitu

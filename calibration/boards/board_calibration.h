@@ -16,6 +16,10 @@ namespace insitu {
 struct BoardCalibrationOptions {
   std::string lens_model = "LENSMODEL_OPENCV8";
   double focal_px = 0;  // start value; 0: from EXIF, else a 50 degree field of view
+
+  // Throws CheckError that names the field: a name that is none of mrcal's models, a focal length
+  // below 0 or not finite.
+  void Check() const;
 };
 
 struct BoardCalibration {

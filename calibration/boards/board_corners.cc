@@ -8,10 +8,10 @@
 #include <sstream>
 
 #include "calibration/files/whole_file.h"
+#include "calibration/files/wording.h"
 #include "calibration/photo/photograph.h"
 #include "calibration/program/external_program.h"
 #include "calibration/program/program.h"
-#include "calibration/files/wording.h"
 
 namespace insitu {
 namespace fs = std::filesystem;
@@ -66,12 +66,17 @@ std::string Line(const std::string& photo, const Eigen::Vector2d& corner) {
   return photo + Formatted(" %.6f %.6f 0\n", corner.x(), corner.y());
 }
 
-void FindRectangularBoards(const Board& board, const fs::path& folder) {
+std::vector<fs::path> PhotosIn(const fs::path& folder) {
   std::vector<fs::path> photos;
   for (const auto& entry : fs::directory_iterator(folder / "photos")) {
     photos.push_back(entry.path());
   }
   std::sort(photos.begin(), photos.end());
+  return photos;
+}
+
+void FindRectangularBoards(const Board& board, const fs::path& folder) {
+  const std::vector<fs::path> photos = PhotosIn(folder);
   Progress progress("finding boards", static_cast<int>(photos.size()));
   std::string table = "# filename x y level\n";
   for (const fs::path& path : photos) {
@@ -137,12 +142,20 @@ fs::path FindBoardCorners(const Board& board, const fs::path& folder) {
     FindRectangularBoards(board, folder);
     return folder / kCorners;
   }
+  const std::vector<fs::path> photos = PhotosIn(folder);
+  Progress progress("finding boards", static_cast<int>(photos.size()));
+  size_t done = 0;
   RunExternal({.command = {"mrgingham", "--jobs", "2", "--gridn",
                            std::to_string(board.interior_corners_x), "photos/*"},
                .package = "mrgingham",
                .folder = folder,
                .output = folder / kCorners,
-               .log = folder / "mrgingham.log"});
+               .log = folder / "mrgingham.log",
+               .while_running = [&] {
+                 const size_t found = ReadCornerTable(folder / kCorners).lines_of_photo.size();
+                 for (; done < found; ++done) progress.Step();
+                 progress.Show();
+               }});
   SortByPhoto(folder / kCorners);
   return folder / kCorners;
 }

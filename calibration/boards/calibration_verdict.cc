@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "calibration/boards/calibration_verdict.h"
-#include "calibration/files/wording.h"
 
 #include <algorithm>
 #include <cmath>
+
+#include "calibration/files/wording.h"
 
 namespace insitu {
 namespace {
@@ -55,8 +56,8 @@ void JudgeViews(const std::vector<BoardView>& boards, std::vector<Finding>* find
     findings->push_back(
         {tilted == 0 ? Severity::kFail : Severity::kReview,
          Formatted(tilted == 1 ? "Only %.0f board is tilted by more than %.0f degrees."
-                          : "Only %.0f boards are tilted by more than %.0f degrees.",
-              static_cast<double>(tilted), kTilted_deg),
+                               : "Only %.0f boards are tilted by more than %.0f degrees.",
+                   static_cast<double>(tilted), kTilted_deg),
          "Photograph the board tilted by 30 to 45 degrees to all sides: boards "
          "seen straight on cannot tell the focal length from the distance."});
   }
@@ -65,8 +66,8 @@ void JudgeViews(const std::vector<BoardView>& boards, std::vector<Finding>* find
       [](const BoardView& a, const BoardView& b) { return a.distance_m < b.distance_m; });
   if (far->distance_m < kDistanceRatio * near->distance_m) {
     findings->push_back({Severity::kReview,
-                         Formatted("All boards stand at one distance, %.2f to %.2f m.", near->distance_m,
-                              far->distance_m),
+                         Formatted("All boards stand at one distance, %.2f to %.2f m.",
+                                   near->distance_m, far->distance_m),
                          "Add boards that fill the frame and boards twice as far away."});
   }
 }
@@ -75,11 +76,11 @@ void JudgeResiduals(const LensAssessment& lens, const Eigen::Vector2i& size,
                     std::vector<Finding>* findings) {
   const double high = std::max(kHighRms_px, kHighRmsOfDiagonal * size.cast<double>().norm());
   if (lens.rms_px > high) {
-    findings->push_back(
-        {lens.rms_px > 2 * high ? Severity::kFail : Severity::kReview,
-         Formatted("The residuals are high: RMS %.2f px, expected below %.2f px.", lens.rms_px, high),
-         "Look at the worst boards: blurred, bent or moved while the shutter was "
-         "open? Keep focus, zoom and stabiliser fixed, the board flat."});
+    findings->push_back({lens.rms_px > 2 * high ? Severity::kFail : Severity::kReview,
+                         Formatted("The residuals are high: RMS %.2f px, expected below %.2f px.",
+                                   lens.rms_px, high),
+                         "Look at the worst boards: blurred, bent or moved while the shutter was "
+                         "open? Keep focus, zoom and stabiliser fixed, the board flat."});
   }
   const double share = lens.outliers / std::max(1.0, 1.0 * lens.points + lens.outliers);
   if (share > kManyOutliers) {
@@ -131,13 +132,14 @@ void JudgeHalves(const BoardCalibration& calibration, std::vector<Finding>* find
     return;
   }
   if (halves.cells * 10 <= halves.of) return;
-  findings->push_back({Severity::kReview,
-                       Formatted("Two halves of the boards give different lenses: up to %.2f px apart "
-                            "where boards were seen, at %.0f %% of the places more than chance "
-                            "explains.",
-                            halves.largest_px, 100.0 * halves.cells / halves.of),
-                       "Did zoom, focus or the board change in between? Else photograph more "
-                       "boards, evenly over the frame."});
+  findings->push_back(
+      {Severity::kReview,
+       Formatted("Two halves of the boards give different lenses: up to %.2f px apart "
+                 "where boards were seen, at %.0f %% of the places more than chance "
+                 "explains.",
+                 halves.largest_px, 100.0 * halves.cells / halves.of),
+       "Did zoom, focus or the board change in between? Else photograph more "
+       "boards, evenly over the frame."});
 }
 
 void JudgeModel(const BoardCalibration& calibration, std::vector<Finding>* findings) {
@@ -147,12 +149,13 @@ void JudgeModel(const BoardCalibration& calibration, std::vector<Finding>* findi
     return;
   }
   if (model.cells * 10 <= model.of) return;
-  findings->push_back({Severity::kReview,
-                       Formatted("The lens model does not describe this lens: up to %.2f px from the "
-                            "splined model where boards were seen, at %.0f %% of the places more "
-                            "than chance explains.",
-                            model.largest_px, 100.0 * model.cells / model.of),
-                       "Calibrate with --lens-model " + calibration.splined_lens_model + "."});
+  findings->push_back(
+      {Severity::kReview,
+       Formatted("The lens model does not describe this lens: up to %.2f px from the "
+                 "splined model where boards were seen, at %.0f %% of the places more "
+                 "than chance explains.",
+                 model.largest_px, 100.0 * model.cells / model.of),
+       "Calibrate with --lens-model " + calibration.splined_lens_model + "."});
 }
 
 void JudgeUncertainty(const LensAssessment& lens, std::vector<Finding>* findings) {
@@ -170,11 +173,12 @@ void JudgeUncertainty(const LensAssessment& lens, std::vector<Finding>* findings
     return;
   }
   if (uncertain * 10 <= seen) return;
-  findings->push_back({uncertain * 2 > seen ? Severity::kFail : Severity::kReview,
-                       Formatted("The projection is uncertain by more than %.0f px at %.0f %% of the "
-                            "places where boards were seen.",
-                            kUncertain_px, 100.0 * uncertain / seen),
-                       "Photograph more boards, larger in the frame."});
+  findings->push_back(
+      {uncertain * 2 > seen ? Severity::kFail : Severity::kReview,
+       Formatted("The projection is uncertain by more than %.0f px at %.0f %% of the "
+                 "places where boards were seen.",
+                 kUncertain_px, 100.0 * uncertain / seen),
+       "Photograph more boards, larger in the frame."});
 }
 
 }  // namespace
@@ -182,10 +186,11 @@ void JudgeUncertainty(const LensAssessment& lens, std::vector<Finding>* findings
 std::vector<Finding> JudgeLens(const LensAssessment& lens, const Eigen::Vector2i& size) {
   std::vector<Finding> findings;
   if (lens.boards.size() < kFewBoards) {
-    findings.push_back({Severity::kReview,
-                        Formatted(lens.boards.size() == 1 ? "Only %.0f board." : "Only %.0f boards.",
-                             static_cast<double>(lens.boards.size())),
-                        "Photograph twenty boards or more."});
+    findings.push_back(
+        {Severity::kReview,
+         Formatted(lens.boards.size() == 1 ? "Only %.0f board." : "Only %.0f boards.",
+                   static_cast<double>(lens.boards.size())),
+         "Photograph twenty boards or more."});
   }
   JudgeSpread(lens.cells, &findings);
   JudgeViews(lens.boards, &findings);

@@ -62,7 +62,8 @@ bool HoldsSolution(const fs::path& model) {
   return ReadWhole(model).find("'optimization_inputs'") != std::string::npos;
 }
 
-LensAssessment AssessLens(const fs::path& model, const fs::path& folder, const fs::path& corners) {
+LensAssessment AssessLens(const fs::path& model, const fs::path& folder, const fs::path& corners,
+                          const std::function<void()>& while_running) {
   fs::create_directories(folder);
   const fs::path output = folder / (model.stem().string() + ".json");
   std::vector<std::string> command = {kPython,
@@ -76,7 +77,8 @@ LensAssessment AssessLens(const fs::path& model, const fs::path& folder, const f
                .package = "python3-mrcal",
                .folder = folder,
                .output = output,
-               .log = folder / (model.stem().string() + "_assessment.log")});
+               .log = folder / (model.stem().string() + "_assessment.log"),
+               .while_running = while_running});
   return AssessmentOf(JsonNode::Load(output));
 }
 

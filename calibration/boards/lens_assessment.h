@@ -5,6 +5,7 @@
 
 #include <Eigen/Core>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -57,8 +58,10 @@ struct LensAssessment {
 bool HoldsSolution(const std::filesystem::path& model);
 
 // Runs mrcal's Python; its output and log are left in `folder`. `corners`, the table the solution
-// was made from, names the boards' photos; if empty they are numbered. Throws InputError.
+// was made from, names the boards' photos; if empty they are numbered. `while_running` is called
+// meanwhile. Throws InputError.
 LensAssessment AssessLens(const std::filesystem::path& model, const std::filesystem::path& folder,
-                          const std::filesystem::path& corners = {});
+                          const std::filesystem::path& corners = {},
+                          const std::function<void()>& while_running = {});
 
 }  // namespace insitu

@@ -24,6 +24,8 @@ struct CameraFile {
 struct CameraFileOptions {
   std::optional<Eigen::Vector2i> photo_size;  // for files that do not tell it [px]
   std::string camera;  // which one of several that a file holds: its name or number there
+
+  void Check() const;  // throws CheckError that names the field: a size that is not above 0
 };
 
 // What is read, by the file's ending:

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The readers behind ReadCameraFile, and what they share.
+// The readers behind ReadCameraFile, one a format in the source named after it, and what they
+// share.
 #pragma once
 
 #include <string>
@@ -10,11 +11,12 @@
 
 namespace insitu {
 
+// aicon_camera.cc, camera_json.cc, camera_yaml.cc, colmap_cameras.cc, dbat_camera.cc
+CameraFile ReadAiconCamera(const std::filesystem::path& path, const CameraFileOptions& options);
+CameraFile ReadJsonCamera(const std::filesystem::path& path, const CameraFileOptions& options);
 CameraFile ReadYamlCamera(const std::filesystem::path& path, const CameraFileOptions& options);
 CameraFile ReadColmapCamera(const std::filesystem::path& path, const CameraFileOptions& options);
 CameraFile ReadDbatCamera(const std::filesystem::path& path, const CameraFileOptions& options);
-CameraFile ReadAiconCamera(const std::filesystem::path& path, const CameraFileOptions& options);
-CameraFile ReadJsonCamera(const std::filesystem::path& path, const CameraFileOptions& options);
 
 // An exact equal: `intrinsics` fx fy cx cy and OpenCV's coefficients, filled up with zeros to the
 // next model that mrcal has. `path` and `line` for messages, here and below.

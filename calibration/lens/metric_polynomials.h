@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The polynomials of MetricModel, for numbers and for derivatives: of the position, the parameters,
-// or both. Internal to metric_camera.cc and reconstruction/lens_residual.cc.
+// or both. Internal to metric_camera.cc and calibration/lens/lens_residual.cc.
 #pragma once
 
 #include <Eigen/Core>

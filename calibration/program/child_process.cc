@@ -21,6 +21,7 @@ namespace {
 
 constexpr int kMostChildren = 64;
 constexpr int kCannotBeRun = 127;
+constexpr std::array kForwarded = {SIGINT, SIGTERM, SIGHUP};
 
 // Written by the threads, read by the signal handler: 0 is a free place.
 std::array<std::atomic<pid_t>, kMostChildren> running_children;
@@ -33,6 +34,25 @@ void ForwardSignal(int signal) {
   }
 }
 
+// While it lives the signals that are forwarded wait, so that none falls between a child's birth
+// and its registration, or on our handler in a child that is no program of its own yet.
+class SignalsWait {
+ public:
+  SignalsWait() {
+    sigset_t forwarded;
+    sigemptyset(&forwarded);
+    for (const int signal : kForwarded) sigaddset(&forwarded, signal);
+    pthread_sigmask(SIG_BLOCK, &forwarded, &before_);
+  }
+  ~SignalsWait() { pthread_sigmask(SIG_SETMASK, &before_, nullptr); }
+  SignalsWait(const SignalsWait&) = delete;
+  SignalsWait& operator=(const SignalsWait&) = delete;
+  const sigset_t& before() const { return before_; }
+
+ private:
+  sigset_t before_;
+};
+
 // A child's place among those that signals are forwarded to.
 class Registration {
  public:
@@ -42,7 +62,7 @@ class Registration {
       if (running_children[place_].compare_exchange_strong(free_place, child)) break;
     }
     INSITU_CHECK(place_ < kMostChildren);
-    if (received_signal != 0) kill(-child, received_signal);  // it came before we stood there
+    if (received_signal != 0) kill(-child, received_signal);  // another thread took it meanwhile
   }
   ~Registration() { running_children[place_] = 0; }
   Registration(const Registration&) = delete;
@@ -116,11 +136,12 @@ std::vector<std::string> EnvironmentWith(std::vector<std::string> additions) {
 
 // What the child does between fork and exec: only what is safe when other threads were running.
 [[noreturn]] void BecomeProgram(pid_t parent, int out, int err, char* const* arguments,
-                                char* const* environment) {
+                                char* const* environment, const sigset_t& mask) {
   setpgid(0, 0);
   prctl(PR_SET_PDEATHSIG, SIGTERM);
   if (getppid() != parent) _exit(kCannotBeRun);
-  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) ::signal(signal, SIG_DFL);
+  for (const int signal : kForwarded) ::signal(signal, SIG_DFL);
+  sigprocmask(SIG_SETMASK, &mask, nullptr);
   const int nothing = open("/dev/null", O_RDONLY);
   dup2(nothing, STDIN_FILENO);
   dup2(out, STDOUT_FILENO);
@@ -152,21 +173,25 @@ int WaitFor(pid_t process) {
 
 int RunChild(const ChildProcess& child) {
   INSITU_CHECK(!child.command.empty());
+  if (const std::optional<int> signal = ReceivedSignal()) return 128 + *signal;
   std::vector<std::string> command = child.command;
   std::vector<std::string> environment = EnvironmentWith(child.environment);
   const std::vector<char*> arguments = Pointers(command);
   const std::vector<char*> variables = Pointers(environment);
   LineReader out(child.on_output), err(child.on_error);
   const pid_t parent = getpid();
+  std::optional<SignalsWait> signals_wait(std::in_place);
   const pid_t process = fork();
   if (process < 0) throw std::runtime_error(command[0] + ": no process can be made");
   if (process == 0) {
-    BecomeProgram(parent, out.write_end(), err.write_end(), arguments.data(), variables.data());
+    BecomeProgram(parent, out.write_end(), err.write_end(), arguments.data(), variables.data(),
+                  signals_wait->before());
   }
   setpgid(process, process);  // whichever of the two comes first
   out.CloseWriteEnd();
   err.CloseWriteEnd();
   const Registration registration(process);
+  signals_wait.reset();
   ReadToTheEnd(out, err);
   return WaitFor(process);
 }
@@ -175,7 +200,7 @@ void ForwardSignalsToChildren() {
   struct sigaction action = {};
   action.sa_handler = ForwardSignal;
   action.sa_flags = SA_RESTART;
-  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) sigaction(signal, &action, nullptr);
+  for (const int signal : kForwarded) sigaction(signal, &action, nullptr);
 }
 
 std::optional<int> ReceivedSignal() {

@@ -7,7 +7,9 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <chrono>
 #include <sstream>
+#include <thread>
 
 #include "calibration/files/error.h"
 #include "calibration/files/whole_file.h"
@@ -66,9 +68,14 @@ std::string LastLine(const std::filesystem::path& log) {
 }
 
 // Nonzero if the program failed or died of a signal.
-int WaitFor(pid_t process) {
+int WaitFor(pid_t process, const std::function<void()>& while_running) {
+  constexpr auto kPause = std::chrono::milliseconds(20);
   int status = 0;
-  while (waitpid(process, &status, 0) < 0 && errno == EINTR) {
+  while (while_running && waitpid(process, &status, WNOHANG) == 0) {
+    while_running();
+    std::this_thread::sleep_for(kPause);
+  }
+  while (!while_running && waitpid(process, &status, 0) < 0 && errno == EINTR) {
   }
   return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
 }
@@ -87,7 +94,7 @@ void RunExternal(const ExternalProgram& program) {
     throw InputError(command[0], "cannot be run, expected the Debian package " + program.package);
   }
   if (failure != 0) throw InputError(command[0], "cannot be run");
-  const int status = WaitFor(process);
+  const int status = WaitFor(process, program.while_running);
   if (status == 0) return;
   throw InputError(program.log, "the program failed with status " + std::to_string(status) + ": " +
                                     LastLine(program.log));

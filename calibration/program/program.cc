@@ -108,6 +108,18 @@ struct Progress::State {
     return what + " " + std::to_string(100 * done / steps) + " %, " +
            DurationText(passed_s / done * std::max(steps - done, 0)) + " left";
   }
+
+  void Print() {
+    const auto now = Clock::now();
+    if (now < next) return;
+    next = now + std::chrono::milliseconds(200);
+    if (in_montage) {
+      std::fprintf(stderr, "%s%s\n", kProgressPrefix, Text().c_str());
+    } else if (on_terminal) {
+      shown = true;
+      std::fprintf(stderr, "\r\033[K%s", Text().c_str());
+    }
+  }
 };
 
 Progress::Progress(std::string what, int steps) : state_(std::make_unique<State>()) {
@@ -122,15 +134,18 @@ Progress::~Progress() {
 void Progress::Step() {
   const std::lock_guard lock(state_->mutex);
   ++state_->done;
-  const auto now = State::Clock::now();
-  if (now < state_->next) return;
-  state_->next = now + std::chrono::milliseconds(200);
-  if (state_->in_montage) {
-    std::fprintf(stderr, "%s%s\n", kProgressPrefix, state_->Text().c_str());
-  } else if (state_->on_terminal) {
-    state_->shown = true;
-    std::fprintf(stderr, "\r\033[K%s", state_->Text().c_str());
-  }
+  state_->Print();
+}
+
+void Progress::Show() {
+  const std::lock_guard lock(state_->mutex);
+  state_->Print();
+}
+
+void Progress::Next(std::string what) {
+  const std::lock_guard lock(state_->mutex);
+  state_->what = std::move(what);
+  state_->Print();
 }
 
 }  // namespace insitu

@@ -46,6 +46,8 @@ class Progress {
   Progress(std::string what, int steps);
   ~Progress();
   void Step();
+  void Show();                  // within a step that takes long
+  void Next(std::string what);  // what is done from now on
 
  private:
   struct State;

@@ -88,21 +88,22 @@ Observations Observe(const std::vector<HazeSample>& samples, const Spectrum& hor
   return seen;
 }
 
-void SetPrecision(const Observations& seen, const Exponential& x, int bin, AtmosphereFit& fit) {
+void SetPrecision(const Observations& seen, const Exponential& x, int bin, AtmosphereFit* fit) {
   const Eigen::MatrixX2d J = Jacobian(seen, x);
   const Eigen::Matrix2d N = J.transpose() * J;
   const double correlation = N(0, 1) / std::sqrt(N(0, 0) * N(1, 1));
   if (N(0, 0) == 0 || 1 - std::abs(correlation) < 1 / kSingular) {
-    fit.transmittance_sigma[bin] = kUnknown;
-    fit.condition[bin] = kSingular;
+    fit->transmittance_sigma[bin] = kUnknown;
+    fit->condition[bin] = kSingular;
     return;
   }
-  fit.condition[bin] = (1 + std::abs(correlation)) / (1 - std::abs(correlation));
+  fit->condition[bin] = (1 + std::abs(correlation)) / (1 - std::abs(correlation));
   const double dof = seen.distance.size() - 2;
   const double variance_factor =
       dof > 0 ? std::max(1.0, Residuals(seen, x).square().sum() / dof) : 1.0;
   const double sigma_extinction = std::sqrt(N.inverse()(0, 0) * variance_factor);
-  fit.transmittance_sigma[bin] = std::min(kUnknown, sigma_extinction * fit.air.transmittance[bin]);
+  fit->transmittance_sigma[bin] =
+      std::min(kUnknown, sigma_extinction * fit->air.transmittance[bin]);
 }
 
 AtmosphereFit FitBins(const std::vector<HazeSample>& samples, const Spectrum& horizon,
@@ -114,7 +115,7 @@ AtmosphereFit FitBins(const std::vector<HazeSample>& samples, const Spectrum& ho
     const Exponential x = FitExponential(seen);
     fit.air.transmittance[bin] = std::exp(-x.extinction);
     fit.true_color[bin] = x.contrast + horizon[bin];
-    SetPrecision(seen, x, bin, fit);
+    SetPrecision(seen, x, bin, &fit);
   }
   return fit;
 }

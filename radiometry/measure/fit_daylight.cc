@@ -98,14 +98,14 @@ Eigen::Vector3d SolveNonNegative(const Equations& equations, const std::vector<i
 
 // Standard deviations of all influential components, those held at zero included, from the
 // pseudo-inverse of the unconstrained system, scaled by the variance of the residuals.
-void SetPrecision(const Equations& equations, const std::vector<int>& columns, Solution& solution) {
+void SetPrecision(const Equations& equations, const std::vector<int>& columns, Solution* solution) {
   const Eigen::JacobiSVD<Eigen::MatrixXd> svd(ScaledColumns(equations.A, columns),
                                               Eigen::ComputeThinV);
   const Eigen::VectorXd singular = svd.singularValues();
   const double smallest = singular[singular.size() - 1];
-  solution.condition = smallest > 0 ? std::min(kSingular, singular[0] / smallest) : kSingular;
+  solution->condition = smallest > 0 ? std::min(kSingular, singular[0] / smallest) : kSingular;
   const double dof = static_cast<double>(equations.y.size()) - static_cast<double>(columns.size());
-  const double squares = (equations.A * solution.radiance - equations.y).squaredNorm();
+  const double squares = (equations.A * solution->radiance - equations.y).squaredNorm();
   const double variance_factor = dof > 0 ? std::max(1.0, squares / dof) : 1.0;
   for (size_t i = 0; i < columns.size(); ++i) {
     double variance = 0;
@@ -113,7 +113,7 @@ void SetPrecision(const Equations& equations, const std::vector<int>& columns, S
       if (singular[k] < kRankTolerance * singular[0]) continue;
       variance += std::pow(svd.matrixV()(i, k) / singular[k], 2);
     }
-    solution.sigma[columns[i]] =
+    solution->sigma[columns[i]] =
         std::sqrt(variance * variance_factor) / equations.A.col(columns[i]).norm();
   }
 }
@@ -123,7 +123,7 @@ Solution Solve(const Equations& equations) {
   const std::vector<int> columns = InfluentialColumns(equations.A);
   if (columns.empty()) return solution;
   solution.radiance = SolveNonNegative(equations, columns);
-  SetPrecision(equations, columns, solution);
+  SetPrecision(equations, columns, &solution);
   return solution;
 }
 
@@ -150,11 +150,8 @@ DaylightFit SolveBins(const std::vector<DaylightSample>& samples, const Spectrum
 
 // The paper's k, one for all wavelengths, times its L, which is D65 as in §7. The mean over the
 // spectrum is weighted by what the eye makes of D65, so that the luminance stays as measured.
-void AverageOverWavelength(Spectrum& radiance, Spectrum& sigma, const SpectralBins& bins) {
-  const Spectrum d65 = IlluminantD65(bins);
-  const double luminance = Tristimulus(d65, bins).y();
-  radiance = Tristimulus(radiance, bins).y() / luminance * d65;
-  sigma = Tristimulus(sigma, bins).y() / luminance * d65;
+Spectrum AverageOverWavelength(const Spectrum& radiance, const SpectralBins& bins) {
+  return WeightOfD65(radiance, bins) * IlluminantD65(bins);
 }
 
 Spectrum ModelRadiance(const DaylightFit& fit, const Spectrum& brdf, const DaylightSample& sample) {
@@ -177,20 +174,20 @@ std::vector<double> ResidualMagnitudes(const std::vector<DaylightSample>& sample
 }
 
 void SetResiduals(const std::vector<DaylightSample>& samples, const Spectrum& brdf,
-                  const SpectralBins& bins, DaylightFit& fit) {
-  const std::vector<double> magnitudes = ResidualMagnitudes(samples, fit, brdf, bins);
-  fit.rms = Eigen::VectorXd::Map(magnitudes.data(), magnitudes.size()).norm() /
-            std::sqrt(static_cast<double>(magnitudes.size()));
+                  const SpectralBins& bins, DaylightFit* fit) {
+  const std::vector<double> magnitudes = ResidualMagnitudes(samples, *fit, brdf, bins);
+  fit->rms = Eigen::VectorXd::Map(magnitudes.data(), magnitudes.size()).norm() /
+             std::sqrt(static_cast<double>(magnitudes.size()));
   for (const DaylightSample& sample : samples) {
-    const Spectrum model = ModelRadiance(fit, brdf, sample);
+    const Spectrum model = ModelRadiance(*fit, brdf, sample);
     const double measured = sample.true_color.head(bins.count).mean();
-    fit.residuals.push_back((measured - model.head(bins.count).mean()) /
-                            std::max(std::abs(measured), sample.sigma.head(bins.count).mean()));
+    fit->residuals.push_back((measured - model.head(bins.count).mean()) /
+                             std::max(std::abs(measured), sample.sigma.head(bins.count).mean()));
   }
 }
 
 // From the weight of the surroundings to the terms of Eqs. (4) and (5): see the header.
-void SpreadSurroundings(const std::vector<DaylightSample>& samples, DaylightFit& fit) {
+void SpreadSurroundings(const std::vector<DaylightSample>& samples, DaylightFit* fit) {
   Spectrum irradiance = Spectrum::Zero();
   double hidden = 0;  // projected solid angle that the sky does not fill [sr]
   for (const DaylightSample& sample : samples) {
@@ -198,12 +195,12 @@ void SpreadSurroundings(const std::vector<DaylightSample>& samples, DaylightFit&
     hidden += sample.geometry.ambient - sample.geometry.sky;
   }
   const Spectrum mean_radiance = irradiance / std::max(hidden, 1e-9);
-  fit.surroundings_weight = fit.ambient_radiance;
-  fit.ambient_radiance *= mean_radiance;
-  fit.ambient_sigma *= mean_radiance;
-  fit.ambient_radiance = fit.ambient_radiance.min(fit.sky_radiance);
-  fit.sky_radiance -= fit.ambient_radiance;
-  fit.sky_sigma = (fit.sky_sigma.square() + fit.ambient_sigma.square()).sqrt();
+  fit->surroundings_weight = fit->ambient_radiance;
+  fit->ambient_radiance *= mean_radiance;
+  fit->ambient_sigma *= mean_radiance;
+  fit->ambient_radiance = fit->ambient_radiance.min(fit->sky_radiance);
+  fit->sky_radiance -= fit->ambient_radiance;
+  fit->sky_sigma = (fit->sky_sigma.square() + fit->ambient_sigma.square()).sqrt();
 }
 
 bool HaveSurroundings(const std::vector<DaylightSample>& samples) {
@@ -229,12 +226,13 @@ DaylightFit FitDaylight(const std::vector<DaylightSample>& samples, const Spectr
     weights = HuberWeights(ResidualMagnitudes(samples, fit, brdf, bins));
     fit = SolveBins(samples, brdf, has_sun, bins, weights);
   }
-  SetResiduals(samples, brdf, bins, fit);
-  if (has_surroundings) SpreadSurroundings(samples, fit);
+  SetResiduals(samples, brdf, bins, &fit);
+  if (has_surroundings) SpreadSurroundings(samples, &fit);
   if (options.average_over_wavelength) {
-    AverageOverWavelength(fit.sun_radiance, fit.sun_sigma, bins);
-    AverageOverWavelength(fit.ambient_radiance, fit.ambient_sigma, bins);
-    AverageOverWavelength(fit.sky_radiance, fit.sky_sigma, bins);
+    for (Spectrum* part : {&fit.sun_radiance, &fit.ambient_radiance, &fit.sky_radiance,
+                           &fit.sun_sigma, &fit.ambient_sigma, &fit.sky_sigma}) {
+      *part = AverageOverWavelength(*part, bins);
+    }
   }
   return fit;
 }

@@ -88,9 +88,9 @@ std::vector<Eigen::Vector2i> Patch(const PhotographedScene& scene, const PixelSa
 }
 
 void MeasureColor(const PhotographedScene& scene, const JsonNode& node, int radius,
-                  PixelSample& sample) {
-  const Photograph& photo = scene.photo(sample.photo);
-  const std::vector<Eigen::Vector2i> patch = Patch(scene, sample, radius);
+                  PixelSample* sample) {
+  const Photograph& photo = scene.photo(sample->photo);
+  const std::vector<Eigen::Vector2i> patch = Patch(scene, *sample, radius);
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   for (const Eigen::Vector2i& at : patch) {
     if (IsClipped(photo, at.x(), at.y())) {
@@ -99,14 +99,14 @@ void MeasureColor(const PhotographedScene& scene, const JsonNode& node, int radi
     sum += photo.linear.Rgb(at.x(), at.y());
   }
   const double n = static_cast<double>(patch.size());
-  sample.rgb = sum / n;
+  sample->rgb = sum / n;
   Eigen::Array3d squares = Eigen::Array3d::Zero();
   for (const Eigen::Vector2i& at : patch) {
-    squares += (photo.linear.Rgb(at.x(), at.y()) - sample.rgb).array().square();
+    squares += (photo.linear.Rgb(at.x(), at.y()) - sample->rgb).array().square();
   }
   const Eigen::Array3d sigma_of_mean = (squares / std::max(1.0, n - 1) / n).sqrt();
-  sample.rgb_sigma =
-      sigma_of_mean.max(kRelativeFloor * sample.rgb.array()).max(kAbsoluteFloor).matrix();
+  sample->rgb_sigma =
+      sigma_of_mean.max(kRelativeFloor * sample->rgb.array()).max(kAbsoluteFloor).matrix();
 }
 
 PixelSample ReadPixel(const JsonNode& node, const PhotographedScene& scene) {
@@ -145,7 +145,7 @@ void PlaceOnPolygon(const JsonNode& node, const PhotographedScene& scene, PixelS
 PixelSample ReadSurfaceSample(const JsonNode& node, const PhotographedScene& scene, int radius) {
   PixelSample sample = ReadPixel(node, scene);
   PlaceOnPolygon(node, scene, sample);
-  MeasureColor(scene, node, radius, sample);
+  MeasureColor(scene, node, radius, &sample);
   return sample;
 }
 
@@ -155,7 +155,7 @@ PixelSample ReadHorizonSample(const JsonNode& node, const PhotographedScene& sce
     throw node.Error("lies on polygon \"" + scene.geometry().polygons[first->polygon].name +
                      "\", expected a pixel of the sky");
   }
-  MeasureColor(scene, node, radius, sample);
+  MeasureColor(scene, node, radius, &sample);
   return sample;
 }
 
@@ -196,8 +196,11 @@ Eigen::Vector3d ReadReflectance(const JsonNode& node) {
 
 }  // namespace
 
+void SampleOptions::Check() const { INSITU_CHECK(radius >= 0); }
+
 LightSamples ReadSamples(const SitePaths& site, const SceneGeometry& scene,
                          const std::vector<Photograph>& photos, const SampleOptions& options) {
+  options.Check();
   INSITU_CHECK(photos.size() == scene.cameras.size());
   const PhotographedScene photographed(scene, photos);
   const JsonNode file = JsonNode::Load(site.survey() / "samples.json");

@@ -28,6 +28,8 @@ struct PixelSample {
 
 struct SampleOptions {
   int radius = 2;  // [px], the colour is the mean over (2 radius + 1)^2 pixels of the same surface
+
+  void Check() const;  // throws CheckError that names the field that is wrong
 };
 
 struct LightSamples {

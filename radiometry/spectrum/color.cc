@@ -93,6 +93,10 @@ Eigen::Vector3d Tristimulus(const Spectrum& stimulus, const SpectralBins& bins) 
   return matching * stimulus.matrix() / matching.row(1).sum();
 }
 
+double WeightOfD65(const Spectrum& radiance, const SpectralBins& bins) {
+  return Tristimulus(radiance, bins).y() / Tristimulus(IlluminantD65(bins), bins).y();
+}
+
 Eigen::Vector3d Chromaticity(const Eigen::Vector3d& tristimulus) {
   INSITU_CHECK(tristimulus.sum() > 0);
   return tristimulus / tristimulus.sum();

@@ -16,6 +16,9 @@ Eigen::Matrix<double, 3, kMaxBins> ColorMatching(const SpectralBins& bins);
 // nm.
 Spectrum IlluminantD65(const SpectralBins& bins);
 
+// The weight k for which k D65 is as bright as a radiance.
+double WeightOfD65(const Spectrum& radiance, const SpectralBins& bins);
+
 // Tristimulus values of a colour stimulus. [Durisch92, Eq. (11)]  k = 1 / integral of y.
 Eigen::Vector3d Tristimulus(const Spectrum& stimulus, const SpectralBins& bins);
 

@@ -8,6 +8,7 @@ namespace insitu {
 
 constexpr double kFirstWavelength = 380;  // [nm]
 constexpr double kLastWavelength = 780;   // [nm]
+constexpr int kFewestBins = 3;
 constexpr int kMaxBins = 16;
 
 // One value a bin: spectral radiance, irradiance, reflectance or transmittance, as its name says.
@@ -16,7 +17,7 @@ constexpr int kMaxBins = 16;
 using Spectrum = Eigen::Array<double, kMaxBins, 1>;
 
 struct SpectralBins {
-  int count = kMaxBins;  // 16, or 9 as in [Durisch92, §7]; 3..kMaxBins
+  int count = kMaxBins;  // 16, or 9 as in [Durisch92, §7]; kFewestBins..kMaxBins
 
   double Width() const { return (kLastWavelength - kFirstWavelength) / count; }      // [nm]
   double Edge(int bin) const { return kFirstWavelength + bin * Width(); }            // [nm]

@@ -119,6 +119,10 @@ SceneGeometry AdjustedScene(const Survey& survey, const SurveyNetwork& survey_ne
   }
   scene.camera_covariances = CameraCovariances(network, solution);
   scene.polygons = AdjustedPolygons(survey, survey_network);
+  std::vector<Eigen::MatrixXd> covariances = PolygonCovariances(survey, survey_network, solution);
+  for (size_t i = 0; i < covariances.size(); ++i) {
+    scene.polygons[i].covariance = std::move(covariances[i]);
+  }
   if (survey_network.sun) {
     scene.sun = AdjustedDirection(survey_network, solution, *survey_network.sun);
   }
@@ -276,7 +280,6 @@ Adjustment Adjust(const Survey& survey, const std::vector<std::string>& photos,
   adjustment.points = AdjustedPoints(network, solution);
   adjustment.planes = AdjustedPlanes(survey_network, solution);
   adjustment.plane_effect = FindPlaneEffect(survey_network, solution);
-  adjustment.polygon_covariance = PolygonCovariances(survey, survey_network, solution);
   adjustment.correlations = HighCorrelations(network, solution);
   CompareWithSurvey(survey, &adjustment);
   WarnOfMisnamedControl(survey, start.diagnoses, &adjustment);

@@ -151,8 +151,6 @@ struct Adjustment {
   std::vector<AdjustedPoint> points;
   std::vector<AdjustedPlane> planes;
   PlaneEffect plane_effect;
-  // By polygon of the survey: 3n x 3n [m^2], joint, of its vertices in order; empty: not known.
-  std::vector<Eigen::MatrixXd> polygon_covariance;
   SceneGeometry scene;
   double sigma0 = 0;  // a posteriori, a priori 1
   int observations = 0, unknowns = 0, datum_defect = 0, redundancy = 0, iterations = 0;

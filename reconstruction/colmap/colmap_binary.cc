@@ -155,7 +155,7 @@ void ReadPoints(ColmapFiles* files) {
 }
 
 template <typename Value>
-void Append(std::string* bytes, Value value) {
+void Append(Value value, std::string* bytes) {
   char raw[sizeof(Value)];
   std::memcpy(raw, &value, sizeof(Value));
   bytes->append(raw, sizeof(Value));
@@ -163,36 +163,36 @@ void Append(std::string* bytes, Value value) {
 
 std::string CamerasBytes(const ColmapModel& model) {
   std::string bytes;
-  Append<uint64_t>(&bytes, model.cameras.size());
+  Append<uint64_t>(model.cameras.size(), &bytes);
   for (const auto& [id, lens] : model.cameras) {
-    Append<uint32_t>(&bytes, id);
+    Append<uint32_t>(id, &bytes);
     const auto lens_model = FindColmapLensModel(lens.model);
     INSITU_CHECK(lens_model.has_value());
-    Append<int32_t>(&bytes, lens_model->id);
-    Append<uint64_t>(&bytes, static_cast<uint64_t>(lens.width));
-    Append<uint64_t>(&bytes, static_cast<uint64_t>(lens.height));
-    for (const double param : lens.params) Append<double>(&bytes, param);
+    Append<int32_t>(lens_model->id, &bytes);
+    Append<uint64_t>(static_cast<uint64_t>(lens.width), &bytes);
+    Append<uint64_t>(static_cast<uint64_t>(lens.height), &bytes);
+    for (const double param : lens.params) Append<double>(param, &bytes);
   }
   return bytes;
 }
 
 std::string ImagesBytes(const ColmapModel& model) {
   std::string bytes;
-  Append<uint64_t>(&bytes, model.images.size());
+  Append<uint64_t>(model.images.size(), &bytes);
   for (const auto& [id, image] : model.images) {
-    Append<uint32_t>(&bytes, id);
+    Append<uint32_t>(id, &bytes);
     const auto& q = image.cam_from_world.rotation;
     const auto& t = image.cam_from_world.translation;
     for (const double number : {q.w(), q.x(), q.y(), q.z(), t.x(), t.y(), t.z()}) {
-      Append<double>(&bytes, number);
+      Append<double>(number, &bytes);
     }
-    Append<uint32_t>(&bytes, image.camera);
+    Append<uint32_t>(image.camera, &bytes);
     bytes.append(image.name).push_back('\0');
-    Append<uint64_t>(&bytes, image.keypoints.size());
+    Append<uint64_t>(image.keypoints.size(), &bytes);
     for (const ColmapKeypoint& keypoint : image.keypoints) {
-      Append<double>(&bytes, keypoint.position.x());
-      Append<double>(&bytes, keypoint.position.y());
-      Append<uint64_t>(&bytes, keypoint.point.value_or(kNoPoint));
+      Append<double>(keypoint.position.x(), &bytes);
+      Append<double>(keypoint.position.y(), &bytes);
+      Append<uint64_t>(keypoint.point.value_or(kNoPoint), &bytes);
     }
   }
   return bytes;
@@ -200,16 +200,16 @@ std::string ImagesBytes(const ColmapModel& model) {
 
 std::string PointsBytes(const ColmapModel& model) {
   std::string bytes;
-  Append<uint64_t>(&bytes, model.points.size());
+  Append<uint64_t>(model.points.size(), &bytes);
   for (const auto& [id, point] : model.points) {
-    Append<uint64_t>(&bytes, id);
-    for (int i = 0; i < 3; ++i) Append<double>(&bytes, point.position[i]);
-    for (const uint8_t channel : point.rgb) Append<uint8_t>(&bytes, channel);
-    Append<double>(&bytes, point.error_px);
-    Append<uint64_t>(&bytes, point.track.size());
+    Append<uint64_t>(id, &bytes);
+    for (int i = 0; i < 3; ++i) Append<double>(point.position[i], &bytes);
+    for (const uint8_t channel : point.rgb) Append<uint8_t>(channel, &bytes);
+    Append<double>(point.error_px, &bytes);
+    Append<uint64_t>(point.track.size(), &bytes);
     for (const ColmapTrackElement& element : point.track) {
-      Append<uint32_t>(&bytes, element.image);
-      Append<uint32_t>(&bytes, element.keypoint);
+      Append<uint32_t>(element.image, &bytes);
+      Append<uint32_t>(element.keypoint, &bytes);
     }
   }
   return bytes;

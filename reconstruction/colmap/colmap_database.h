@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // COLMAP's SQLite database: photographs, their keypoints and what was matched between them. Pixels
-// are COLMAP's own; calibration/colmap_lens.h converts. [colmap.github.io/database.html]
+// are COLMAP's own; calibration/lens/colmap_lens.h converts. [colmap.github.io/database.html]
 #pragma once
 
 #include <Eigen/Core>

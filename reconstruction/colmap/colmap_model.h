@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A sparse model of COLMAP as its files hold it, text or binary, of COLMAP 3.8 to 4.x. Pixels are
-// COLMAP's own; calibration/colmap_lens.h converts. [colmap.github.io/format.html]
+// COLMAP's own; calibration/lens/colmap_lens.h converts. [colmap.github.io/format.html]
 #pragma once
 
 #include <Eigen/Core>

@@ -8,11 +8,11 @@
 
 #include "calibration/files/error.h"
 #include "calibration/files/whole_file.h"
+#include "calibration/files/wording.h"
 #include "calibration/photo/photograph.h"
 #include "calibration/program/external_program.h"
 #include "calibration/program/program.h"
 #include "reconstruction/colmap/ideal_frame.h"
-#include "calibration/files/wording.h"
 
 namespace insitu {
 namespace {

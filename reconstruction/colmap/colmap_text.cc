@@ -222,7 +222,7 @@ void ReadPoints(ColmapFiles* files) {
 }
 
 // Numbers with 17 digits, each followed by a blank.
-void Append(std::string* text, std::initializer_list<double> numbers) {
+void Append(std::initializer_list<double> numbers, std::string* text) {
   for (const double number : numbers) *text += Formatted("%.17g ", number);
 }
 
@@ -235,7 +235,7 @@ std::string CamerasText(const ColmapModel& model) {
   for (const auto& [id, lens] : model.cameras) {
     text += std::to_string(id) + " " + lens.model + " " + std::to_string(lens.width) + " " +
             std::to_string(lens.height) + " ";
-    for (const double param : lens.params) Append(&text, {param});
+    for (const double param : lens.params) Append({param}, &text);
     text.back() = '\n';
   }
   return text;
@@ -252,10 +252,10 @@ std::string ImagesText(const ColmapModel& model) {
     const auto& q = image.cam_from_world.rotation;
     const auto& t = image.cam_from_world.translation;
     text += std::to_string(id) + " ";
-    Append(&text, {q.w(), q.x(), q.y(), q.z(), t.x(), t.y(), t.z()});
+    Append({q.w(), q.x(), q.y(), q.z(), t.x(), t.y(), t.z()}, &text);
     text += std::to_string(image.camera) + " " + image.name + "\n";
     for (const ColmapKeypoint& keypoint : image.keypoints) {
-      Append(&text, {keypoint.position.x(), keypoint.position.y()});
+      Append({keypoint.position.x(), keypoint.position.y()}, &text);
       text += (keypoint.point ? std::to_string(*keypoint.point) : "-1") + " ";
     }
     if (image.keypoints.empty())
@@ -274,9 +274,9 @@ std::string PointsText(const ColmapModel& model) {
       std::to_string(model.points.size()) + "\n";
   for (const auto& [id, point] : model.points) {
     text += std::to_string(id) + " ";
-    Append(&text, {point.position.x(), point.position.y(), point.position.z()});
+    Append({point.position.x(), point.position.y(), point.position.z()}, &text);
     for (const uint8_t channel : point.rgb) text += std::to_string(channel) + " ";
-    Append(&text, {point.error_px});
+    Append({point.error_px}, &text);
     for (const ColmapTrackElement& element : point.track) {
       text += std::to_string(element.image) + " " + std::to_string(element.keypoint) + " ";
     }

@@ -6,9 +6,9 @@
 #include "calibration/camera_files/dbat_camera.h"
 #include "calibration/files/text_table.h"
 #include "calibration/files/whole_file.h"
+#include "calibration/files/wording.h"
 #include "reconstruction/exchange/fit_brown.h"
 #include "reconstruction/geometry/coordinate_system.h"
-#include "calibration/files/wording.h"
 
 namespace insitu {
 namespace {
@@ -22,7 +22,7 @@ std::string DigitsOf(const Eigen::Vector3d& v, const std::string& separator) {
 // Running numbers from 1, in the order of control points, then of marks.
 using Numbers = std::map<std::string, int>;
 
-int NumberOf(Numbers* numbers, const std::string& name) {
+int NumberOf(const std::string& name, Numbers* numbers) {
   return numbers->emplace(name, static_cast<int>(numbers->size()) + 1).first->second;
 }
 
@@ -30,7 +30,7 @@ std::string ControlTable(const Survey& survey, ControlRole role, Numbers* points
   std::string table = "# id, label, x, y, z, sx, sy, sz [m]\n";
   for (const ControlPoint& point : survey.control_points) {
     if (point.role != role) continue;
-    table += std::to_string(NumberOf(points, point.name)) + "," + point.name + "," +
+    table += std::to_string(NumberOf(point.name, points)) + "," + point.name + "," +
              DigitsOf(point.position, ",") + "," + DigitsOf(point.sigma, ",") + "\n";
   }
   return table;
@@ -41,7 +41,7 @@ std::string MarksTable(const Survey& survey, const Numbers& images, Numbers* poi
   for (const ImageObservation& mark : survey.observations) {
     const Eigen::Vector2d corner = mark.pixel.array() + kDbatFirstPixelCenter;
     table += std::to_string(images.at(mark.photo)) + "," +
-             std::to_string(NumberOf(points, mark.point)) + "," + Digits(corner.x()) + "," +
+             std::to_string(NumberOf(mark.point, points)) + "," + Digits(corner.x()) + "," +
              Digits(corner.y()) + "," + Digits(mark.sigma_px) + "\n";
   }
   return table;
@@ -74,7 +74,7 @@ std::string ImagesTable(const std::vector<std::filesystem::path>& photographs,
   const bool has_cameras = cameras.cameras.size() > 1;
   std::string table = has_cameras ? "# id, path, camera\n" : "# id, path\n";
   for (size_t i = 0; i < photographs.size(); ++i) {
-    const int number = NumberOf(images, photographs[i].stem().string());
+    const int number = NumberOf(photographs[i].stem().string(), images);
     table += std::to_string(number) + "," + photographs[i].filename().string() +
              (has_cameras ? "," + std::to_string(cameras.of_photo[i]) : "") + "\n";
   }

@@ -48,17 +48,24 @@ Eigen::Vector3d Vector(const TextRow& row, size_t first, const std::string& what
           row.Number(first + 2, what + " z")};
 }
 
-int Insert(Indices* indices, const TextRow& row, const std::string& name, const char* what) {
+int Insert(const TextRow& row, const std::string& name, const char* what, Indices* indices) {
   const auto [place, is_new] = indices->emplace(name, static_cast<int>(indices->size()));
   if (!is_new) throw row.Error(std::string(what) + " \"" + name + "\" stands twice");
   return place->second;
+}
+
+// A project's marks are millimetres with one sigma for both axes, a network's are pixels with one:
+// its unit of length is a square pixel, or the axes would weigh differently.
+MetricCamera InSquarePixels(MetricCamera lens) {
+  lens.pixel_mm.setConstant(std::sqrt(lens.pixel_mm.prod()));
+  return lens;
 }
 
 std::vector<NetworkCamera> Cameras(const std::filesystem::path& ior) {
   std::vector<NetworkCamera> cameras;
   for (const AiconCamera& camera : ReadAiconCameras(ior)) {
     cameras.push_back({camera.number,
-                       camera.lens,
+                       InSquarePixels(camera.lens),
                        {true, true, true, true, true, false, true, true, false, false}});
   }
   return cameras;
@@ -79,7 +86,7 @@ Indices ReadOrientations(const std::filesystem::path& path, const Indices& camer
   for (const TextRow& row : Rows(path)) {
     NetworkPhoto photo;
     photo.name = row.Text(0, "photo number");
-    Insert(&indices, row, photo.name, "photo");
+    Insert(row, photo.name, "photo", &indices);
     const auto camera = cameras.find(row.Text(1, "camera number"));
     if (camera == cameras.end()) throw row.Error("camera \"" + row.words[1] + "\" is not known");
     photo.camera = camera->second;
@@ -98,7 +105,7 @@ Indices ReadPoints(const std::filesystem::path& path, Network* network,
   for (const TextRow& row : Rows(path)) {
     if (row.words.size() > 8 && row.Integer(8, "flag") == 0 && ++unused) continue;
     const std::string& name = row.Text(0, "point number");
-    Insert(&indices, row, name, "point");
+    Insert(row, name, "point", &indices);
     network->points.push_back({name, kMetresPerMm * Vector(row, 1, "coordinate")});
   }
   if (unused) remarks->push_back(std::to_string(unused) + " points are flagged as not adjusted");
@@ -147,7 +154,9 @@ void ReadScales(const std::filesystem::path& path, const Indices& points, Networ
 
 }  // namespace
 
-void AiconOptions::Check() const { INSITU_CHECK(mark_sigma_mm > 0 && std::isfinite(mark_sigma_mm)); }
+void AiconOptions::Check() const {
+  INSITU_CHECK(mark_sigma_mm > 0 && std::isfinite(mark_sigma_mm));
+}
 
 ImportedProject ReadAiconProject(const std::filesystem::path& path, const AiconOptions& options) {
   options.Check();

@@ -234,7 +234,7 @@ SurveyImport ImportSurvey(const std::vector<std::filesystem::path>& paths,
     files.push_back(ReadSurveyFile(path, photo_size));
     ReportFile(files.back(), &import.report);
   }
-  for (std::string& line : ConvertToOneSystem(&files, options.file_crs, options.crs)) {
+  for (std::string& line : ConvertToOneSystem(options.file_crs, options.crs, &files)) {
     import.report.push_back(std::move(line));
   }
   import.control_points = MergePoints(files, options);

@@ -71,8 +71,7 @@ void ReadMetashapeMarks(const XmlNode& chunk, SurveyFile* file) {
       if (camera == cameras.end()) throw location.Error("a camera_id that no camera has");
       const Eigen::Vector2d corner(location.NumberAttribute("x"), location.NumberAttribute("y"));
       file->marks.push_back({PhotoName(camera->second), label->second,
-                             corner.array() - kFirstPixelCenter, std::nullopt,
-                             location.place()});
+                             corner.array() - kFirstPixelCenter, std::nullopt, location.place()});
     }
   }
   if (unpinned) {

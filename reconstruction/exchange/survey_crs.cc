@@ -123,9 +123,9 @@ CoordinateSystem TargetSystem(const CoordinateSystem& source,
 
 }  // namespace
 
-std::vector<std::string> ConvertToOneSystem(std::vector<SurveyFile>* all,
-                                            const std::optional<std::string>& file_crs,
-                                            const std::optional<std::string>& target) {
+std::vector<std::string> ConvertToOneSystem(const std::optional<std::string>& file_crs,
+                                            const std::optional<std::string>& target,
+                                            std::vector<SurveyFile>* all) {
   std::vector<SurveyFile*> files;  // those that hold coordinates
   for (SurveyFile& file : *all) {
     if (!Positions(&file).empty()) files.push_back(&file);

@@ -15,8 +15,8 @@ namespace insitu {
 // Heights stay. Without any system coordinates are taken as metres. Returns what was done, in
 // words. Throws InputError: systems mixed, named and unnamed mixed, unknown, not in metres, or a
 // local one that is to be converted; degrees without a system; a place PROJ cannot convert.
-std::vector<std::string> ConvertToOneSystem(std::vector<SurveyFile>* files,
-                                            const std::optional<std::string>& file_crs,
-                                            const std::optional<std::string>& target);
+std::vector<std::string> ConvertToOneSystem(const std::optional<std::string>& file_crs,
+                                            const std::optional<std::string>& target,
+                                            std::vector<SurveyFile>* files);
 
 }  // namespace insitu

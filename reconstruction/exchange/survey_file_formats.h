@@ -18,8 +18,8 @@ struct SurveyText {
 // The photo's name in a path: without folders and ending.
 std::string PhotoName(const std::string& path);
 
-// Whether a word names a photograph: as site.h has it, or a raw .dng, which other programs take as it
-// is and whose developed photograph, of the same name, is ours.
+// Whether a word names a photograph: as site.h has it, or a raw .dng, which other programs take as
+// it is and whose developed photograph, of the same name, is ours.
 bool IsPhotoFileName(const std::string& text);
 
 // survey_lists.cc; of what format a text is tell its first lines.

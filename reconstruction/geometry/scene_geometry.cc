@@ -27,6 +27,7 @@ Json::Value PolygonToJson(const Polygon& polygon, const std::vector<PosedCamera>
   for (const Eigen::Vector3d& vertex : polygon.vertices) {
     json["vertices"].append(ToJson(Eigen::VectorXd(vertex)));
   }
+  if (polygon.covariance.size() > 0) json["covariance"] = ToJson(polygon.covariance);
   return json;
 }
 
@@ -59,6 +60,13 @@ Polygon PolygonFromJson(const JsonNode& node, const std::vector<PosedCamera>& ca
   if (polygon.vertices.size() < 3) throw node.Error("expected at least three vertices");
   if (!Triangulate(polygon.vertices, polygon.normal)) {
     throw node.Error("the outline of polygon '" + polygon.name + "' crosses itself or has no area");
+  }
+  if (const auto covariance = node.Find("covariance")) {
+    polygon.covariance = covariance->Matrix();
+    const auto rows = static_cast<Eigen::Index>(3 * polygon.vertices.size());
+    if (polygon.covariance.rows() != rows || polygon.covariance.cols() != rows) {
+      throw covariance->Error("expected three rows and columns a vertex");
+    }
   }
   return polygon;
 }

@@ -19,6 +19,8 @@ struct Polygon {
   Eigen::Vector3d normal;                 // unit, outward, of the adjusted plane
   std::optional<int> photo;               // image attribute: index into SceneGeometry::cameras
   std::string material;                   // material attribute
+  // 3n x 3n [m^2], joint, of the vertices in their order; empty where nothing is known.
+  Eigen::MatrixXd covariance = {};
 };
 
 // A measured direction in the world frame.

@@ -14,10 +14,8 @@ namespace {
 // Of the polygon's vertices in their order: joint if known, else block by block.
 Eigen::MatrixXd VertexCovariance(const Adjustment& adjustment, const PolygonOutline& outline,
                                  size_t index) {
-  if (index < adjustment.polygon_covariance.size() &&
-      adjustment.polygon_covariance[index].size() > 0) {
-    return adjustment.polygon_covariance[index];
-  }
+  const Eigen::MatrixXd& joint = adjustment.scene.polygons[index].covariance;
+  if (joint.size() > 0) return joint;
   std::map<std::string, const AdjustedPoint*> points;
   for (const AdjustedPoint& point : adjustment.points) points[point.name] = &point;
   const auto count = static_cast<Eigen::Index>(outline.vertices.size());
@@ -41,8 +39,7 @@ PolygonMeasures MeasurePolygon(const Adjustment& adjustment, const PolygonOutlin
   const Eigen::MatrixXd covariance = VertexCovariance(adjustment, outline, index);
   const size_t count = vertices.size();
   PolygonMeasures measures;
-  measures.is_joint = index < adjustment.polygon_covariance.size() &&
-                      adjustment.polygon_covariance[index].size() > 0;
+  measures.is_joint = adjustment.scene.polygons[index].covariance.size() > 0;
   Eigen::VectorXd area_gradient = Eigen::VectorXd::Zero(covariance.rows());
   for (size_t i = 0; i < count; ++i) {
     const size_t next = (i + 1) % count, previous = (i + count - 1) % count;

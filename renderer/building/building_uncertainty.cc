@@ -4,11 +4,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <set>
 
 #include "calibration/files/error.h"
 #include "calibration/files/whole_file.h"
+#include "calibration/files/wording.h"
 
 namespace insitu {
 namespace {
@@ -52,12 +52,10 @@ void WriteUncertainty(const std::filesystem::path& path,
                       const std::vector<CornerUncertainty>& corners) {
   std::string text = "x,y,z,pixel_x,pixel_y,sigma_major_px,sigma_minor_px,sigma_mm\n";
   for (const CornerUncertainty& corner : corners) {
-    char line[256];
-    std::snprintf(line, sizeof line, "%.4f,%.4f,%.4f,%.2f,%.2f,%.4f,%.4f,%.3f\n", corner.corner.x(),
-                  corner.corner.y(), corner.corner.z(), corner.image.pixel.x(),
-                  corner.image.pixel.y(), corner.image.major_px, corner.image.minor_px,
-                  1000 * corner.image.major_m);
-    text += line;
+    text +=
+        Formatted("%.4f,%.4f,%.4f,%.2f,%.2f,%.4f,%.4f,%.3f\n", corner.corner.x(), corner.corner.y(),
+                  corner.corner.z(), corner.image.pixel.x(), corner.image.pixel.y(),
+                  corner.image.major_px, corner.image.minor_px, 1000 * corner.image.major_m);
   }
   WriteWhole(path, text);
 }

@@ -3,10 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <optional>
 
 #include "calibration/files/csv_file.h"
+#include "calibration/files/wording.h"
 #include "reconstruction/geometry/scene_geometry.h"
 
 namespace insitu {
@@ -27,12 +27,6 @@ constexpr Factor kFactors[] = {
     {1 / 0.0254, "inches taken as metres"}, {0.0254, "metres taken as inches"},
     {1 / 0.3048, "feet taken as metres"},   {0.3048, "metres taken as feet"},
     {100, "centimetres taken as metres"},   {1 / 100.0, "metres taken as centimetres"}};
-
-std::string Text(const char* format, double a, double b = 0) {
-  char text[300];
-  std::snprintf(text, sizeof(text), format, a, b);
-  return text;
-}
 
 // Sizes a planned building may have, from a kiosk to a district [m].
 constexpr double kSmallest = 1, kLargest = 3000;
@@ -98,20 +92,20 @@ std::vector<std::string> SuspicionsOf(const AlignedBox3d& building, const Aligne
   const double size = building.diagonal().norm();
   const bool far = IsFar(building, site);
   if (far) {
-    suspicions.push_back(Text("the building lies %.0f m from the site", Distance(building, site)) +
-                         Text(" (%.0f m across): see placement.json", site.diagonal().norm()));
+    suspicions.push_back(
+        Number("the building lies %.0f m from the site", Distance(building, site)) +
+        Number(" (%.0f m across): see placement.json", site.diagonal().norm()));
   }
   if (!IsLikely(size, site)) {
-    suspicions.push_back(Text(site.isEmpty() ? "the building is %.4g m across"
-                                             : "the building is %.4g m across, the "
-                                               "site %.4g m",
-                              size, site.isEmpty() ? 0 : site.diagonal().norm()));
+    suspicions.push_back(
+        Number("the building is %.4g m across", size) +
+        (site.isEmpty() ? "" : Number(", the site %.4g m", site.diagonal().norm())));
   }
   if (suspicions.empty()) return suspicions;
   const std::optional<Factor> factor = FactorOff(building, site);
   const bool lands = factor && far && !IsFar(Scaled(building, 1 / factor->value), site);
   if (factor && (lands || !IsLikely(size, site))) {
-    suspicions.push_back(Text("its unit looks wrong by a factor of %.5g: ", factor->value) +
+    suspicions.push_back(Number("its unit looks wrong by a factor of %.5g: ", factor->value) +
                          factor->meaning + "? (\"unit\" in placement.json)");
   }
   return suspicions;

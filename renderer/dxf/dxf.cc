@@ -6,6 +6,7 @@
 #include <set>
 #include <tuple>
 
+#include "calibration/files/error.h"
 #include "renderer/dxf/dxf_color.h"
 #include "renderer/dxf/dxf_drawing.h"
 #include "renderer/dxf/dxf_path.h"
@@ -244,7 +245,13 @@ std::string VersionName(const std::string& version) {
 
 }  // namespace
 
+void DxfOptions::Check() const {
+  INSITU_CHECK(chord_tolerance > 0);
+  INSITU_CHECK(most_pieces > 0);
+}
+
 Model ReadDxf(const std::filesystem::path& path, const DxfOptions& options) {
+  options.Check();
   DxfDrawing drawing = ReadDxfDrawing(path, options.most_pieces);
   Assembly assembly(path, &drawing, options);
   assembly.Run();

@@ -11,6 +11,8 @@ namespace insitu {
 struct DxfOptions {
   double chord_tolerance = 0.002;  // [m], > 0: of arcs and circles
   double most_pieces = 20e6;       // copies of blocks come to no more vertices and entities
+
+  void Check() const;  // throws CheckError that names the field that is wrong
 };
 
 // DXF, ASCII or binary, R9 to 2018: 3DFACE; SOLID and TRACE (with thickness); MESH (smoothed);

@@ -11,7 +11,6 @@
 #include <algorithm>
 #include <assimp/Importer.hpp>
 #include <cmath>
-#include <cstdio>
 #include <fstream>
 #include <limits>
 #include <string_view>
@@ -19,6 +18,7 @@
 
 #include "calibration/files/error.h"
 #include "calibration/files/json_file.h"
+#include "calibration/files/wording.h"
 #include "calibration/files/xml_file.h"
 #include "calibration/photo/photograph.h"
 #include "renderer/formats/cut_short.h"
@@ -234,11 +234,10 @@ class SceneReader {
   void WarnOfPrecision(double largest) {
     const double step = largest * std::numeric_limits<float>::epsilon();
     if (step < 1e-3) return;
-    char text[200];
-    std::snprintf(text, sizeof(text),
-                  "coordinates up to %.0f m are read in single precision, to %.3f m: export about "
-                  "a local origin and place it with placement.json",
-                  largest, step);
+    const std::string text = Formatted(
+        "coordinates up to %.0f m are read in single precision, to %.3f m: export about "
+        "a local origin and place it with placement.json",
+        largest, step);
     model_.warnings.push_back(InputError(path_, text).what());
   }
 

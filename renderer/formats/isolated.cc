@@ -252,7 +252,13 @@ std::string EndOf(int status, const IsolationLimits& limits) {
 
 }  // namespace
 
+void IsolationLimits::Check() const {
+  INSITU_CHECK(seconds > 0);
+  INSITU_CHECK(bytes > 0);
+}
+
 IsolatedModel ReadIsolated(const std::function<Model()>& read, const IsolationLimits& limits) {
+  limits.Check();
   int ends[2];
   INSITU_CHECK(pipe(ends) == 0);
   std::fflush(nullptr);

@@ -14,6 +14,8 @@ namespace insitu {
 struct IsolationLimits {
   int seconds = 600;          // of CPU time
   int64_t bytes = 3ll << 30;  // of address space beyond what this process has now
+
+  void Check() const;  // throws CheckError that names the field that is wrong
 };
 
 struct IsolatedModel {

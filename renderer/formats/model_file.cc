@@ -1,13 +1,20 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "renderer/formats/model_file.h"
 
+#include "calibration/files/error.h"
 #include "renderer/formats/assimp_model.h"
 #include "renderer/formats/model_format.h"
 #include "renderer/formats/obj_model.h"
 
 namespace insitu {
 
+void ImportOptions::Check() const {
+  dxf.Check();
+  INSITU_CHECK(seconds > 0);
+}
+
 Model ReadModel(const std::filesystem::path& path, const ImportOptions& options) {
+  options.Check();
   const ModelFormat format = RequireModelFormat(path);
   if (format == ModelFormat::kDxf) return ReadDxf(path, options.dxf);
   if (format == ModelFormat::kObj) return ReadObj(path);

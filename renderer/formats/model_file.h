@@ -12,6 +12,8 @@ namespace insitu {
 struct ImportOptions {
   DxfOptions dxf;
   int seconds = 600;  // a library that takes longer is stopped; of a small file, sooner
+
+  void Check() const;  // throws CheckError that names the field that is wrong
 };
 
 // Throws InputError: what RequireModelFormat and each format's reader state.

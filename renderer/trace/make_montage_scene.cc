@@ -93,9 +93,9 @@ std::optional<int> LargestLevelPolygon(const SceneGeometry& scene) {
 }  // namespace
 
 MontageScene MakeMontageScene(NaturalEnvironment natural, const ArtificialEnvironment& artificial,
-                              const std::vector<Camera>& pinholes, std::vector<Raster> images) {
+                              std::vector<Raster> images) {
   INSITU_CHECK(images.size() == natural.scene.cameras.size());
-  INSITU_CHECK(pinholes.size() == images.size());
+  INSITU_CHECK(natural.input_images.size() == images.size());
   const Eigen::Vector3d origin = natural.scene.origin;
   PolygonMesh polygons = MeshOfPolygons(natural.scene);
   const TriangleMesh building = LocalMesh(artificial, origin);
@@ -140,7 +140,7 @@ MontageScene MakeMontageScene(NaturalEnvironment natural, const ArtificialEnviro
   scene.solar_disc_radius = std::sqrt(1 - cosine * cosine) / cosine;
   for (size_t i = 0; i < scene.input_images.size(); ++i) {
     PosedCamera camera = site.scene.cameras[i];
-    camera.camera = pinholes[i];
+    camera.camera = site.input_images[i].camera;
     scene.images.emplace_back(camera, origin, scene.input_images[i]);
   }
   scene.mean_brdf_of_polygon = MeanBrdfOfPolygons(scene);

@@ -4,7 +4,6 @@
 
 #include <vector>
 
-#include "calibration/lens/camera.h"
 #include "calibration/photo/raster.h"
 #include "radiometry/natural_environment.h"
 #include "renderer/building/artificial_environment.h"
@@ -12,9 +11,8 @@
 
 namespace insitu {
 
-// `artificial` may be empty: the site as it is. `images` are the input images, in the order of
-// natural.scene.cameras, as are the pinhole cameras that see them.
+// `artificial` may be empty: the site as it is. `images` are those of natural.input_images.
 MontageScene MakeMontageScene(NaturalEnvironment natural, const ArtificialEnvironment& artificial,
-                              const std::vector<Camera>& pinholes, std::vector<Raster> images);
+                              std::vector<Raster> images);
 
 }  // namespace insitu

@@ -7,7 +7,8 @@
 #include <array>
 #include <atomic>
 #include <csignal>
-#include <cstdio>
+
+#include "calibration/files/wording.h"
 
 namespace insitu {
 namespace {
@@ -47,10 +48,7 @@ std::string Profile::Report() const {
   for (const auto& tick : ticks) total += tick;
   std::string report;
   for (size_t i = 0; i < kNames.size(); ++i) {
-    std::array<char, 64> line;
-    std::snprintf(line.data(), line.size(), "%-8s %5.1f %%\n", kNames[i],
-                  100.0 * ticks[i] / std::max(total, 1L));
-    report += line.data();
+    report += Formatted("%-8s %5.1f %%\n", kNames[i], 100.0 * ticks[i] / std::max(total, 1L));
   }
   return report;
 }

@@ -116,12 +116,18 @@ int TileCount(const Raster& photo) {
   return ((photo.width + kTileSize - 1) / kTileSize) * ((photo.height + kTileSize - 1) / kTileSize);
 }
 
+void RenderOptions::Check() const {
+  INSITU_CHECK(fewest_rays >= 4 && fewest_rays % 4 == 0);
+  INSITU_CHECK(most_rays >= fewest_rays && most_rays % 4 == 0);
+  INSITU_CHECK(tolerance > 0);
+  INSITU_CHECK(threads >= 0);
+}
+
 RenderResult RenderMontage(const MontageScene& scene, const PosedCamera& camera,
                            const Raster& photo, const RenderOptions& options,
                            const std::function<void()>& tile_done) {
+  options.Check();
   INSITU_CHECK(photo.width == camera.camera.width() && photo.height == camera.camera.height());
-  INSITU_CHECK(options.fewest_rays >= 4 && options.fewest_rays % 4 == 0);
-  INSITU_CHECK(options.most_rays >= options.fewest_rays && options.most_rays % 4 == 0);
   const int cores = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
                                   options.threads > 0 ? options.threads : cores);

@@ -14,6 +14,8 @@ struct RenderOptions {
   int most_rays = 16;        // a pixel, a multiple of 4
   double tolerance = 0.004;  // standard error of a pixel in sRGB units (1 = white) that is enough
   int threads = 0;           // 0: as many as there are cores
+
+  void Check() const;  // throws CheckError that names the field that is wrong
 };
 
 struct RenderResult {

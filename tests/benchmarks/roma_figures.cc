@@ -6,9 +6,9 @@
 #include <functional>
 #include <sstream>
 
-#include "reconstruction/colmap/colmap_text.h"
 #include "calibration/files/error.h"
 #include "reconstruction/colmap/colmap_model.h"
+#include "reconstruction/colmap/colmap_text.h"
 #include "reconstruction/colmap_export.h"
 #include "reconstruction/exchange/import_dbat.h"
 #include "tests/benchmarks/figure_parts.h"

@@ -3,10 +3,12 @@
 
 #include <Eigen/Eigenvalues>
 
+#include "calibration/calibration_report.h"
 #include "calibration/files/json_file.h"
 #include "calibration/files/whole_file.h"
 #include "calibration/lens/undistort.h"
 #include "calibration/photo/photograph.h"
+#include "calibration/site_undistortion.h"
 #include "tests/calibration/boards/drawn_boards.h"
 #include "tests/calibration/files/scratch_folder.h"
 

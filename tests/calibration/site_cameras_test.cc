@@ -3,10 +3,12 @@
 
 #include <exiv2/exiv2.hpp>
 
+#include "calibration/calibration_report.h"
 #include "calibration/files/json_file.h"
 #include "calibration/lens/camera.h"
 #include "calibration/photo/photograph.h"
 #include "calibration/site_calibration.h"
+#include "calibration/site_undistortion.h"
 #include "tests/calibration/files/scratch_folder.h"
 
 namespace insitu {

@@ -24,6 +24,7 @@ new_site() {
     "$3" "$4" >"$site/work/calibration/camera.cameramodel"
 }
 
+# shellcheck disable=SC2120 # it is also called through prints and refuses
 tie_points() { "$INSITU_BIN/insitu-tie-points" "$site" "$@"; }
 
 # prints PATTERN COMMAND...: the command succeeds and prints a line like that, which is shown.
@@ -44,6 +45,7 @@ refuses() {
 
 same_again() {
   cp -- "$site/work/tie_points/tie_points.json" "$temporary/first.json"
+  # shellcheck disable=SC2119
   tie_points >/dev/null && cmp -- "$temporary/first.json" "$site/work/tie_points/tie_points.json"
 }
 

@@ -69,8 +69,19 @@ check 'lenses adjusted by hand' self_calibrate --self-calibrate
 check 'are used when that stage is left as it is' \
   redoes 'undistort light render' --from undistort
 check 'else it is made anew' redoes 'reconstruct undistort light render'
-sed -i 's/^/ /' "$site/calibration/camera/camera.cameramodel"
-check 'a camera file that says the same goes no further' redoes 'calibrate'
-sed -i "s/^\(.*'intrinsics': \[ *[0-9]*\)[0-9]\./\17./" "$site/calibration/camera/camera.cameramodel"
+printf '# a remark\n' >>"$site/calibration/camera/camera.cameramodel"
+check 'a remark in a camera file goes no further than those who read it' \
+  redoes 'calibrate reconstruct undistort'
+longer_focal_length() {
+  /usr/bin/python3 - "$site/calibration/camera/camera.cameramodel" <<'PYTHON'
+import sys
+import mrcal
+model = mrcal.cameramodel(sys.argv[1])
+name, values = model.intrinsics()
+values[:2] *= 1.0001
+mrcal.cameramodel(intrinsics=(name, values), imagersize=model.imagersize()).write(sys.argv[1])
+PYTHON
+}
+longer_focal_length
 check 'another camera is heeded' redoes 'calibrate reconstruct undistort light render'
 finish

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "calibration/files/json_file.h"
 #include "calibration/files/whole_file.h"
 #include "tests/radiometry/measure/synthetic_site.h"
 
@@ -15,6 +16,21 @@ TEST(WriteEnvironment, SameInputSameBytes) {
   const std::string first = ReadWhole(truth.site.environment());
   WriteEnvironment(truth.site, MeasureDaylight(truth.site));
   EXPECT_EQ(ReadWhole(truth.site.environment()), first);
+}
+
+// The paper's weights are of the whole spectrum, ours of each wavelength: as bright are both.
+TEST(WriteEnvironment, TellsThePapersWeights) {
+  const SyntheticSite truth = MakeSyntheticSite("weights");
+  LightOptions options;
+  options.average_over_wavelength = true;
+  WriteEnvironment(truth.site, MeasureDaylight(truth.site, options));
+  const JsonNode light = JsonNode::Load(truth.site.environment()).At("light");
+  const std::vector<double> sky = light.At("sky_radiance").Numbers(),
+                            spectrum = light.At("relative_spectrum").Numbers();
+  ASSERT_EQ(sky.size(), spectrum.size());
+  for (size_t i = 0; i < sky.size(); ++i) {
+    EXPECT_NEAR(sky[i], light.At("k_h").Number() * spectrum[i], 1e-12) << i;
+  }
 }
 
 TEST(BriefReport, SaysWhatWasFound) {

@@ -7,6 +7,7 @@
 #include "calibration/files/whole_file.h"
 #include "calibration/photo/photograph.h"
 #include "radiometry/light_report.h"
+#include "tests/calibration/files/wrong_field.h"
 #include "tests/radiometry/measure/synthetic_site.h"
 
 namespace insitu {
@@ -95,14 +96,21 @@ TEST(MeasureDaylight, WithoutSunDirectionTheSkyIsOvercast) {
 TEST(MeasureDaylight, RefusesPhotographsThatDoNotFit) {
   const SyntheticSite truth = MakeSyntheticSite("photos");
   WriteExr(truth.site.photos() / "B.exr", Raster(90, 60));
-  EXPECT_NE(ErrorOf([&] { MeasureDaylight(truth.site); })
-                .find("B.exr: is 90 x 60 pixels, expected "
-                      "900 x 600"),
-            std::string::npos);
+  EXPECT_NE(
+      ErrorOf([&] { MeasureDaylight(truth.site); }).find("B.exr: is 90x60 px, expected 900x600 px"),
+      std::string::npos);
   std::filesystem::remove(truth.site.photos() / "B.exr");
   EXPECT_NE(ErrorOf([&] { MeasureDaylight(truth.site); }).find("no photograph \"B\""),
             std::string::npos);
   EXPECT_FALSE(std::filesystem::exists(truth.site.environment()));
+}
+
+TEST(LightOptions, NameTheFieldThatIsWrong) {
+  EXPECT_EQ(WrongField(LightOptions()), "");
+  EXPECT_NE(WrongField(LightOptions{.bins = 17}).find("bins"), std::string::npos);
+  EXPECT_NE(WrongField(LightOptions{.polar_facets = 0}).find("polar_facets"), std::string::npos);
+  const SyntheticSite truth = MakeSyntheticSite("options");
+  EXPECT_THROW(MeasureDaylight(truth.site, {.bins = 2}), CheckError);
 }
 
 }  // namespace

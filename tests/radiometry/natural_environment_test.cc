@@ -47,6 +47,7 @@ void ExpectSameScene(const SceneGeometry& a, const SceneGeometry& b) {
               b.cameras[i].cam_from_world.rotation.coeffs());
     EXPECT_EQ(a.cameras[i].cam_from_world.translation, b.cameras[i].cam_from_world.translation);
   }
+  EXPECT_EQ(a.camera_covariances, b.camera_covariances);
   ASSERT_EQ(a.polygons.size(), b.polygons.size());
   for (size_t i = 0; i < a.polygons.size(); ++i) {
     EXPECT_EQ(a.polygons[i].name, b.polygons[i].name);
@@ -54,7 +55,24 @@ void ExpectSameScene(const SceneGeometry& a, const SceneGeometry& b) {
     EXPECT_EQ(a.polygons[i].normal, b.polygons[i].normal);
     EXPECT_EQ(a.polygons[i].photo, b.polygons[i].photo);
     EXPECT_EQ(a.polygons[i].material, b.polygons[i].material);
+    EXPECT_EQ(a.polygons[i].covariance, b.polygons[i].covariance);
   }
+}
+
+void ExpectSameImages(const std::vector<InputImage>& a, const std::vector<InputImage>& b) {
+  ASSERT_EQ(a.size(), b.size());
+  for (size_t i = 0; i < a.size(); ++i) {
+    EXPECT_EQ(a[i].file, b[i].file);
+    EXPECT_EQ(a[i].camera.lens_model(), b[i].camera.lens_model());
+    EXPECT_EQ(a[i].camera.intrinsics(), b[i].camera.intrinsics());
+    EXPECT_EQ(a[i].camera.height(), b[i].camera.height());
+  }
+}
+
+// Digits that only 17 decimals bring back.
+Eigen::MatrixXd SomeCovariance(int size) {
+  const Eigen::MatrixXd root = Eigen::MatrixXd::Random(size, size) / 300;
+  return root * root.transpose();
 }
 
 TEST_P(BinsTest, EnvironmentReturnsToTheLastBit) {
@@ -65,11 +83,16 @@ TEST_P(BinsTest, EnvironmentReturnsToTheLastBit) {
                                "steel": {"specular": "mirror"}}})");
   LightOptions options;
   options.bins = GetParam();
-  const LightMeasurement measured = MeasureDaylight(truth.site, options);
+  LightMeasurement measured = MeasureDaylight(truth.site, options);
+  SceneGeometry& scene = measured.environment.scene;
+  scene.camera_covariances = {SomeCovariance(6), SomeCovariance(10)};  // pose alone; with its lens
+  scene.polygons[1].covariance = SomeCovariance(12);
   WriteEnvironment(truth.site, measured);
   const NaturalEnvironment& a = measured.environment;
   const NaturalEnvironment b = ReadEnvironment(truth.site);
   ExpectSameScene(a.scene, b.scene);
+  EXPECT_EQ(b.input_images[1].file, truth.site.input_image("B"));
+  ExpectSameImages(a.input_images, b.input_images);
   EXPECT_EQ(a.spectra.bins().count, b.spectra.bins().count);
   EXPECT_TRUE((a.air.horizon == b.air.horizon).all());
   EXPECT_TRUE((a.air.transmittance == b.air.transmittance).all());
@@ -89,14 +112,23 @@ TEST_P(BinsTest, EnvironmentReturnsToTheLastBit) {
 
 TEST(ReadEnvironment, FaultsNameFileAndLine) {
   const SyntheticSite truth = MakeSyntheticSite("bad_environment");
-  const LightMeasurement measured = MeasureDaylight(truth.site);
+  LightMeasurement measured = MeasureDaylight(truth.site);
+  SceneGeometry& scene = measured.environment.scene;
+  scene.camera_covariances = {SomeCovariance(6), SomeCovariance(6)};
+  scene.polygons[1].covariance = SomeCovariance(9);
   const auto error_after = [&](const std::string& from, const std::string& to) {
     WriteEnvironment(truth.site, measured);
     Replace(truth.site.environment(), from, to);
     return ErrorOf([&] { ReadEnvironment(truth.site); });
   };
-  EXPECT_NE(error_after("\"version\" : 1", "\"version\" : 2").find("expected 1"),
-            std::string::npos);
+  EXPECT_NE(error_after("", "").find("is not a covariance of 12 unknowns"), std::string::npos);
+  scene.polygons[1].covariance = SomeCovariance(12);
+  const std::string version = error_after("\"version\" : 2", "\"version\" : 1");
+  EXPECT_NE(version.find("expected 2: run insitu-light again"), std::string::npos) << version;
+  const std::string covariance = error_after("\"covariance\"", "\"covariances\"");
+  EXPECT_NE(covariance.find("expected the same of all cameras"), std::string::npos) << covariance;
+  const std::string image = error_after("\"input_image\"", "\"image\"");
+  EXPECT_NE(image.find("input_image"), std::string::npos) << image;
   EXPECT_NE(error_after("natural environment", "scene").find("expected \"insitu natural"),
             std::string::npos);
   EXPECT_NE(error_after("\"bins\" : 16", "\"bins\" : 9").find("expected one for each of 9 bins"),

@@ -3,9 +3,9 @@
 
 #include <gtest/gtest.h>
 
-#include "reconstruction/colmap/colmap_text.h"
 #include "calibration/lens/lens_residual.h"
 #include "reconstruction/adjustment/adjust.h"
+#include "reconstruction/colmap/colmap_text.h"
 #include "tests/reconstruction/survey/synthetic_network.h"
 
 namespace insitu {

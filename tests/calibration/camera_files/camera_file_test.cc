@@ -209,5 +209,14 @@ TEST_F(CameraFiles, NoCameraFile) {
             std::string::npos);
 }
 
+TEST_F(CameraFiles, OptionsNameTheFieldThatIsWrong) {
+  try {
+    Read("camera.yml", kOpencv, {Eigen::Vector2i(0, 480), ""});
+    ADD_FAILURE();
+  } catch (const CheckError& error) {
+    EXPECT_NE(std::string(error.what()).find("photo_size"), std::string::npos) << error.what();
+  }
+}
+
 }  // namespace
 }  // namespace insitu

@@ -37,5 +37,11 @@ TEST(Listing, NamesTheFirstAndCountsTheRest) {
   EXPECT_EQ(Listing("points", {"a", "b", "c"}, 2), "points (3): a, b and 1 more");
 }
 
+TEST(Quoted, IsShortAndPrintable) {
+  EXPECT_EQ(Quoted("SECTION"), "\"SECTION\"");
+  EXPECT_EQ(Quoted("a\tb\xFF"), "\"a?b?\"");
+  EXPECT_EQ(Quoted(std::string(41, 'x')), "\"" + std::string(40, 'x') + "...\"");
+}
+
 }  // namespace
 }  // namespace insitu

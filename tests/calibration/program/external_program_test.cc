@@ -38,6 +38,15 @@ TEST(ExternalProgram, BothStreamsMayShareOneFile) {
   EXPECT_EQ(ReadWhole(folder.path() / "log"), "one\ntwo\nthree\n");
 }
 
+TEST(ExternalProgram, TellsThatItIsRunning) {
+  const ScratchFolder folder;
+  int calls = 0;
+  ExternalProgram program = Shell(folder, "sleep 0.3; exit 3");
+  program.while_running = [&] { ++calls; };
+  EXPECT_NE(InputErrorOf([&] { RunExternal(program); }).find("status 3"), std::string::npos);
+  EXPECT_GE(calls, 2);
+}
+
 TEST(ExternalProgram, FailureNamesTheLogAndItsLastLine) {
   const ScratchFolder folder;
   const auto program = Shell(folder, "echo first >&2; echo too few boards >&2; echo >&2; exit 3");

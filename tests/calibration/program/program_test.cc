@@ -3,7 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
+#include <cstdlib>
 #include <stdexcept>
+#include <thread>
 
 #include "calibration/files/error.h"
 
@@ -86,6 +89,23 @@ TEST(Program, ProgressIsSilentWithoutATerminal) {
     for (int i = 0; i < 3; ++i) progress.Step();
   }
   EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+}
+
+// As insitu-montage reads it; nothing is said of work that is done within two seconds.
+TEST(Program, ProgressTellsWhatIsBeingDone) {
+  setenv(kProgressVariable, "1", 1);
+  testing::internal::CaptureStderr();
+  {
+    Progress progress("finding boards", 0);
+    progress.Show();
+    std::this_thread::sleep_for(std::chrono::milliseconds(2050));
+    progress.Show();
+    std::this_thread::sleep_for(std::chrono::milliseconds(250));
+    progress.Next("solving");
+  }
+  unsetenv(kProgressVariable);
+  EXPECT_EQ(testing::internal::GetCapturedStderr(),
+            "progress: finding boards\nprogress: solving\n");
 }
 
 TEST(DurationText, IsInTheUnitThatFits) {

@@ -5,6 +5,7 @@
 
 #include "calibration/files/error.h"
 #include "calibration/files/whole_file.h"
+#include "tests/calibration/files/wrong_field.h"
 #include "tests/radiometry/measure/synthetic_site.h"
 
 namespace insitu {
@@ -174,6 +175,11 @@ TEST_F(SamplesTest, AReflectanceOutsideZeroToOneIsRefused) {
   std::string text = ReadWhole(synthetic_.site.survey() / "samples.json");
   text.replace(text.find("[0.4, 0.4, 0.4]"), 15, "[0.4, 1.4, 0.4]");
   ExpectPlaceAndMessage(ErrorOf(text), 20, "above 0 and up to 1");
+}
+
+TEST(SampleOptions, NameTheFieldThatIsWrong) {
+  EXPECT_EQ(WrongField(SampleOptions()), "");
+  EXPECT_NE(WrongField(SampleOptions{.radius = -1}).find("radius"), std::string::npos);
 }
 
 }  // namespace

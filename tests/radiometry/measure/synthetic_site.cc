@@ -154,6 +154,7 @@ SyntheticSite MakeSyntheticSite(const std::string& name) {
   for (const char* photo : {"A", "B"}) {
     WriteExr(truth.site.photos() / (std::string(photo) + ".exr"), PaintPhoto(truth, photo, spots));
   }
+  WritePosedCamera(truth.site.pinhole_camera(), truth.scene.cameras[0], "as the photographs");
   WriteWhole(truth.site.survey() / "samples.json",
              "{\n\"horizon\": [{\"photo\": \"A\", \"x\": 450, \"y\": 20}],\n\"haze\": [" +
                  Entries(truth, HazeSpots()) + "],\n\"daylight\": [" +

@@ -120,6 +120,17 @@ TEST_F(BadInput, AControlPointUnderAnotherNameIsToldByItsPlace) {
       << warnings[0];
 }
 
+// Its name tells what it is, so its place need not.
+TEST_F(BadInput, AControlPointUnderANearNameIsToldOnce) {
+  auto& control = network_.survey.control_points;
+  std::find_if(control.begin(), control.end(), [](const auto& each) {
+    return each.name == "a6";
+  })->name = "a6x";
+  const auto warnings = Adjust(network_.survey, network_.photos, network_.cameras).warnings;
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_NE(warnings[0].find("did you mean 'a6'?"), std::string::npos) << warnings[0];
+}
+
 TEST_F(BadInput, ASurveyedPolygonFarFromPlanar) {
   auto& vertices = PolygonNamed("a_roof").vertices;
   std::replace(vertices.begin(), vertices.end(), std::string("a6"), std::string("a2"));

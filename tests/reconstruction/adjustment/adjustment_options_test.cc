@@ -49,7 +49,12 @@ TEST(AdjustmentOptions, NameTheFieldThatIsWrong) {
 TEST(AdjustmentOptions, AreCheckedBeforeAnythingElse) {
   AdjustmentOptions options;
   options.sun_sigma = 0;
-  EXPECT_THROW(Adjust({}, {}, {}, options), CheckError);
+  try {
+    Adjust({}, {}, {}, options);
+    FAIL() << "expected the field's name";
+  } catch (const CheckError& error) {
+    EXPECT_NE(std::string(error.what()).find("sun_sigma"), std::string::npos) << error.what();
+  }
 }
 
 }  // namespace

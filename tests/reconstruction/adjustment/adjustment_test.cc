@@ -203,6 +203,17 @@ TEST(Adjust, TakesTheZAxisForAnUnmeasuredZenithAndSaysSo) {
   EXPECT_NE(adjustment.warnings[0].find("zenith"), std::string::npos);
 }
 
+TEST(BriefReport, WarnsOfADatumThatIsFree) {
+  Adjustment adjustment;
+  adjustment.datum = "fixed by the survey";
+  EXPECT_EQ(adjustment.BriefReport().find("warning"), std::string::npos);
+  adjustment.datum = "free in 7 of 7";
+  adjustment.datum_defect = 7;
+  adjustment.warnings = {"careful"};
+  EXPECT_NE(adjustment.BriefReport().find("warning: careful\nwarning: the datum is free in 7 of 7"),
+            std::string::npos);
+}
+
 // Only three control points on a photo, and more points that the other photos determine: the pose
 // is unique without any estimate.
 TEST(Adjust, SettlesAThreePointResectionByTheOtherPhotos) {

@@ -5,10 +5,10 @@
 
 #include <Eigen/Geometry>
 
-#include "reconstruction/colmap/colmap_binary.h"
-#include "reconstruction/colmap/colmap_text.h"
 #include "calibration/files/error.h"
 #include "calibration/files/whole_file.h"
+#include "reconstruction/colmap/colmap_binary.h"
+#include "reconstruction/colmap/colmap_text.h"
 
 namespace insitu {
 namespace {

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "calibration/lens/lens_residual.h"
 #include "reconstruction/exchange/import_aicon.h"
 #include "reconstruction/exchange/import_dbat.h"
-
-#include "calibration/lens/lens_residual.h"
 #include "reconstruction/geometry/omega_phi_kappa.h"
 #include "tests/reconstruction/exchange/text_files.h"
 
@@ -83,6 +82,15 @@ TEST_F(AiconProject, NothingCrashesOnCutFiles) {
   ExpectNoHarmWhenCut("a.ior", kIor, read);
   ExpectNoHarmWhenCut("a.eor", kEor, read);
   ExpectNoHarmWhenCut("a.scale", kScale, read);
+}
+
+TEST_F(AiconProject, OptionsNameTheFieldThatIsWrong) {
+  try {
+    ReadAiconProject(folder_, {.mark_sigma_mm = 0});
+    ADD_FAILURE();
+  } catch (const CheckError& error) {
+    EXPECT_NE(std::string(error.what()).find("mark_sigma_mm"), std::string::npos) << error.what();
+  }
 }
 
 // ---- DBAT: two photos from above, a square of control and one point ---------------------------

@@ -260,6 +260,14 @@ TEST_F(SurveyFileRead, FaultsAreNamedWithTheirLine) {
   expect("marks.phc", "1 6 1.0 2.0 0 0 0 0 1 1 1\n", 0, ".ior");
 }
 
+// Raw photographs too, which we do not read: their developed ones have the same name.
+TEST_F(SurveyFileRead, PhotographsGoByTheirNameWithoutFoldersAndEnding) {
+  const SurveyFile file = Read(Write("marks.csv", "a/IMG.DNG,p,1,2\nC:\\b\\c.d.TIFF,p,3,4\n"));
+  ASSERT_EQ(file.marks.size(), 2u);
+  EXPECT_EQ(file.marks[0].photo, "IMG");
+  EXPECT_EQ(file.marks[1].photo, "c.d");
+}
+
 TEST_F(SurveyFileRead, NothingCrashesOnCutOrGarbledFiles) {
   Write("cut.ior", kIor);
   for (const char* content :

@@ -33,6 +33,7 @@ SceneGeometry SmallScene() {
   Polygon unseen = wall;
   unseen.name = "unseen";
   unseen.photo.reset();
+  wall.covariance = Eigen::MatrixXd::Constant(12, 12, 1e-6 / 3);
   scene.polygons = {wall, unseen};
   scene.sun = {Vector3d(0.6, 0, 0.8), Eigen::Matrix3d::Constant(1e-7 / 3)};
   scene.zenith = {Vector3d::UnitZ(), Eigen::Matrix3d::Zero()};
@@ -80,6 +81,8 @@ TEST(SceneGeometry, IsReadAsItWasWritten) {
   EXPECT_EQ(read.polygons[0].normal, scene.polygons[0].normal);
   EXPECT_EQ(read.polygons[0].material, "stone");
   EXPECT_EQ(read.polygons[0].photo, 1);
+  EXPECT_EQ(read.polygons[0].covariance, scene.polygons[0].covariance);
+  EXPECT_EQ(read.polygons[1].covariance.size(), 0);
   EXPECT_EQ(read.polygons[1].photo, std::nullopt);
   ASSERT_EQ(read.cameras.size(), 2u);
   EXPECT_EQ(read.cameras[0].photo, "P1");
@@ -102,6 +105,14 @@ TEST(SceneGeometry, NamesTheLineOfAnUnknownPhoto) {
             std::string::npos)
       << ErrorOfReading(site);
   EXPECT_NE(ErrorOfReading(site).find("P9"), std::string::npos);
+}
+
+TEST(SceneGeometry, RefusesACovarianceOfAnotherSize) {
+  const SitePaths site = EmptySite("scene_covariance");
+  SceneGeometry scene = SmallScene();
+  scene.polygons[0].covariance.setZero(9, 9);
+  WriteSceneGeometry(site, scene);
+  EXPECT_NE(ErrorOfReading(site).find("three rows and columns a vertex"), std::string::npos);
 }
 
 TEST(SceneGeometry, RefusesAnotherFormat) {

@@ -52,8 +52,8 @@ TEST(MeasurePolygon, GivesAreaAndEdgesOfARectangle) {
 
 TEST(MeasurePolygon, KnowsThatACommonShiftChangesNoLength) {
   Rectangle rectangle;
-  rectangle.adjustment.polygon_covariance = {
-      1e-4 * Eigen::Matrix3d::Identity().replicate(4, 4)};  // all vertices move together
+  rectangle.adjustment.scene.polygons[0].covariance =
+      1e-4 * Eigen::Matrix3d::Identity().replicate(4, 4);  // all vertices move together
   const PolygonMeasures measures = MeasurePolygon(rectangle.adjustment, rectangle.outline, 0);
   EXPECT_TRUE(measures.is_joint);
   for (const UncertainValue& edge : measures.edges) EXPECT_NEAR(edge.sigma, 0, 1e-9);
@@ -100,11 +100,11 @@ TEST(PolygonCovariance, AgreesWithThePointsOwnAndMakesEdgesSurer) {
   const SyntheticNetwork network = MakeSyntheticNetwork();
   const Survey survey = WithNoise(network.survey, 3);
   const Adjustment adjustment = Adjust(survey, network.photos, network.cameras);
-  ASSERT_EQ(adjustment.polygon_covariance.size(), survey.polygons.size());
+  ASSERT_EQ(adjustment.scene.polygons.size(), survey.polygons.size());
   std::map<std::string, Eigen::Matrix3d> own;
   for (const AdjustedPoint& point : adjustment.points) own[point.name] = point.covariance;
   for (size_t i = 0; i < survey.polygons.size(); ++i) {
-    const Eigen::MatrixXd& joint = adjustment.polygon_covariance[i];
+    const Eigen::MatrixXd& joint = adjustment.scene.polygons[i].covariance;
     EXPECT_LT((joint - joint.transpose()).norm(), 1e-9 * joint.norm());
     for (size_t k = 0; k < survey.polygons[i].vertices.size(); ++k) {
       const auto at = static_cast<Eigen::Index>(3 * k);

@@ -7,6 +7,8 @@
 #include <csignal>
 #include <stdexcept>
 
+#include "tests/calibration/files/wrong_field.h"
+
 namespace insitu {
 namespace {
 
@@ -52,6 +54,12 @@ TEST(Isolated, BringsTheWholeModel) {
   EXPECT_EQ(read->skipped, model.skipped);
   EXPECT_EQ(read->warnings, model.warnings);
   EXPECT_EQ(read->metres_per_unit, 0.5);
+}
+
+TEST(Isolated, LimitsNameTheFieldThatIsWrong) {
+  EXPECT_EQ(WrongField(IsolationLimits()), "");
+  EXPECT_THAT(WrongField(IsolationLimits{.seconds = 0}), HasSubstr("seconds"));
+  EXPECT_THAT(WrongField(IsolationLimits{.bytes = 0}), HasSubstr("bytes"));
 }
 
 }  // namespace

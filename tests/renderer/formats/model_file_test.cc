@@ -7,6 +7,7 @@
 
 #include "calibration/files/error.h"
 #include "tests/calibration/files/scratch_folder.h"
+#include "tests/calibration/files/wrong_field.h"
 #include "tests/renderer/formats/model_texts.h"
 #include "tests/renderer/mesh/mesh_measures.h"
 
@@ -108,6 +109,14 @@ TEST_F(ModelFile, DamagedFilesAreRefusedOrRead) {
       Complaint("cut.bin", whole.substr(0, length));  // any answer but a crash
     }
   }
+}
+
+TEST(ImportOptions, NameTheFieldThatIsWrong) {
+  EXPECT_EQ(WrongField(ImportOptions()), "");
+  EXPECT_THAT(WrongField(ImportOptions{.dxf = {}, .seconds = 0}), HasSubstr("seconds"));
+  EXPECT_THAT(WrongField(ImportOptions{.dxf = {.chord_tolerance = 0}}),
+              HasSubstr("chord_tolerance"));
+  EXPECT_THAT(WrongField(DxfOptions{.most_pieces = 0}), HasSubstr("most_pieces"));
 }
 
 }  // namespace

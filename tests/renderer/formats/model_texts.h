@@ -54,7 +54,8 @@ endsolid tetra
 )";
 
 // One triangle in a node "Wall" that stands 5 m along x; glTF has y up.
-inline constexpr char kGltf[] = R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}],
+inline constexpr char kGltf[] =
+    R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}],
  "nodes": [{"mesh": 0, "name": "Wall", "translation": [5, 0, 0]}],
  "materials": [{"name": "Red", "pbrMetallicRoughness": {"baseColorFactor": [0.5, 0, 0, 1]}}],
  "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "material": 0}]}],

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "renderer/trace/sampling.h"
+#include "tests/calibration/files/wrong_field.h"
 #include "tests/renderer/trace/small_site.h"
 
 namespace insitu {
@@ -91,6 +92,17 @@ TEST(ColorStatistics, StandardErrorOfTheMean) {
   for (int i = 0; i < 8; ++i) statistics.Add(Eigen::Vector3d::Constant(i % 2));
   // Values 0 and 1 alike: variance 1/4, eight of them, seven degrees of freedom.
   EXPECT_NEAR(statistics.StandardError(), std::sqrt(0.25 / 7), 1e-9);
+}
+
+TEST(RenderOptions, NameTheFieldThatIsWrong) {
+  EXPECT_EQ(WrongField(RenderOptions()), "");
+  EXPECT_NE(WrongField(RenderOptions{.fewest_rays = 3}).find("fewest_rays"), std::string::npos);
+  EXPECT_NE(WrongField(RenderOptions{.most_rays = 18}).find("most_rays"), std::string::npos);
+  EXPECT_NE(WrongField(RenderOptions{.tolerance = 0}).find("tolerance"), std::string::npos);
+  EXPECT_NE(WrongField(RenderOptions{.threads = -1}).find("threads"), std::string::npos);
+  const SmallSite site = MakeSmallSite();
+  EXPECT_THROW(RenderMontage(site.With({}), site.camera(), site.photo, {.threads = -1}),
+               CheckError);
 }
 
 }  // namespace

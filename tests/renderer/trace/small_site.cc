@@ -39,7 +39,7 @@ void AddTriangle(ArtificialEnvironment& building, const Eigen::Vector3i& corners
 }  // namespace
 
 MontageScene SmallSite::With(const ArtificialEnvironment& building) const {
-  return MakeMontageScene(natural, building, {pinhole}, {photo});
+  return MakeMontageScene(natural, building, {photo});
 }
 
 SmallSite MakeSmallSite() {
@@ -48,6 +48,7 @@ SmallSite MakeSmallSite() {
   scene.origin = {2600000, 1200000, 400};
   scene.polygons = {Lawn(scene.origin)};
   scene.cameras = {LookNorth(site.pinhole, scene.origin)};
+  site.natural.input_images = {{"photo.exr", site.pinhole}};
   scene.zenith.unit = Eigen::Vector3d::UnitZ();
   site.natural.materials["lawn"] = {};
   Daylight& light = site.natural.light;

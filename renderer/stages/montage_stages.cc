@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "renderer/montage_stages.h"
+#include "renderer/stages/montage_stages.h"
 
 #include <algorithm>
 
@@ -96,10 +96,15 @@ Paths UndistortionInputs(const MontageRequest& request) {
   return inputs;
 }
 
+// The description of the light names the input images with their cameras.
 Paths LightInputs(const MontageRequest& request) {
   const SitePaths& site = request.site;
-  return {site.scene(), site.photos(), site.description(), site.survey() / "samples.json",
-          site.survey() / "materials.json"};
+  Paths inputs = {site.scene(), site.photos(), site.description(), site.survey() / "samples.json",
+                  site.survey() / "materials.json"};
+  for (const std::string& camera : CamerasOf(ListCameraFolders(site))) {
+    inputs.push_back(site.pinhole_camera(camera));
+  }
+  return inputs;
 }
 
 // The survey and the scene tell where the site is, which the building is checked against.
@@ -115,8 +120,7 @@ Paths Building(const MontageRequest& request) {
 
 Paths RenderInputs(const MontageRequest& request) {
   const SitePaths& site = request.site;
-  Paths inputs = {site.environment(), site.input_image("").parent_path(), site.photos(),
-                  site.description()};
+  Paths inputs = {site.environment(), site.input_image("").parent_path(), site.photos()};
   return inputs += Building(request);
 }
 
@@ -167,7 +171,7 @@ std::vector<MontageStage> MakeStages() {
        Always},
       {"light",
        "haze and daylight, measured in the photographs",
-       {"reconstruct"},
+       {"reconstruct", "undistort"},
        LightInputs,
        one(&SitePaths::environment),
        NoReports,

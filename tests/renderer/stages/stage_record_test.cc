@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "renderer/stage_record.h"
+#include "renderer/stages/stage_record.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "renderer/run_stages.h"
+#include "renderer/stages/run_stages.h"
 
 #include <unistd.h>
 
@@ -16,9 +16,9 @@
 #include "calibration/files/wording.h"
 #include "calibration/program/child_process.h"
 #include "calibration/program/program.h"
-#include "renderer/file_hashes.h"
-#include "renderer/stage_program.h"
-#include "renderer/stage_record.h"
+#include "renderer/stages/file_hashes.h"
+#include "renderer/stages/stage_program.h"
+#include "renderer/stages/stage_record.h"
 
 namespace insitu {
 namespace {
@@ -150,7 +150,7 @@ class Run {
     for (int i = 0; i < threads; ++i) workers.emplace_back([this] { Work(); });
     for (std::thread& worker : workers) worker.join();
     hashes_.Save();
-    if (failure_) std::rethrow_exception(failure_);
+    if (failure_ && !ReceivedSignal()) std::rethrow_exception(failure_);
     RunSummary summary;
     summary.status = ReceivedSignal() ? 128 + *ReceivedSignal() : status_;
     for (size_t i = options_.first; i < stages_.size() && i <= options_.last; ++i) {

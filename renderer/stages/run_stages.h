@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "renderer/montage_stages.h"
+#include "renderer/stages/montage_stages.h"
 
 namespace insitu {
 

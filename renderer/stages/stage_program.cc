@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "renderer/stage_program.h"
+#include "renderer/stages/stage_program.h"
 
 #include <unistd.h>
 
@@ -11,7 +11,7 @@
 #include "calibration/files/error.h"
 #include "calibration/program/child_process.h"
 #include "calibration/program/program.h"
-#include "renderer/montage_stages.h"
+#include "renderer/stages/montage_stages.h"
 
 namespace insitu {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "renderer/file_hashes.h"
+#include "renderer/stages/file_hashes.h"
 
 #include <gtest/gtest.h>
 

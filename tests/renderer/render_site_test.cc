@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "renderer/render_site.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "calibration/files/error.h"
+#include "calibration/files/json_file.h"
+#include "calibration/files/whole_file.h"
+#include "radiometry/natural_environment.h"
+#include "tests/calibration/files/scratch_folder.h"
+#include "tests/renderer/trace/small_site.h"
+
+namespace insitu {
+namespace {
+
+using testing::HasSubstr;
+
+// A site with nothing but what a montage is made of: no survey, no calibration, no reconstruction.
+class RenderSiteTest : public testing::Test {
+ protected:
+  RenderSiteTest() {
+    small_.natural.input_images[0].file = site_.input_image("photo");
+    small_.natural.scene.camera_covariances = {1e-8 * Eigen::MatrixXd::Identity(6, 6)};
+    WriteJson(site_.environment(), DescriptionOf(small_.natural, site_.environment()));
+    WriteExr(site_.input_image("photo"), small_.photo);
+    WriteExr(site_.photos() / "photo.exr", small_.photo);
+    WriteArtificialEnvironment(site_, Box(small_, {-2, 0, 0}, {2, 4, 6}, {}));
+  }
+  std::string Complaint() const {
+    try {
+      RenderSite(site_, {});
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "";
+  }
+
+  ScratchFolder folder_;
+  SitePaths site_{folder_.path()};
+  SmallSite small_ = MakeSmallSite();
+};
+
+TEST_F(RenderSiteTest, NeedsTheDescriptionsAndTheImagesAlone) {
+  for (const Frame frame : {Frame::kPhoto, Frame::kPinhole}) {
+    RenderSiteOptions options;
+    options.frame = frame;
+    const std::vector<RenderSiteReport> reports = RenderSite(site_, options);
+    ASSERT_EQ(reports.size(), 1u);
+    EXPECT_GT(reports[0].result.building_pixels, 100);
+    ASSERT_TRUE(reports[0].uncertainty);
+    EXPECT_GT(reports[0].uncertainty->corners, 3);
+  }
+  EXPECT_TRUE(std::filesystem::exists(site_.montages() / "photo.exr"));
+  EXPECT_THAT(ReadWhole(site_.montages() / "photo.uncertainty.csv"), HasSubstr("sigma_major_px"));
+}
+
+TEST_F(RenderSiteTest, WhatIsMissingNamesItsProgram) {
+  std::filesystem::remove(site_.input_image("photo"));
+  EXPECT_THAT(Complaint(), HasSubstr("insitu-undistort"));
+  std::filesystem::remove(site_.environment());
+  EXPECT_THAT(Complaint(), HasSubstr("insitu-light"));
+}
+
+TEST_F(RenderSiteTest, RefusesImagesOfAnotherSize) {
+  WriteExr(site_.input_image("photo"), Raster(32, 24));
+  EXPECT_THAT(Complaint(), HasSubstr("photo.exr: is 32x24 px, expected 64x48 px"));
+  WriteExr(site_.input_image("photo"), small_.photo);
+  WriteExr(site_.photos() / "photo.exr", Raster(64, 40));
+  EXPECT_THAT(Complaint(), HasSubstr("photo.exr: is 64x40 px, expected 64x48 px"));
+}
+
+TEST_F(RenderSiteTest, RefusesAPhotographThatTheEnvironmentLacks) {
+  WriteExr(site_.photos() / "other.exr", small_.photo);
+  EXPECT_THAT(Complaint(), HasSubstr("has no camera for photograph other"));
+}
+
+}  // namespace
+}  // namespace insitu
