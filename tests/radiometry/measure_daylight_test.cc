@@ -47,7 +47,7 @@ TEST_P(BinsTest, MeasureDaylightFindsTheTruth) {
   const SyntheticSite truth = MakeSyntheticSite("measure_" + std::to_string(GetParam()));
   LightOptions options;
   options.bins = GetParam();
-  options.polar_facets = 24;
+  options.polar_facets = kMostPolarFacets;
   options.uniform_ambient = true;  // as the site has it
   const LightMeasurement measured = MeasureDaylight(truth.site, options);
   const SpectralBasis& spectra = measured.environment.spectra;

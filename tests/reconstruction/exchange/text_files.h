@@ -3,6 +3,7 @@
 #pragma once
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <filesystem>
 #include <string>
@@ -16,10 +17,12 @@ class TextFiles : public testing::Test {
  protected:
   TextFiles() {
     const auto* test = testing::UnitTest::GetInstance()->current_test_info();
-    folder_ = std::filesystem::path(testing::TempDir()) / test->test_suite_name() / test->name();
+    folder_ = std::filesystem::path(testing::TempDir()) / ("insitu_" + std::to_string(getpid())) /
+              test->test_suite_name() / test->name();
     std::filesystem::remove_all(folder_);
     std::filesystem::create_directories(folder_);
   }
+  ~TextFiles() override { std::filesystem::remove_all(folder_.parent_path().parent_path()); }
 
   std::filesystem::path Write(const std::string& name, const std::string& content) const {
     WriteWhole(folder_ / name, content);
