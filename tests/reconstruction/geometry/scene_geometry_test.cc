@@ -81,6 +81,7 @@ TEST(SceneGeometry, IsReadAsItWasWritten) {
   EXPECT_EQ(read.polygons[0].normal, scene.polygons[0].normal);
   EXPECT_EQ(read.polygons[0].material, "stone");
   EXPECT_EQ(read.polygons[0].photo, 1);
+  ASSERT_EQ(read.polygons[0].covariance.size(), 144);
   EXPECT_EQ(read.polygons[0].covariance, scene.polygons[0].covariance);
   EXPECT_EQ(read.polygons[1].covariance.size(), 0);
   EXPECT_EQ(read.polygons[1].photo, std::nullopt);
