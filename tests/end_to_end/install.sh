@@ -81,13 +81,9 @@ completes() { # EXPECTED WORDS...
   printf '%s' "$offered"
   [[ $offered == "$1" ]]
 }
-if [[ -e /usr/share/bash-completion/bash_completion ]]; then
-  check 'commands complete' completes 'reconstruct render' re
-  check 'options complete' completes '--plane-sigma' reconstruct --plane
-  check 'options of stages complete' completes '--light.sky-facets' montage --light.sky
-else
-  printf 'SKIPPED: completion, without the Debian package bash-completion\n'
-fi
+check 'commands complete' completes 'reconstruct render' re
+check 'options complete' completes '--plane-sigma' reconstruct --plane
+check 'options of stages complete' completes '--light.sky-facets' montage --light.sky
 
 site=$temporary/site
 cp -a -- "$DEMO_SITE" "$site"
