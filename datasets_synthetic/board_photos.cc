@@ -17,7 +17,6 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-constexpr double kDegree = std::numbers::pi / 180;
 constexpr double kHalfBoard = 0.5 * (kBoardCorners + 1) * kBoardSquare;  // [m], squares
 constexpr double kBorder = 0.07;                                         // [m], white
 
@@ -58,7 +57,7 @@ Eigen::AlignedBox2d Outline(const Lens& lens, const PlacedBoard& board) {
   return outline;
 }
 
-PlacedBoard Place(const Lens& lens, const BoardPose& pose) {
+PlacedBoard PlaceBoard(const Lens& lens, const BoardPose& pose) {
   const Vector2d low(4, 4), high(lens.width - 5, lens.height - 5);  // the margin kept
   const Eigen::Matrix3d turned = (Eigen::AngleAxisd(pose.turn_x_deg * kDegree, Vector3d::UnitX()) *
                                   Eigen::AngleAxisd(pose.turn_y_deg * kDegree, Vector3d::UnitY()) *
@@ -125,7 +124,7 @@ std::vector<Raster> BoardPhotos(const Lens& lens) {
   const SightTable sights(lens);
   std::vector<Raster> photos;
   for (const BoardPose& pose : Poses()) {
-    const PlacedBoard board = Place(lens, pose);
+    const PlacedBoard board = PlaceBoard(lens, pose);
     photos.push_back(BoardPhoto(lens, sights, board, photos.size()));
   }
   return photos;

@@ -12,8 +12,6 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-constexpr double kDegree = std::numbers::pi / 180;
-
 // The sun over Bern on 2024-05-15 at 09:45 local time, as site.json says.
 constexpr double kSunAzimuth = 102.33 * kDegree;
 constexpr double kSunElevation = 37.19 * kDegree;

@@ -53,15 +53,15 @@ struct Sighting {
 };
 
 Sighting Look(const Place& place, const Ray& ray) {
-  constexpr double kFar = 1e9;  // [m]
-  std::optional<Hit> natural = NearestHit(place.campus->natural, ray, kFar);
-  const double limit = natural ? natural->distance : kFar;
+  constexpr double kReach = 1e9;  // [m]
+  std::optional<Hit> natural = NearestHit(place.campus->natural, ray, kReach);
+  const double limit = natural ? natural->distance : kReach;
   const std::optional<Hit> beyond = NearestHit(place.campus->scenery, ray, limit);
   if (beyond) natural = beyond;
   Sighting seen;
   if (natural) seen.before = seen.after = SpotAt(ray, *natural, false);
   const std::optional<Hit> building =
-      NearestHit(place.building, ray, natural ? natural->distance : kFar);
+      NearestHit(place.building, ray, natural ? natural->distance : kReach);
   if (building) seen.after = SpotAt(ray, *building, true);
   return seen;
 }

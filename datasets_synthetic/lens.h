@@ -5,11 +5,14 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <numbers>
 #include <optional>
 #include <string>
 #include <vector>
 
 namespace insitu::demo {
+
+inline constexpr double kDegree = std::numbers::pi / 180;  // [rad]
 
 struct Lens {
   int width = 0, height = 0;              // [px]

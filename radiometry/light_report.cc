@@ -5,17 +5,12 @@
 #include <sstream>
 
 #include "calibration/files/json_file.h"
+#include "radiometry/natural_environment.h"
 
 namespace insitu {
 namespace {
 
 constexpr double kReportedDistance = 200;  // [m]
-
-Json::Value Vector(const Eigen::Vector3d& vector) { return ToJson(Eigen::VectorXd(vector)); }
-
-Json::Value Bins(const Spectrum& spectrum, const SpectralBins& bins) {
-  return ToJson(Eigen::VectorXd(spectrum.head(bins.count).matrix()));
-}
 
 Json::Value SamplesToJson(const std::vector<PixelSample>& samples,
                           const std::vector<double>& residuals, const SceneGeometry& scene) {
@@ -37,10 +32,10 @@ void AddAir(const LightMeasurement& measured, Json::Value* air) {
   const SpectralBins& bins = environment.spectra.bins();
   const AtmosphereFit& fit = measured.air_fit;
   Json::Value& json = *air;
-  json["horizon_rgb"] = Vector(environment.spectra.RgbFromSpectrum(environment.air.horizon));
-  json["transmittance_per_m_sigma"] = Bins(fit.transmittance_sigma, bins);
-  json["transmittance_200m_rgb"] = Vector(TransmittanceRgb(environment, kReportedDistance));
-  json["condition"] = Bins(fit.condition, bins);
+  json["horizon_rgb"] = ToJson(environment.spectra.RgbFromSpectrum(environment.air.horizon));
+  json["transmittance_per_m_sigma"] = BinsJson(fit.transmittance_sigma, bins);
+  json["transmittance_200m_rgb"] = ToJson(TransmittanceRgb(environment, kReportedDistance));
+  json["condition"] = BinsJson(fit.condition, bins);
   json["rms_over_sigma"] = fit.rms;
   json["samples"] = SamplesToJson(measured.samples.haze, fit.residuals, environment.scene);
 }
@@ -52,18 +47,18 @@ void AddLight(const LightMeasurement& measured, Json::Value* light) {
   const DaylightFit& fit = measured.daylight_fit;
   Json::Value& json = *light;
   // The paper's: one k for all wavelengths, and L that of D65. [Durisch92, §4.3, §7]
-  json["relative_spectrum"] = Bins(IlluminantD65(spectra.bins()), spectra.bins());
+  json["relative_spectrum"] = BinsJson(IlluminantD65(spectra.bins()), spectra.bins());
   json["k_s"] = WeightOfD65(daylight.sun_radiance, spectra.bins());
   json["k_u"] = WeightOfD65(daylight.ambient_radiance, spectra.bins());
   json["k_h"] = WeightOfD65(daylight.sky_radiance, spectra.bins());
-  json["sun_radiance_sigma"] = Bins(fit.sun_sigma, spectra.bins());
-  json["sun_irradiance_rgb"] = Vector(SunIrradianceRgb(environment));
-  json["ambient_radiance_sigma"] = Bins(fit.ambient_sigma, spectra.bins());
-  json["ambient_radiance_rgb"] = Vector(spectra.RgbFromSpectrum(daylight.ambient_radiance));
-  json["sky_radiance_sigma"] = Bins(fit.sky_sigma, spectra.bins());
-  json["sky_radiance_rgb"] = Vector(spectra.RgbFromSpectrum(daylight.sky_radiance));
-  json["open_sky_radiance_rgb"] = Vector(OpenSkyRgb(environment));
-  json["surroundings_weight"] = Bins(fit.surroundings_weight, spectra.bins());
+  json["sun_radiance_sigma"] = BinsJson(fit.sun_sigma, spectra.bins());
+  json["sun_irradiance_rgb"] = ToJson(SunIrradianceRgb(environment));
+  json["ambient_radiance_sigma"] = BinsJson(fit.ambient_sigma, spectra.bins());
+  json["ambient_radiance_rgb"] = ToJson(spectra.RgbFromSpectrum(daylight.ambient_radiance));
+  json["sky_radiance_sigma"] = BinsJson(fit.sky_sigma, spectra.bins());
+  json["sky_radiance_rgb"] = ToJson(spectra.RgbFromSpectrum(daylight.sky_radiance));
+  json["open_sky_radiance_rgb"] = ToJson(OpenSkyRgb(environment));
+  json["surroundings_weight"] = BinsJson(fit.surroundings_weight, spectra.bins());
   json["reflectance_known"] = measured.reflectance_known;
   json["condition"] = fit.condition;
   json["rms_over_sigma"] = fit.rms;

@@ -13,12 +13,6 @@ constexpr char kFormat[] = "insitu natural environment";
 constexpr int kVersion = 2;               // 1: no input images, no covariances
 constexpr double kReferenceDistance = 1;  // d_a [m]
 
-Json::Value Vector(const Eigen::Vector3d& vector) { return ToJson(Eigen::VectorXd(vector)); }
-
-Json::Value Bins(const Spectrum& spectrum, const SpectralBins& bins) {
-  return ToJson(Eigen::VectorXd(spectrum.head(bins.count).matrix()));
-}
-
 Json::Value InteriorToJson(const Camera& camera) {
   const std::vector<double>& intrinsics = camera.intrinsics();
   Json::Value json;
@@ -35,7 +29,7 @@ Json::Value ExteriorToJson(const Rigid3& cam_from_world) {
   Json::Value json;
   json["rotation_wxyz"] = ToJson(
       Eigen::VectorXd(Eigen::Vector4d(rotation.w(), rotation.x(), rotation.y(), rotation.z())));
-  json["translation"] = Vector(cam_from_world.translation);
+  json["translation"] = ToJson(cam_from_world.translation);
   return json;
 }
 
@@ -57,8 +51,8 @@ Json::Value CameraToJson(const NaturalEnvironment& environment, size_t i,
 Json::Value PolygonToJson(const Polygon& polygon, const SceneGeometry& scene) {
   Json::Value json;
   json["name"] = polygon.name;
-  for (const Eigen::Vector3d& vertex : polygon.vertices) json["vertices"].append(Vector(vertex));
-  json["normal"] = Vector(polygon.normal);
+  for (const Eigen::Vector3d& vertex : polygon.vertices) json["vertices"].append(ToJson(vertex));
+  json["normal"] = ToJson(polygon.normal);
   json["photo"] = polygon.photo ? Json::Value(scene.cameras[*polygon.photo].photo) : Json::Value();
   json["material"] = polygon.material;
   if (polygon.covariance.size() > 0) json["covariance"] = ToJson(polygon.covariance);
@@ -67,7 +61,7 @@ Json::Value PolygonToJson(const Polygon& polygon, const SceneGeometry& scene) {
 
 Json::Value DirectionToJson(const Direction& direction) {
   Json::Value json;
-  json["unit"] = Vector(direction.unit);
+  json["unit"] = ToJson(direction.unit);
   json["covariance"] = ToJson(Eigen::MatrixXd(direction.covariance));
   return json;
 }
@@ -76,7 +70,7 @@ Json::Value SceneToJson(const NaturalEnvironment& environment,
                         const std::filesystem::path& folder) {
   const SceneGeometry& scene = environment.scene;
   Json::Value json;
-  json["origin"] = Vector(scene.origin);
+  json["origin"] = ToJson(scene.origin);
   json["cameras"] = Json::Value(Json::arrayValue);
   for (size_t i = 0; i < scene.cameras.size(); ++i) {
     json["cameras"].append(CameraToJson(environment, i, folder));
@@ -100,21 +94,21 @@ Json::Value MaterialToJson(const NaturalMaterial& material) {
 
 Json::Value AirToJson(const Atmosphere& air, const SpectralBins& bins) {
   Json::Value json;
-  json["horizon"] = Bins(air.horizon, bins);
-  json["transmittance_per_m"] = Bins(air.transmittance, bins);
+  json["horizon"] = BinsJson(air.horizon, bins);
+  json["transmittance_per_m"] = BinsJson(air.transmittance, bins);
   json["reference_distance_m"] = kReferenceDistance;
   return json;
 }
 
 Json::Value LightToJson(const Daylight& light, const SpectralBins& bins) {
   Json::Value json;
-  json["sun_direction"] = Vector(light.sun_direction);
+  json["sun_direction"] = ToJson(light.sun_direction);
   json["sun_solid_angle"] = light.sun_solid_angle;
-  json["zenith_direction"] = Vector(light.zenith_direction);
+  json["zenith_direction"] = ToJson(light.zenith_direction);
   json["polar_facets"] = light.polar_facets;
-  json["sun_radiance"] = Bins(light.sun_radiance, bins);
-  json["ambient_radiance"] = Bins(light.ambient_radiance, bins);
-  json["sky_radiance"] = Bins(light.sky_radiance, bins);
+  json["sun_radiance"] = BinsJson(light.sun_radiance, bins);
+  json["ambient_radiance"] = BinsJson(light.ambient_radiance, bins);
+  json["sky_radiance"] = BinsJson(light.sky_radiance, bins);
   return json;
 }
 
@@ -293,6 +287,10 @@ SpectralBins ReadSpectralBins(const JsonNode& node) {
 }
 
 }  // namespace
+
+Json::Value BinsJson(const Spectrum& spectrum, const SpectralBins& bins) {
+  return ToJson(Eigen::VectorXd(spectrum.head(bins.count).matrix()));
+}
 
 Json::Value DescriptionOf(const NaturalEnvironment& environment,
                           const std::filesystem::path& file) {

@@ -34,6 +34,9 @@ struct NaturalEnvironment {
   std::map<std::string, NaturalMaterial> materials;  // every polygon's material has an entry
 };
 
+// The bins in use.
+Json::Value BinsJson(const Spectrum& spectrum, const SpectralBins& bins);
+
 // What `file` (work/environment.json) is to hold of it; input images are named relative to its
 // folder. Numbers come back to the same bits from a file of 17 digits; whoever writes the file may
 // add what is not read, such as standard deviations.

@@ -6,18 +6,13 @@
 #include <cmath>
 #include <sstream>
 
+#include "calibration/files/text_table.h"
 #include "calibration/files/whole_file.h"
 
 namespace insitu {
 namespace {
 
-constexpr char kBlanks[] = " \t\r";
-
-std::string Trimmed(const std::string& text) {
-  const size_t first = text.find_first_not_of(kBlanks);
-  if (first == std::string::npos) return "";
-  return text.substr(first, text.find_last_not_of(kBlanks) - first + 1);
-}
+std::string Trimmed(const std::string& text) { return std::string(TrimmedView(text)); }
 
 std::vector<std::string> SplitCells(const std::string& line) {
   std::vector<std::string> cells;

@@ -141,6 +141,12 @@ std::vector<double> JsonNode::Numbers() const {
   return numbers;
 }
 
+std::vector<std::string> JsonNode::Texts() const {
+  std::vector<std::string> texts;
+  for (const JsonNode& item : Items()) texts.push_back(item.Text());
+  return texts;
+}
+
 Eigen::Vector3d JsonNode::Vector3() const {
   const std::vector<double> numbers = Numbers();
   if (numbers.size() != 3) {
@@ -181,6 +187,8 @@ Json::Value ToJson(const Eigen::VectorXd& vector) {
   for (const double element : vector) array.append(element);
   return array;
 }
+
+Json::Value ToJson(const Eigen::Vector3d& vector) { return ToJson(Eigen::VectorXd(vector)); }
 
 Json::Value ToJson(const Eigen::MatrixXd& matrix) {
   Json::Value rows(Json::arrayValue);

@@ -32,6 +32,7 @@ class JsonNode {
   bool Boolean() const;
   std::string Text() const;
   std::vector<double> Numbers() const;
+  std::vector<std::string> Texts() const;
   Eigen::Vector3d Vector3() const;
   Eigen::MatrixXd Matrix() const;  // array of rows of equal length
   bool IsNull() const;             // an item may be; Find and At have no node for null
@@ -51,6 +52,7 @@ class JsonNode {
 };
 
 Json::Value ToJson(const Eigen::VectorXd& vector);
+Json::Value ToJson(const Eigen::Vector3d& vector);
 Json::Value ToJson(const Eigen::MatrixXd& matrix);  // array of rows
 
 // A whole file as it is, for what is only passed on. Throws InputError, at its line.

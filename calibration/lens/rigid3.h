@@ -6,6 +6,13 @@
 
 namespace insitu {
 
+// CrossMatrix(v) * w = v cross w.
+inline Eigen::Matrix3d CrossMatrix(const Eigen::Vector3d& v) {
+  Eigen::Matrix3d matrix;
+  matrix << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0;
+  return matrix;
+}
+
 struct Rigid3 {
   Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity();  // unit
   Eigen::Vector3d translation = Eigen::Vector3d::Zero();         // [m], in the target frame

@@ -121,14 +121,6 @@ class LineReader {
   std::string line_;
 };
 
-std::vector<char*> Pointers(std::vector<std::string>& texts) {
-  std::vector<char*> pointers;
-  pointers.reserve(texts.size() + 1);
-  for (std::string& text : texts) pointers.push_back(text.data());
-  pointers.push_back(nullptr);
-  return pointers;
-}
-
 std::vector<std::string> EnvironmentWith(std::vector<std::string> additions) {
   for (char** entry = environ; *entry; ++entry) additions.emplace_back(*entry);
   return additions;  // of two settings the first one counts
@@ -170,6 +162,14 @@ int WaitFor(pid_t process) {
 }
 
 }  // namespace
+
+std::vector<char*> Pointers(std::vector<std::string>& texts) {
+  std::vector<char*> pointers;
+  pointers.reserve(texts.size() + 1);
+  for (std::string& text : texts) pointers.push_back(text.data());
+  pointers.push_back(nullptr);
+  return pointers;
+}
 
 int RunChild(const ChildProcess& child) {
   INSITU_CHECK(!child.command.empty());

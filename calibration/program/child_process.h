@@ -16,6 +16,9 @@ struct ChildProcess {
   std::function<void(const std::string&line)> on_output, on_error;
 };
 
+// Addresses of the texts, and null: how exec takes arguments and environment. The texts must stay.
+std::vector<char*> Pointers(std::vector<std::string>& texts);
+
 // Runs to the end, in a process group of its own and without standard input. The child's exit
 // status, or 128 + N if signal N ended it; 127: it cannot be run. Of several threads each may run
 // one.

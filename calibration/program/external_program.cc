@@ -13,6 +13,7 @@
 
 #include "calibration/files/error.h"
 #include "calibration/files/whole_file.h"
+#include "calibration/program/child_process.h"
 
 namespace insitu {
 namespace {
@@ -42,14 +43,6 @@ class FileActions {
   posix_spawn_file_actions_t actions_;
 };
 
-std::vector<char*> Pointers(std::vector<std::string>& texts) {
-  std::vector<char*> pointers;
-  pointers.reserve(texts.size() + 1);
-  for (std::string& text : texts) pointers.push_back(text.data());
-  pointers.push_back(nullptr);
-  return pointers;
-}
-
 std::vector<std::string> SingleThreadedEnvironment() {
   std::vector<std::string> environment = {"OPENBLAS_NUM_THREADS=1", "OMP_NUM_THREADS=1"};
   for (char** entry = environ; *entry; ++entry) {  // of two settings the first one counts
@@ -68,7 +61,7 @@ std::string LastLine(const std::filesystem::path& log) {
 }
 
 // Nonzero if the program failed or died of a signal.
-int WaitFor(pid_t process, const std::function<void()>& while_running) {
+int PollUntilEnd(pid_t process, const std::function<void()>& while_running) {
   constexpr auto kPause = std::chrono::milliseconds(20);
   int status = 0;
   while (while_running && waitpid(process, &status, WNOHANG) == 0) {
@@ -94,7 +87,7 @@ void RunExternal(const ExternalProgram& program) {
     throw InputError(command[0], "cannot be run, expected the Debian package " + program.package);
   }
   if (failure != 0) throw InputError(command[0], "cannot be run");
-  const int status = WaitFor(process, program.while_running);
+  const int status = PollUntilEnd(process, program.while_running);
   if (status == 0) return;
   throw InputError(program.log, "the program failed with status " + std::to_string(status) + ": " +
                                     LastLine(program.log));

@@ -12,7 +12,6 @@
 namespace insitu {
 namespace {
 
-constexpr int kRobustPasses = 20;
 constexpr double kUnknown = 1;      // sigma of a transmittance that the samples leave open
 constexpr double kSingular = 1e16;  // condition reported then
 

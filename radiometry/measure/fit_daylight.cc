@@ -14,8 +14,7 @@
 namespace insitu {
 namespace {
 
-constexpr int kRobustPasses = 20;
-constexpr double kSingular = 1e16;  // condition reported for a rank defect
+constexpr double kRankDefect = 1e16;  // condition reported then
 constexpr double kRankTolerance = 1e-8;
 
 // The ambient column of Eq. (9): pi as in Eq. (4), or what the surroundings really send.
@@ -103,7 +102,7 @@ void SetPrecision(const Equations& equations, const std::vector<int>& columns, S
                                               Eigen::ComputeThinV);
   const Eigen::VectorXd& singular = svd.singularValues();
   const double smallest = singular[singular.size() - 1];
-  solution->condition = smallest > 0 ? std::min(kSingular, singular[0] / smallest) : kSingular;
+  solution->condition = smallest > 0 ? std::min(kRankDefect, singular[0] / smallest) : kRankDefect;
   const double dof = static_cast<double>(equations.y.size()) - static_cast<double>(columns.size());
   const double squares = (equations.A * solution->radiance - equations.y).squaredNorm();
   const double variance_factor = dof > 0 ? std::max(1.0, squares / dof) : 1.0;

@@ -6,6 +6,9 @@
 
 namespace insitu {
 
+// Times that weights and fit take turns.
+inline constexpr int kRobustPasses = 20;
+
 // Weights in (0, 1] by Huber's function of residual magnitudes (>= 0, in units of their sigma);
 // 1 up to 1.345 robust standard deviations, which are taken as at least one sigma.
 // [Huber 1964; tuning constant for 95 % efficiency on normal errors]

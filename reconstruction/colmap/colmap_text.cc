@@ -145,7 +145,7 @@ class TextFile {
   std::optional<size_t> count_;
 };
 
-void ReadCameras(ColmapFiles* files) {
+void ParseCameras(ColmapFiles* files) {
   for (const auto& [id, camera] : ReadColmapCameras(files->cameras_path)) {
     files->model.cameras.emplace(id, camera.lens);
   }
@@ -174,7 +174,7 @@ std::vector<ColmapKeypoint> ReadKeypoints(Words words) {
   return keypoints;
 }
 
-void ReadImages(ColmapFiles* files) {
+void ParseImages(ColmapFiles* files) {
   TextFile file(files->images_path);
   while (auto words = file.NextEntry()) {
     const auto id = words->Whole<uint32_t>("image id");
@@ -197,7 +197,7 @@ void ReadImages(ColmapFiles* files) {
   file.RequireCount(files->model.images.size());
 }
 
-void ReadPoints(ColmapFiles* files) {
+void ParsePoints(ColmapFiles* files) {
   TextFile file(files->points_path);
   while (auto words = file.NextEntry()) {
     const auto id = words->Whole<uint64_t>("point id");
@@ -292,9 +292,9 @@ ColmapFiles ReadColmapTextFiles(const fs::path& folder) {
   files.cameras_path = folder / "cameras.txt";
   files.images_path = folder / "images.txt";
   files.points_path = folder / "points3D.txt";
-  ReadCameras(&files);
-  ReadImages(&files);
-  ReadPoints(&files);
+  ParseCameras(&files);
+  ParseImages(&files);
+  ParsePoints(&files);
   return files;
 }
 

@@ -4,8 +4,11 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <numbers>
 
 namespace insitu {
+
+inline constexpr double kDegree = std::numbers::pi / 180;  // [rad]
 
 // omega about x, then phi about the turned y, then kappa about the turned z [rad] lead from the
 // world's axes to those of a camera that looks along its -z, x right, y up: R = Rx Ry Rz

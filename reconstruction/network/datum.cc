@@ -39,12 +39,6 @@ Extent ExtentOf(const Network& network) {
   return extent;
 }
 
-Eigen::Matrix3d CrossMatrix(const Eigen::Vector3d& v) {
-  Eigen::Matrix3d matrix;
-  matrix << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0;
-  return matrix;
-}
-
 // dx = radius (t + w cross y + s y), with y = (x - middle) / radius.
 PointMotions MotionsOf(const Extent& extent, const Eigen::Vector3d& x) {
   const Eigen::Vector3d y = x - extent.middle;

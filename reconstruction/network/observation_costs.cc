@@ -12,12 +12,6 @@
 namespace insitu {
 namespace {
 
-Eigen::Matrix3d CrossMatrix(const Eigen::Vector3d& v) {
-  Eigen::Matrix3d matrix;
-  matrix << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0;
-  return matrix;
-}
-
 // d q / d (left increment of half the angle), as ceres::EigenQuaternionManifold has it; its columns
 // are orthonormal, so its transpose inverts it.
 Eigen::Matrix<double, 4, 3> QuaternionFromHalfAngle(const Eigen::Quaterniond& q) {

@@ -6,13 +6,12 @@
 
 #include "calibration/files/json_file.h"
 #include "calibration/lens/camera.h"
+#include "reconstruction/geometry/omega_phi_kappa.h"
 #include "reconstruction/geometry/plane.h"
 #include "reconstruction/report/report_lens_residuals.h"
 
 namespace insitu {
 namespace {
-
-constexpr double kDegree = M_PI / 180;
 
 constexpr int kCellsOfTiePoints = 24;  // per longer side of a photo
 

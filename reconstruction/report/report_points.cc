@@ -6,11 +6,10 @@
 #include <cmath>
 
 #include "calibration/files/json_file.h"
+#include "reconstruction/geometry/omega_phi_kappa.h"
 
 namespace insitu {
 namespace {
-
-constexpr double kDegree = M_PI / 180;
 
 constexpr size_t kTiePointsShown = 2000;
 

@@ -10,12 +10,11 @@
 #include <utility>
 
 #include "calibration/files/json_file.h"
+#include "reconstruction/geometry/omega_phi_kappa.h"
 #include "reconstruction/report/polygon_measures.h"
 
 namespace insitu {
 namespace {
-
-constexpr double kDegree = M_PI / 180;
 
 constexpr double kNearlySquare = 10 * kDegree, kNearlyLevel = 22.5 * kDegree;
 

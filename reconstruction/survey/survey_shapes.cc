@@ -26,12 +26,6 @@ std::optional<std::string> ReadMask(const JsonNode& polygon) {
   return mask->Text();
 }
 
-std::vector<std::string> Texts(const JsonNode& list) {
-  std::vector<std::string> texts;
-  for (const JsonNode& item : list.Items()) texts.push_back(item.Text());
-  return texts;
-}
-
 // A key that is misspelt would be left out without a word. Every object may hold a comment.
 void RequireKnownKeys(const JsonNode& node, const std::string& what,
                       std::vector<std::string> keys) {
@@ -49,7 +43,7 @@ PolygonOutline ReadPolygon(const JsonNode& node, const std::vector<std::string>&
   PolygonOutline polygon;
   polygon.name = node.At("name").Text();
   polygon.place = {node.path(), node.line()};
-  polygon.vertices = Texts(node.At("vertices"));
+  polygon.vertices = node.At("vertices").Texts();
   const std::set<std::string> distinct(polygon.vertices.begin(), polygon.vertices.end());
   if (distinct.size() < 3 || distinct.size() < polygon.vertices.size()) {
     throw node.Error("polygon '" + polygon.name + "' has " +
@@ -138,8 +132,8 @@ bool HasTwoEnds(const std::vector<std::string>& names) {
 
 void ReadSubjects(const JsonNode& node, const KindOfConstraint& kind,
                   GeometricConstraint* constraint) {
-  if (const auto points = node.Find("points")) constraint->points = Texts(*points);
-  if (const auto polygons = node.Find("polygons")) constraint->polygons = Texts(*polygons);
+  if (const auto points = node.Find("points")) constraint->points = points->Texts();
+  if (const auto polygons = node.Find("polygons")) constraint->polygons = polygons->Texts();
   const auto& names = constraint->points.empty() ? constraint->polygons : constraint->points;
   const size_t count = constraint->points.empty() ? kind.polygons : kind.points;
   const bool is_distinct = HasTwoEnds(names);

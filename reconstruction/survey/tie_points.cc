@@ -55,12 +55,6 @@ Json::Value TextsJson(const std::vector<std::string>& texts) {
   return json;
 }
 
-std::vector<std::string> Texts(const JsonNode& node) {
-  std::vector<std::string> texts;
-  for (const JsonNode& text : node.Items()) texts.push_back(text.Text());
-  return texts;
-}
-
 Rigid3 PoseOf(const JsonNode& photo) {
   const std::vector<double> wxyz = photo.At("rotation_wxyz").Numbers();
   if (wxyz.size() != 4) throw photo.Error("expected the four numbers of a quaternion");
@@ -134,8 +128,8 @@ std::optional<TiePoints> ReadTiePoints(const SitePaths& site) {
   for (const JsonNode& point : root.At("points").Items()) {
     tie_points.points.push_back(PointOf(point, photos));
   }
-  tie_points.not_placed = Texts(root.At("not_placed"));
-  tie_points.remarks = Texts(root.At("remarks"));
+  tie_points.not_placed = root.At("not_placed").Texts();
+  tie_points.remarks = root.At("remarks").Texts();
   return tie_points;
 }
 

@@ -26,12 +26,6 @@ Json::Value ToJson(const FileStates& files) {
   return json;
 }
 
-std::vector<std::string> TextsOf(const JsonNode& node) {
-  std::vector<std::string> texts;
-  for (const JsonNode& item : node.Items()) texts.push_back(item.Text());
-  return texts;
-}
-
 FileStates FilesOf(const JsonNode& node) {
   FileStates files;
   for (const auto& [path, hash] : node.Members()) files[path] = hash.Text();
@@ -92,11 +86,11 @@ std::optional<StageRecord> ReadStageRecord(const SitePaths& site, const std::str
     }
     return StageRecord{.version = json.At("insitu").Text(),
                        .program_hash = json.At("program_sha256").Text(),
-                       .options = TextsOf(json.At("options")),
+                       .options = json.At("options").Texts(),
                        .inputs = FilesOf(json.At("inputs")),
                        .outputs = FilesOf(json.At("outputs")),
                        .seconds = json.At("seconds").Number(),
-                       .warnings = TextsOf(json.At("warnings"))};
+                       .warnings = json.At("warnings").Texts()};
   } catch (const InputError&) {  // of a killed run or another version: the stage runs again
     return std::nullopt;
   }
