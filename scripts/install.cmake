@@ -2,6 +2,9 @@
 # What `cmake --install` and scripts/package put on a machine, besides the programs: a man page of each,
 # made from its --help, completion for bash, the licence; and the Debian package of it all.
 
+# Installing builds nothing: the programs are built before, and tests are not installed.
+set(CMAKE_SKIP_INSTALL_ALL_DEPENDENCY ON)
+
 get_property(INSITU_PROGRAMS GLOBAL PROPERTY INSITU_PROGRAMS)
 find_program(HELP2MAN help2man)
 if(HELP2MAN)
