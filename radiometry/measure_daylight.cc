@@ -216,6 +216,35 @@ void MeasureLightComponents(const std::vector<Photograph>& photos, const LightOp
   WarnOfWeakSamples(*measured, has_sun, samples, &measured->warnings);
 }
 
+LightMeasurement WithoutSamples(const SitePaths& site, SceneGeometry scene,
+                                const LightOptions& options) {
+  LightMeasurement measured;
+  NaturalEnvironment& environment = measured.environment;
+  environment.scene = std::move(scene);
+  environment.spectra = SpectralBasis(Rec709(), {options.bins});
+  environment.materials = MaterialsOfPolygons(site, environment.scene, &measured.warnings);
+  return measured;
+}
+
+// Haze that cannot be told is left out; light needs the others.
+void RequireEnough(const SitePaths& site, LightSamples* samples,
+                   std::vector<InputError>* left_out) {
+  const std::filesystem::path file = site.survey() / "samples.json";
+  const auto require = [&](const char* list, size_t count, size_t at_least) {
+    if (count >= at_least) return;
+    throw InputError(file, std::string(list) + ": " + std::to_string(count) +
+                               " usable samples, expected at least " + std::to_string(at_least));
+  };
+  require("horizon", samples->horizon.size(), 1);
+  require("daylight", samples->daylight.size(), 3);
+  const auto [nearest, farthest] =
+      std::minmax_element(samples->haze.begin(), samples->haze.end(),
+                          [](const auto& a, const auto& b) { return a.distance < b.distance; });
+  if (samples->haze.empty() || nearest->distance < farthest->distance) return;
+  left_out->emplace_back(file, "haze: all samples at one distance, expected different ones");
+  samples->haze.clear();
+}
+
 }  // namespace
 
 void LightOptions::Check() const {
@@ -225,11 +254,8 @@ void LightOptions::Check() const {
 
 LightMeasurement MeasureDaylight(const SitePaths& site, const LightOptions& options) {
   options.Check();
-  LightMeasurement measured;
+  LightMeasurement measured = WithoutSamples(site, ReadSceneGeometry(site), options);
   NaturalEnvironment& environment = measured.environment;
-  environment.scene = ReadSceneGeometry(site);
-  environment.spectra = SpectralBasis(Rec709(), {options.bins});
-  environment.materials = MaterialsOfPolygons(site, environment.scene, &measured.warnings);
   constexpr int kMeasurements = 3;  // samples, air, light, each about as long as a photograph
   Progress progress("haze and daylight",
                     static_cast<int>(environment.scene.cameras.size()) + kMeasurements);
@@ -241,6 +267,20 @@ LightMeasurement MeasureDaylight(const SitePaths& site, const LightOptions& opti
   measured.air_fit = MeasureAir(measured.samples, environment.spectra, &measured.warnings);
   environment.air = measured.air_fit.air;
   progress.Step();
+  MeasureLightComponents(photos, options, &measured);
+  return measured;
+}
+
+LightMeasurement MeasureDaylightSoFar(const SitePaths& site, const SceneGeometry& scene,
+                                      const std::vector<Photograph>& photos,
+                                      std::vector<InputError>* left_out) {
+  const LightOptions options;
+  LightMeasurement measured = WithoutSamples(site, scene, options);
+  measured.samples = ReadSamples(site, scene, photos, {}, left_out);
+  RequireEnough(site, &measured.samples, left_out);
+  measured.reflectance_known = measured.samples.daylight_reflectance.has_value();
+  measured.air_fit = MeasureAir(measured.samples, measured.environment.spectra, &measured.warnings);
+  measured.environment.air = measured.air_fit.air;
   MeasureLightComponents(photos, options, &measured);
   return measured;
 }

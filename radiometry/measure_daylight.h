@@ -38,4 +38,12 @@ struct LightMeasurement {
 // Throws InputError.
 LightMeasurement MeasureDaylight(const SitePaths& site, const LightOptions& options = {});
 
+// The same while samples are still being chosen, from a scene and its photographs in memory:
+// samples at fault are listed in `left_out`, and so are lists that are too short. Of the
+// environment the input images are missing. Throws InputError: what is left is too little, or
+// materials.json is at fault.
+LightMeasurement MeasureDaylightSoFar(const SitePaths& site, const SceneGeometry& scene,
+                                      const std::vector<Photograph>& photos,
+                                      std::vector<InputError>* left_out);
+
 }  // namespace insitu

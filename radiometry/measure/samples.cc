@@ -159,22 +159,32 @@ PixelSample ReadHorizonSample(const JsonNode& node, const PhotographedScene& sce
   return sample;
 }
 
-std::vector<JsonNode> AtLeast(const JsonNode& samples, size_t count) {
-  std::vector<JsonNode> items = samples.Items();
-  if (items.size() < count) {
-    throw samples.Error("has " + std::to_string(items.size()) + " samples, expected at least " +
-                        std::to_string(count));
-  }
-  return items;
-}
+using ReadSample = PixelSample(const JsonNode&, const PhotographedScene&, int radius);
 
-std::vector<PixelSample> ReadSurfaceSamples(const JsonNode& nodes, size_t at_least,
-                                            const PhotographedScene& scene, int radius) {
+// The samples of one list, read one by one.
+std::vector<PixelSample> ReadList(const JsonNode& list, size_t at_least, ReadSample* read,
+                                  const PhotographedScene& scene, int radius,
+                                  std::vector<InputError>* faults) {
   std::vector<PixelSample> samples;
-  for (const JsonNode& node : AtLeast(nodes, at_least)) {
-    samples.push_back(ReadSurfaceSample(node, scene, radius));
+  const std::vector<JsonNode> nodes = list.Items();
+  if (!faults && nodes.size() < at_least) {
+    throw list.Error("has " + std::to_string(nodes.size()) + " samples, expected at least " +
+                     std::to_string(at_least));
+  }
+  for (const JsonNode& node : nodes) {
+    try {
+      samples.push_back(read(node, scene, radius));
+    } catch (const InputError& fault) {
+      if (!faults) throw;
+      faults->push_back(fault);
+    }
   }
   return samples;
+}
+
+// The list of this name; nullopt: it is missing, and may be.
+std::optional<JsonNode> FindList(const JsonNode& file, const std::string& name, bool may_miss) {
+  return may_miss ? file.Find(name) : std::optional(file.At(name));
 }
 
 void CheckDistancesDiffer(const JsonNode& nodes, const std::vector<PixelSample>& samples) {
@@ -199,20 +209,26 @@ Eigen::Vector3d ReadReflectance(const JsonNode& node) {
 void SampleOptions::Check() const { INSITU_CHECK(radius >= 0); }
 
 LightSamples ReadSamples(const SitePaths& site, const SceneGeometry& scene,
-                         const std::vector<Photograph>& photos, const SampleOptions& options) {
+                         const std::vector<Photograph>& photos, const SampleOptions& options,
+                         std::vector<InputError>* faults) {
   options.Check();
   INSITU_CHECK(photos.size() == scene.cameras.size());
   const PhotographedScene photographed(scene, photos);
   const JsonNode file = JsonNode::Load(site.survey() / "samples.json");
   LightSamples samples;
-  for (const JsonNode& node : AtLeast(file.At("horizon"), 1)) {
-    samples.horizon.push_back(ReadHorizonSample(node, photographed, options.radius));
+  const auto read = [&](const JsonNode& list, size_t at_least, ReadSample* read_sample) {
+    return ReadList(list, at_least, read_sample, photographed, options.radius, faults);
+  };
+  if (const auto horizon = FindList(file, "horizon", faults)) {
+    samples.horizon = read(*horizon, 1, ReadHorizonSample);
   }
   if (const auto haze = file.Find("haze")) {
-    samples.haze = ReadSurfaceSamples(*haze, 2, photographed, options.radius);
-    CheckDistancesDiffer(*haze, samples.haze);
+    samples.haze = read(*haze, 2, ReadSurfaceSample);
+    if (!faults) CheckDistancesDiffer(*haze, samples.haze);
   }
-  samples.daylight = ReadSurfaceSamples(file.At("daylight"), 3, photographed, options.radius);
+  if (const auto daylight = FindList(file, "daylight", faults)) {
+    samples.daylight = read(*daylight, 3, ReadSurfaceSample);
+  }
   if (const auto reflectance = file.Find("daylight_reflectance_rgb")) {
     samples.daylight_reflectance = ReadReflectance(*reflectance);
   }

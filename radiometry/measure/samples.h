@@ -41,7 +41,10 @@ struct LightSamples {
 // a polygon sample whose sight misses its polygon or meets another one before it, a horizon sample
 // on a polygon, haze samples that are fewer than two, daylight samples fewer than three.
 // samples.json may lack "haze" (air stays clear) but not "horizon" or "daylight".
+// With `faults`, for samples that are still being chosen, the samples at fault are left out and
+// listed there instead, and there may be any number of the others.
 LightSamples ReadSamples(const SitePaths& site, const SceneGeometry& scene,
-                         const std::vector<Photograph>& photos, const SampleOptions& options = {});
+                         const std::vector<Photograph>& photos, const SampleOptions& options = {},
+                         std::vector<InputError>* faults = nullptr);
 
 }  // namespace insitu
