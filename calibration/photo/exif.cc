@@ -36,6 +36,44 @@ std::optional<double> PixelMm(const Exiv2::ExifData& exif, int width) {
   return unit_mm / *per_unit;
 }
 
+// Degrees, minutes, seconds and the letter of the side.
+std::optional<double> Degrees(const Exiv2::ExifData& exif, const std::string& key,
+                              const std::string& negative) {
+  const auto entry = exif.findKey(Exiv2::ExifKey(key));
+  if (entry == exif.end() || entry->count() < 3) return std::nullopt;
+  const double degrees = entry->toFloat(0) + entry->toFloat(1) / 60.0 + entry->toFloat(2) / 3600.0;
+  if (!std::isfinite(degrees) || std::abs(degrees) > 180) return std::nullopt;
+  return Text(exif, (key + "Ref").c_str()) == negative ? -degrees : degrees;
+}
+
+std::optional<double> Altitude(const Exiv2::ExifData& exif) {
+  const auto entry = exif.findKey(Exiv2::ExifKey("Exif.GPSInfo.GPSAltitude"));
+  if (entry == exif.end() || !std::isfinite(entry->toFloat())) return std::nullopt;
+  const bool is_below_sea = Text(exif, "Exif.GPSInfo.GPSAltitudeRef") == "1";
+  return is_below_sea ? -entry->toFloat() : entry->toFloat();
+}
+
+// "2024:05:15 09:45:00" and "+02:00" as ISO 8601.
+std::optional<std::string> LocalTime(const Exiv2::ExifData& exif) {
+  std::string time = Text(exif, "Exif.Photo.DateTimeOriginal");
+  if (time.size() != 19 || time[4] != ':' || time[7] != ':' || time[10] != ' ') return std::nullopt;
+  time[4] = time[7] = '-';
+  time[10] = 'T';
+  return time + Text(exif, "Exif.Photo.OffsetTimeOriginal");
+}
+
+// Without metadata, what an empty file's would be.
+Exiv2::ExifData ReadExif(const std::filesystem::path& photo) {
+  Exiv2::LogMsg::setLevel(Exiv2::LogMsg::mute);  // cameras' own oddities are not the user's
+  try {
+    const auto image = Exiv2::ImageFactory::open(photo.string());
+    image->readMetadata();
+    return image->exifData();
+  } catch (const Exiv2::Error&) {  // a format without metadata
+    return {};
+  }
+}
+
 }  // namespace
 
 std::optional<double> ExifCamera::FocalPx() const {
@@ -47,18 +85,18 @@ std::optional<double> ExifCamera::FocalPx() const {
 ExifCamera ReadExifCamera(const std::filesystem::path& photo) {
   ExifCamera camera;
   camera.size = ReadPhotographSize(photo);
-  Exiv2::LogMsg::setLevel(Exiv2::LogMsg::mute);  // cameras' own oddities are not the user's
-  try {
-    const auto image = Exiv2::ImageFactory::open(photo.string());
-    image->readMetadata();
-    const Exiv2::ExifData& exif = image->exifData();
-    camera.model = Text(exif, "Exif.Image.Model");
-    camera.focal_mm = Positive(exif, "Exif.Photo.FocalLength");
-    camera.focal_35mm = Positive(exif, "Exif.Photo.FocalLengthIn35mmFilm");
-    camera.pixel_mm = PixelMm(exif, camera.size.x());
-  } catch (const Exiv2::Error&) {  // a format without metadata
-  }
+  const Exiv2::ExifData exif = ReadExif(photo);
+  camera.model = Text(exif, "Exif.Image.Model");
+  camera.focal_mm = Positive(exif, "Exif.Photo.FocalLength");
+  camera.focal_35mm = Positive(exif, "Exif.Photo.FocalLengthIn35mmFilm");
+  camera.pixel_mm = PixelMm(exif, camera.size.x());
   return camera;
+}
+
+ExifPlace ReadExifPlace(const std::filesystem::path& photo) {
+  const Exiv2::ExifData exif = ReadExif(photo);
+  return {Degrees(exif, "Exif.GPSInfo.GPSLatitude", "S"),
+          Degrees(exif, "Exif.GPSInfo.GPSLongitude", "W"), Altitude(exif), LocalTime(exif)};
 }
 
 }  // namespace insitu

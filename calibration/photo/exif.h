@@ -22,6 +22,17 @@ struct ExifCamera {
   std::optional<double> FocalPx() const;
 };
 
+// Where and when a photograph was taken, as far as it states it.
+struct ExifPlace {
+  std::optional<double> latitude, longitude;  // [deg], north and east positive
+  std::optional<double> altitude;             // [m]
+  std::optional<std::string> local_time;      // "2024-05-15T09:45:00+02:00"; without the offset
+                                              // where that is not stated
+};
+
+// Empty when the file holds no metadata.
+ExifPlace ReadExifPlace(const std::filesystem::path& photo);
+
 // All but the size is empty when the file holds no metadata. Throws InputError: not an image.
 ExifCamera ReadExifCamera(const std::filesystem::path& photo);
 

@@ -126,6 +126,13 @@ std::vector<std::string> EnvironmentWith(std::vector<std::string> additions) {
   return additions;  // of two settings the first one counts
 }
 
+void Unblock(int signal) {
+  sigset_t one;
+  sigemptyset(&one);
+  sigaddset(&one, signal);
+  sigprocmask(SIG_UNBLOCK, &one, nullptr);
+}
+
 // What the child does between fork and exec: only what is safe when other threads were running.
 [[noreturn]] void BecomeProgram(pid_t parent, int out, int err, char* const* arguments,
                                 char* const* environment, const sigset_t& mask) {
@@ -134,6 +141,7 @@ std::vector<std::string> EnvironmentWith(std::vector<std::string> additions) {
   if (getppid() != parent) _exit(kCannotBeRun);
   for (const int signal : kForwarded) ::signal(signal, SIG_DFL);
   sigprocmask(SIG_SETMASK, &mask, nullptr);
+  for (const int signal : kForwarded) Unblock(signal);  // our own threads may wait for them
   const int nothing = open("/dev/null", O_RDONLY);
   dup2(nothing, STDIN_FILENO);
   dup2(out, STDOUT_FILENO);
@@ -192,6 +200,7 @@ int RunChild(const ChildProcess& child) {
   err.CloseWriteEnd();
   const Registration registration(process);
   signals_wait.reset();
+  const std::stop_callback on_stop(child.stop, [&] { kill(-process, SIGTERM); });
   ReadToTheEnd(out, err);
   return WaitFor(process);
 }

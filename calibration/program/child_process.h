@@ -4,6 +4,7 @@
 
 #include <functional>
 #include <optional>
+#include <stop_token>
 #include <string>
 #include <vector>
 
@@ -14,6 +15,7 @@ struct ChildProcess {
   std::vector<std::string> environment;  // NAME=VALUE, besides our own
   // Receive each line without its end, while the child runs.
   std::function<void(const std::string&line)> on_output, on_error;
+  std::stop_token stop = {};  // ends the child and its group by SIGTERM
 };
 
 // Addresses of the texts, and null: how exec takes arguments and environment. The texts must stay.

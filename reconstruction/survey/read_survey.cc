@@ -44,4 +44,36 @@ Survey ReadSurvey(const SitePaths& site, const std::vector<std::string>& photos,
   return survey;
 }
 
+SurveySoFar ReadSurveySoFar(const SitePaths& site, const std::vector<std::string>& photos) {
+  SurveySoFar read;
+  const auto try_file = [&](const char* name, const auto& take_in) {
+    const std::filesystem::path file = site.survey() / name;
+    if (!std::filesystem::exists(file)) return;
+    try {
+      take_in(file);
+    } catch (const InputError& fault) {
+      read.faults.push_back(fault);
+    }
+  };
+  Survey& survey = read.survey;
+  using Path = std::filesystem::path;
+  try_file("control_points.csv",
+           [&](const Path& file) { survey.control_points = ReadControlPoints(file); });
+  try_file("observations.csv",
+           [&](const Path& file) { survey.observations = ReadObservations(file, photos); });
+  try_file("polygons.json",
+           [&](const Path& file) { survey.polygons = ReadPolygons(file, photos); });
+  try_file("directions.json", [&](const Path& file) {
+    DirectionPairs pairs = ReadDirections(file);
+    survey.sun_pairs = std::move(pairs.sun);
+    survey.zenith_pairs = std::move(pairs.zenith);
+  });
+  try_file("camera_positions.csv",
+           [&](const Path& file) { survey.camera_positions = ReadCameraPositions(file, photos); });
+  try_file("edges.csv", [&](const Path& file) { survey.edges = ReadEdges(file, photos); });
+  try_file("constraints.json",
+           [&](const Path& file) { survey.constraints = ReadConstraints(file, survey.polygons); });
+  return read;
+}
+
 }  // namespace insitu

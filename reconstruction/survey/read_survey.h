@@ -23,4 +23,14 @@ enum class SurveyFolder { kRequired, kOptional };
 Survey ReadSurvey(const SitePaths& site, const std::vector<std::string>& photos,
                   SurveyFolder files = SurveyFolder::kRequired);
 
+// A survey that is still being made.
+struct SurveySoFar {
+  Survey survey;  // without files at fault, and without constraints of what they hold
+  std::vector<InputError> faults;  // one for each of these
+};
+
+// As ReadSurvey, but no file needs to be there, and a name needs not mean anything yet. Throws
+// nothing for the content of a file.
+SurveySoFar ReadSurveySoFar(const SitePaths& site, const std::vector<std::string>& photos);
+
 }  // namespace insitu

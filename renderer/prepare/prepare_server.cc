@@ -1,0 +1,305 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "renderer/prepare/prepare_server.h"
+
+#include <signal.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <opencv2/imgcodecs.hpp>
+#include <thread>
+#include <utility>
+
+#include "calibration/files/error.h"
+#include "calibration/files/json_file.h"
+#include "calibration/web/loopback_server.h"
+#include "calibration/web/open_browser.h"
+#include "calibration/web/photo_tiles.h"
+#include "calibration/web/request_guard.h"
+#include "renderer/prepare/edited_tables.h"
+#include "renderer/prepare/mark_proposal.h"
+#include "renderer/prepare/prepare_page.h"
+#include "renderer/prepare/prepare_session.h"
+#include "renderer/prepare/questions.h"
+#include "renderer/prepare/site_from_exif.h"
+#include "renderer/prepare/stage_runs.h"
+
+namespace insitu {
+namespace {
+
+constexpr int kPatchRadius = 40;      // [px], of what proposals look at
+constexpr double kSearchSigmas = 3;   // of a prediction
+constexpr double kWidestSearch = 25;  // [px]
+constexpr double kNinetyFivePercent = 2.4477;
+
+WebResponse JsonResponse(const Json::Value& json, int status = 200) {
+  WebResponse response;
+  response.status = status;
+  response.body = OneLineJson(json);
+  return response;
+}
+
+// What the page may ask for, answered.
+class PrepareService {
+ public:
+  PrepareService(const SitePaths& site, std::function<void(std::string)> send)
+      : site_(site),
+        paths_(ListPhotographs(site)),
+        tiles_(paths_),
+        send_(std::move(send)),
+        session_(site, send_),
+        runs_(site, [this](const Json::Value& message) {
+          send_(OneLineJson(message));
+          if (message.isMember("status")) session_.Reload();
+        }) {
+    AddRoutes();
+  }
+
+  WebResponse Answer(const WebRequest& request) const {
+    const auto route = routes_.find(request.method + " " + request.path);
+    if (route == routes_.end()) return ErrorResponse(404, "no such address");
+    return route->second(request);
+  }
+
+  void Stop() {
+    runs_.End();
+    session_.Stop();
+  }
+
+ private:
+  using Route = std::function<WebResponse(const WebRequest&)>;
+  using Question = std::function<WebResponse(const Json::Value&)>;
+
+  void AddRoutes() {
+    routes_["GET /api/site"] = [this](const WebRequest&) { return JsonResponse(Site()); };
+    routes_["GET /api/tile"] = [this](const WebRequest& r) { return Tile(r); };
+    routes_["GET /api/patch"] = [this](const WebRequest& r) { return Patch(r); };
+    routes_["GET /api/value"] = [this](const WebRequest& r) { return Value(r); };
+    Post("op", [this](const Json::Value& q) { return Told(session_.Apply(q)); });
+    Post("undo", [this](const Json::Value& q) { return Told(session_.Undo(q["id"].asString())); });
+    Post("redo", [this](const Json::Value& q) { return Told(session_.Redo(q["id"].asString())); });
+    Post("epipolar", [this](const Json::Value& q) {
+      return JsonResponse(EpipolarAnswer(*session_.live(), q));
+    });
+    Post("measure",
+         [this](const Json::Value& q) { return JsonResponse(MeasureAnswer(*session_.live(), q)); });
+    Post("best_photo", [this](const Json::Value& q) {
+      return JsonResponse(BestPhotoAnswer(*session_.live(), q));
+    });
+    Post("import", [this](const Json::Value& q) { return JsonResponse(ImportAnswer(site_, q)); });
+    Post("refine", [this](const Json::Value& q) { return JsonResponse(Refine(q)); });
+    Post("match", [this](const Json::Value& q) { return JsonResponse(Match(q)); });
+    Post("run", [this](const Json::Value& q) { return JsonResponse(Run(q["stage"].asString())); });
+    Post("stop", [this](const Json::Value&) {
+      runs_.Stop();
+      return JsonResponse(Json::objectValue);
+    });
+  }
+
+  void Post(const std::string& name, const Question& answer) {
+    routes_["POST /api/" + name] = [answer](const WebRequest& request) {
+      return answer(ParseJson("request", request.body));
+    };
+  }
+
+  static WebResponse Told(const PrepareSession::Answer& answer) {
+    return JsonResponse(answer.body, answer.status);
+  }
+
+  Json::Value Site() {
+    Json::Value site = session_.Site();
+    site["photos"] = Json::Value(Json::arrayValue);
+    for (int i = 0; i < tiles_.count(); ++i) {
+      Json::Value photo;
+      photo["name"] = paths_[i].stem().string();
+      try {
+        const PhotoSize size = tiles_.SizeOf(i);
+        photo["width"] = size.width;
+        photo["height"] = size.height;
+        photo["levels"] = size.levels;
+      } catch (const InputError& error) {
+        photo["width"] = photo["height"] = photo["levels"] = 1;
+        photo["fault"] = error.what();
+      }
+      site["photos"].append(photo);
+    }
+    return site;
+  }
+
+  WebResponse Tile(const WebRequest& request) {
+    WebResponse response;
+    response.type = "image/jpeg";
+    response.max_age = 3600;
+    response.body = tiles_.Tile(QueryInteger(request, "photo"), QueryInteger(request, "level"),
+                                QueryInteger(request, "x"), QueryInteger(request, "y"));
+    return response;
+  }
+
+  WebResponse Patch(const WebRequest& request) {
+    WebResponse response;
+    response.type = "image/png";
+    response.body = tiles_.Patch(QueryInteger(request, "photo"), QueryInteger(request, "x"),
+                                 QueryInteger(request, "y"), QueryInteger(request, "r"));
+    return response;
+  }
+
+  WebResponse Value(const WebRequest& request) {
+    const PixelValue value = tiles_.Value(QueryInteger(request, "photo"),
+                                          QueryInteger(request, "x"), QueryInteger(request, "y"));
+    Json::Value json;
+    json["linear"] = ToJson(value.linear);
+    json["encoded"] = ToJson(value.encoded);
+    return JsonResponse(json);
+  }
+
+  int IndexOf(const std::string& photo) const {
+    for (size_t i = 0; i < paths_.size(); ++i) {
+      if (paths_[i].stem() == photo) return static_cast<int>(i);
+    }
+    throw InputError(site_.photos(), "no photograph " + photo);
+  }
+
+  GreyPatch GreyAround(const std::string& photo, const Eigen::Vector2d& pixel) {
+    GreyPatch patch;
+    patch.center = pixel.array().round().cast<int>();
+    const std::string png =
+        tiles_.Patch(IndexOf(photo), patch.center.x(), patch.center.y(), kPatchRadius);
+    const std::vector<uchar> bytes(png.begin(), png.end());
+    patch.grey = cv::imdecode(bytes, cv::IMREAD_GRAYSCALE);
+    return patch;
+  }
+
+  static Json::Value ProposalJson(const std::variant<MarkProposal, NoProposal>& found) {
+    Json::Value json;
+    if (const auto* why = std::get_if<NoProposal>(&found)) {
+      json["error"] = *why;
+      return json;
+    }
+    const auto& proposal = std::get<MarkProposal>(found);
+    json["x"] = proposal.pixel.x();
+    json["y"] = proposal.pixel.y();
+    json["sigma"] = proposal.sigma_px;
+    json["quality"] = proposal.quality;
+    json["shift"] = proposal.shift_px;
+    return json;
+  }
+
+  Json::Value Refine(const Json::Value& question) {
+    const Eigen::Vector2d pixel(question["x"].asDouble(), question["y"].asDouble());
+    return ProposalJson(RefineCorner(GreyAround(question["photo"].asString(), pixel), pixel));
+  }
+
+  // The point on all photos that lack it and where it is predicted.
+  Json::Value Match(const Json::Value& question) {
+    const std::string photo = question["photo"].asString(), name = question["point"].asString();
+    const std::shared_ptr<const LiveState> live = session_.live();
+    const Json::Value& point = live->result.message["points"][name];
+    const auto mark = session_.FindMark(photo, name);
+    if (!mark || !point["xyz"].isArray()) {
+      throw InputError("match", "the point must be marked here and determined");
+    }
+    const Eigen::Vector3d world(point["xyz"][0].asDouble(), point["xyz"][1].asDouble(),
+                                point["xyz"][2].asDouble());
+    Json::Value answer;
+    answer["proposals"] = Json::Value(Json::arrayValue);
+    for (const PosedCamera& other : live->result.cameras) {
+      const Json::Value& seen = point["images"][other.photo];
+      if (other.photo == photo || seen.isNull() || session_.FindMark(other.photo, name)) continue;
+      Json::Value proposal = MatchOn(other, seen, photo, *mark, world, *live);
+      if (proposal.isMember("error")) continue;
+      proposal["photo"] = other.photo;
+      answer["proposals"].append(proposal);
+    }
+    return answer;
+  }
+
+  Json::Value MatchOn(const PosedCamera& other, const Json::Value& seen, const std::string& photo,
+                      const Eigen::Vector2d& mark, const Eigen::Vector3d& world,
+                      const LiveState& live) {
+    const auto here =
+        std::find_if(live.result.cameras.begin(), live.result.cameras.end(),
+                     [&](const PosedCamera& camera) { return camera.photo == photo; });
+    if (here == live.result.cameras.end()) return ProposalJson(NoProposal("not oriented"));
+    const Eigen::Vector3d normal = (Center(here->cam_from_world) - world).normalized() +
+                                   (Center(other.cam_from_world) - world).normalized();
+    const Eigen::Vector2d predicted(seen["x"].asDouble(), seen["y"].asDouble());
+    const double radius =
+        std::min(kWidestSearch, 2 + kSearchSigmas / kNinetyFivePercent * seen["major"].asDouble());
+    return ProposalJson(
+        MatchPatch(GreyAround(photo, mark), mark, GreyAround(other.photo, predicted), predicted,
+                   OffsetsBetween(*here, other, world, normal.normalized()), radius));
+  }
+
+  Json::Value Run(const std::string& stage) {
+    Json::Value answer;
+    if (stage == "exif-camera" || stage == "exif-site") {
+      if (stage == "exif-camera") WriteCameraFromExif(site_, paths_);
+      if (stage == "exif-site") session_.TakeSite(SiteFromExif(paths_));
+      answer["run"] = stage == "exif-camera" ? runs_.Start("calibrate") : 0;
+      return answer;
+    }
+    answer["run"] = runs_.Start(stage);
+    return answer;
+  }
+
+  const SitePaths site_;
+  const std::vector<std::filesystem::path> paths_;
+  PhotoTiles tiles_;
+  const std::function<void(std::string)> send_;
+  PrepareSession session_;
+  StageRuns runs_;
+  std::map<std::string, Route> routes_;
+};
+
+LoopbackServerOptions ServerOptions(const PrepareOptions& options, const std::string& token) {
+  LoopbackServerOptions server;
+  server.port = options.port;
+  server.token = token;
+  server.public_resources = PreparePage();
+  server.slow_paths = {"/api/tile", "/api/patch", "/api/value", "/api/refine", "/api/match"};
+  return server;
+}
+
+// Signals that end a server wait in every thread from now on; returns the first one that comes.
+class EndSignals {
+ public:
+  EndSignals() {
+    sigemptyset(&signals_);
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) sigaddset(&signals_, signal);
+    pthread_sigmask(SIG_BLOCK, &signals_, nullptr);
+  }
+  void Wait() const {
+    int signal = 0;
+    sigwait(&signals_, &signal);
+  }
+
+ private:
+  sigset_t signals_ = {};
+};
+
+}  // namespace
+
+void ServePrepare(const SitePaths& site, const PrepareOptions& options,
+                  const std::function<void(const std::string&)>& tell) {
+  const EndSignals end;
+  const std::string token = NewToken();
+  std::atomic<LoopbackServer*> windows = nullptr;
+  PrepareService service(site, [&windows](std::string text) {
+    if (LoopbackServer* server = windows) server->Send(std::move(text));
+  });
+  LoopbackServer server(ServerOptions(options, token),
+                        {.on_request = [&](const WebRequest& r) { return service.Answer(r); }});
+  windows = &server;  // what was told before that, the page asks for when it comes
+  const std::string url = server.address() + "#" + token;
+  std::jthread serving([&] { server.Run(); });
+  tell(url);
+  {
+    const auto page = options.opens_browser ? std::make_unique<OpenedPage>(url) : nullptr;
+    end.Wait();
+  }
+  server.Stop();
+  serving.join();
+  service.Stop();
+}
+
+}  // namespace insitu

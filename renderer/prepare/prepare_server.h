@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The server of the measuring page. All but the page itself wants `Authorization: Bearer TOKEN`.
+//
+//   GET  /, /page.css, /page/NAME.js    the page
+//   GET  /api/site                      tables, photographs, history, the newest results, what to
+//   do GET  /api/tile?photo&level&x&y      JPEG, 512 px; photo is an index GET
+//   /api/patch?photo&x&y&r         PNG, lossless;   GET /api/value?photo&x&y  one pixel POST
+//   /api/op                        an operation (operation.h): 200 {revision}, 409 {conflicts} POST
+//   /api/undo, /api/redo {id}      200 {revision, operation} POST /api/epipolar, /api/measure,
+//   /api/best_photo, /api/import     questions.h POST /api/refine {photo, x, y}, /api/match {photo,
+//   point}          mark_proposal.h POST /api/run {stage}, /api/stop    stages of the site GET
+//   /api/live                      WebSocket: op, saved, not_saved, adjusted, light, building, run,
+//                                       outside, fault
+#pragma once
+
+#include <functional>
+#include <string>
+
+#include "calibration/program/site.h"
+
+namespace insitu {
+
+struct PrepareOptions {
+  int port = 0;  // 0: any that is free
+  bool opens_browser = true;
+};
+
+// Serves until a signal ends it: SIGINT, SIGTERM, SIGHUP. What was confirmed is then in the
+// survey's files. `tell` receives the address with its token. Throws InputError: no photographs,
+// another server has the site, the port is taken.
+void ServePrepare(const SitePaths& site, const PrepareOptions& options,
+                  const std::function<void(const std::string&)>& tell);
+
+}  // namespace insitu

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A site that is being measured: what its page asks for, and what it is told unasked. Operations
+// are confirmed at once; a thread then writes the survey, adjusts what is determined, measures the
+// light and tells the page.
+#pragma once
+
+#include <json/value.h>
+
+#include <Eigen/Core>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "calibration/program/site.h"
+#include "renderer/prepare/live_worker.h"
+
+namespace insitu {
+
+class PrepareSession {
+ public:
+  // `send` receives messages to all windows, from any thread. Throws InputError: no photographs,
+  // another server has the site, its journal cannot be written.
+  PrepareSession(const SitePaths& site, std::function<void(std::string)> send);
+  ~PrepareSession();
+
+  // Each from any thread.
+  Json::Value Site();  // all that a page begins with, but the photographs
+  struct Answer {
+    int status = 200;
+    Json::Value body;
+  };
+  Answer Apply(const Json::Value& operation);  // 200 with the revision, 400, or 409 with conflicts
+  Answer Undo(const std::string& id);
+  Answer Redo(const std::string& id);
+
+  // The mark of a point on a photo; nullopt: none, or switched off.
+  std::optional<Eigen::Vector2d> FindMark(const std::string& photo, const std::string& point) const;
+
+  // Members for site.json, those that it has already left alone.
+  void TakeSite(const Json::Value& members);
+
+  // The newest results.
+  std::shared_ptr<const LiveState> live() const;
+
+  // What a stage may have changed: lenses, the building.
+  void Reload();
+
+  // Ends when the survey is written.
+  void Stop();
+
+ private:
+  struct Parts;
+  std::unique_ptr<Parts> parts_;
+};
+
+}  // namespace insitu

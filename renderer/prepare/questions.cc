@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "renderer/prepare/questions.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <numbers>
+
+#include "calibration/files/error.h"
+#include "calibration/files/json_file.h"
+#include "calibration/files/whole_file.h"
+#include "reconstruction/exchange/survey_file.h"
+#include "reconstruction/geometry/best_photo.h"
+#include "reconstruction/geometry/epipolar_curve.h"
+#include "reconstruction/live/derived_quantity.h"
+
+namespace insitu {
+namespace {
+
+constexpr double kInDegrees = 180 / std::numbers::pi;
+constexpr double kSurveyedSigma = 0.01;  // [m], of pasted points that state none
+
+InputError Unknown(const std::string& what) { return {"question", what}; }
+
+std::vector<std::string> NamesIn(const Json::Value& list) {
+  std::vector<std::string> names;
+  for (const Json::Value& name : list) names.push_back(name.asString());
+  return names;
+}
+
+const PosedCamera& CameraOf(const LiveState& live, const std::string& photo) {
+  for (const PosedCamera& camera : live.result.cameras) {
+    if (camera.photo == photo) return camera;
+  }
+  throw Unknown("photo " + photo + " is not oriented yet");
+}
+
+Eigen::Vector3d PositionOf(const LiveState& live, const std::string& point) {
+  const Json::Value& xyz = live.result.message["points"][point]["xyz"];
+  if (xyz.size() != 3) throw Unknown("point " + point + " is not determined yet");
+  return {xyz[0].asDouble(), xyz[1].asDouble(), xyz[2].asDouble()};
+}
+
+void RequireKnown(const std::optional<DerivedQuantity>& quantity) {
+  if (!quantity) throw Unknown("not all of these points are adjusted, or two are in one place");
+}
+
+}  // namespace
+
+Json::Value EpipolarAnswer(const LiveState& live, const Json::Value& question) {
+  const std::vector<Polyline> pieces =
+      EpipolarCurve(CameraOf(live, question["photo"].asString()),
+                    {question["x"].asDouble(), question["y"].asDouble()},
+                    CameraOf(live, question["other"].asString()));
+  Json::Value answer;
+  answer["curve"] = Json::Value(Json::arrayValue);
+  const auto longest =
+      std::max_element(pieces.begin(), pieces.end(),
+                       [](const auto& a, const auto& b) { return a.size() < b.size(); });
+  if (longest == pieces.end()) return answer;
+  for (const Eigen::Vector2d& at : *longest) answer["curve"].append(ToJson(Eigen::VectorXd(at)));
+  return answer;
+}
+
+Json::Value MeasureAnswer(const LiveState& live, const Json::Value& question) {
+  const std::vector<std::string> points = NamesIn(question["points"]);
+  if (!live.result.solved) throw Unknown("nothing is adjusted yet");
+  Json::Value answer;
+  if (points.size() == 2) {
+    const auto distance = AdjustedDistance(*live.result.solved, points[0], points[1]);
+    const auto height = AdjustedHeight(*live.result.solved, points[0], points[1]);
+    RequireKnown(distance);
+    RequireKnown(height);
+    answer["distance_m"] = distance->value;
+    answer["sigma_m"] = distance->sigma;
+    answer["height_m"] = height->value;
+    answer["height_sigma_m"] = height->sigma;
+  } else if (points.size() == 3) {
+    const auto angle = AdjustedAngle(*live.result.solved, points[0], points[1], points[2]);
+    RequireKnown(angle);
+    answer["angle_deg"] = angle->value * kInDegrees;
+    answer["sigma_deg"] = angle->sigma * kInDegrees;
+  } else {
+    throw Unknown("expected two points, or three for an angle");
+  }
+  return answer;
+}
+
+Json::Value BestPhotoAnswer(const LiveState& live, const Json::Value& question) {
+  std::vector<Eigen::Vector3d> vertices;
+  for (const std::string& name : NamesIn(question["vertices"])) {
+    vertices.push_back(PositionOf(live, name));
+  }
+  if (vertices.size() < 3) throw Unknown("expected three vertices or more");
+  Json::Value answer;
+  answer["photos"] = Json::Value(Json::arrayValue);
+  for (const PhotoOfPolygon& photo : RankPhotosOf(live.result.cameras, vertices)) {
+    Json::Value json;
+    json["photo"] = live.result.cameras[photo.photo].photo;
+    json["score"] = photo.score;
+    json["angle_deg"] = photo.angle * kInDegrees;
+    json["mm_per_px"] = photo.mm_per_px;
+    answer["photos"].append(json);
+  }
+  return answer;
+}
+
+Json::Value ImportAnswer(const SitePaths& site, const Json::Value& question) {
+  const std::filesystem::path pasted = site.root / "work/prepare/pasted.txt";
+  WriteWhole(pasted, question["text"].asString());
+  const SurveyFile file = ReadSurveyFile(pasted, [](const std::string&) { return std::nullopt; });
+  Json::Value answer;
+  answer["format"] = file.format;
+  answer["rows"] = answer["remarks"] = Json::Value(Json::arrayValue);
+  for (const std::string& remark : file.remarks) answer["remarks"].append(remark);
+  if (file.has_degrees)
+    throw InputError(pasted, "these are degrees: use insitu import-survey, which converts them");
+  if (file.crs) answer["remarks"].append("coordinate system " + *file.crs + ": taken as it stands");
+  for (const SurveyedPoint& point : file.points) {
+    const Eigen::Vector3d sigma = point.sigma.value_or(Eigen::Vector3d::Constant(kSurveyedSigma));
+    Json::Value row;
+    row["name"] = point.name;
+    row["role"] = point.role == ControlRole::kCheck ? "check" : "control";
+    const char* const axes[] = {"x", "y", "z"};
+    for (int i = 0; i < 3; ++i) {
+      row[axes[i]] = point.position[i];
+      row[std::string("sigma_") + axes[i]] = sigma[i];
+    }
+    answer["rows"].append(row);
+  }
+  const bool has_guessed = std::any_of(file.points.begin(), file.points.end(),
+                                       [](const SurveyedPoint& point) { return !point.sigma; });
+  if (has_guessed) answer["remarks"].append("no sigma is stated: taken as 0.01 m");
+  return answer;
+}
+
+}  // namespace insitu

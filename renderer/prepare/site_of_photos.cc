@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "renderer/prepare/site_of_photos.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <system_error>
+#include <vector>
+
+#include "calibration/files/error.h"
+#include "renderer/prepare/edited_tables.h"
+#include "renderer/prepare/site_edit.h"
+
+namespace insitu {
+
+int MakeSiteOfPhotographs(const SitePaths& site) {
+  namespace fs = std::filesystem;
+  if (fs::exists(site.photos())) return 0;
+  std::vector<fs::path> found;
+  for (const auto& entry : fs::directory_iterator(site.root)) {
+    if (IsPhotograph(entry.path())) found.push_back(entry.path());
+  }
+  if (found.empty()) {
+    throw InputError(site.root, "neither a folder photos nor photographs, expected one of them");
+  }
+  std::sort(found.begin(), found.end());
+  fs::create_directory(site.photos());
+  for (const fs::path& photo : found) {
+    const fs::path link = site.photos() / photo.filename();
+    std::error_code no_links;
+    fs::create_hard_link(photo, link, no_links);
+    if (no_links) fs::copy_file(photo, link);
+  }
+  return static_cast<int>(found.size());
+}
+
+std::string MergeColleague(const SitePaths& site, const SitePaths& colleague) {
+  std::vector<std::string> photos;
+  for (const auto& path : ListPhotographs(site)) photos.push_back(path.stem().string());
+  SiteEdit edit(site, photos);
+  const std::string id = "merge-" + std::to_string(edit.revision());
+  const SiteEdit::MergeReport report = edit.Merge(colleague, id);
+  const size_t rows = report.outcome.operation ? report.outcome.operation->edits.size() : 0;
+  std::string text = std::to_string(rows) + " rows taken in, " +
+                     std::to_string(report.conflicts.size()) +
+                     " differ and stay as they are here\n";
+  for (const RowConflict& conflict : report.conflicts) {
+    text += conflict.table + ": here " + OneLineJson(conflict.current) + ", there " +
+            OneLineJson(conflict.after) + "\n";
+  }
+  for (const std::string& remark : report.remarks) text += remark + "\n";
+  if (!report.outcome.refused.empty()) throw InputError(colleague.root, report.outcome.refused);
+  for (const FileFault& fault : edit.Save().faults) {
+    throw InputError(site.root / fault.file, fault.line, fault.text);
+  }
+  return text;
+}
+
+}  // namespace insitu

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "renderer/prepare/stage_runs.h"
+
+#include <utility>
+#include <vector>
+
+#include "calibration/files/error.h"
+#include "calibration/program/child_process.h"
+#include "calibration/program/program.h"
+#include "renderer/stages/montage_stages.h"
+#include "renderer/stages/stage_program.h"
+
+namespace insitu {
+namespace {
+
+constexpr char kMontage[] = "montage";
+
+std::vector<std::string> CommandOf(const std::string& stage, const SitePaths& site) {
+  const auto program = FindProgram(OwnFolder(), stage);
+  return {program.string(), site.root.string()};
+}
+
+}  // namespace
+
+StageRuns::StageRuns(SitePaths site, std::function<void(Json::Value)> tell)
+    : site_(std::move(site)), tell_(std::move(tell)) {}
+
+int StageRuns::Start(const std::string& stage) {
+  if (stage != kMontage) StageNamed(stage);
+  const std::lock_guard lock(mutex_);
+  if (is_running_) throw InputError(stage, "another stage is running: stop it or wait for its end");
+  is_running_ = true;
+  const int run = ++last_;
+  thread_ =
+      std::jthread([this, run, stage](const std::stop_token& stop) { Run(run, stage, stop); });
+  return run;
+}
+
+void StageRuns::Stop() { thread_.request_stop(); }
+
+void StageRuns::End() {
+  Stop();
+  if (thread_.joinable()) thread_.join();
+}
+
+void StageRuns::Run(int run, const std::string& stage, const std::stop_token& stop) {
+  const auto message = [&](const char* what, const Json::Value& value) {
+    Json::Value json;
+    json["type"] = "run";
+    json["run"] = run;
+    json["stage"] = stage;
+    json[what] = value;
+    tell_(json);
+  };
+  const auto tell_line = [&](const std::string& line) {
+    const std::string prefix = kProgressPrefix;
+    const bool is_progress = line.starts_with(prefix);
+    message(is_progress ? "progress" : "line", is_progress ? line.substr(prefix.size()) : line);
+  };
+  int status = 1;
+  try {
+    status = RunChild({.command = CommandOf(stage, site_),
+                       .environment = {std::string(kProgressVariable) + "=1"},
+                       .on_output = tell_line,
+                       .on_error = tell_line,
+                       .stop = stop});
+  } catch (const std::exception& error) {
+    tell_line(error.what());
+  }
+  {
+    const std::lock_guard lock(mutex_);
+    is_running_ = false;
+  }
+  message("status", status);
+}
+
+}  // namespace insitu

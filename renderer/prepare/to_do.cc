@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "renderer/prepare/to_do.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <utility>
+
+#include "calibration/files/wording.h"
+
+namespace insitu {
+namespace {
+
+constexpr int kLeastControl = 3;              // control points that orient a photo
+constexpr Json::ArrayIndex kMostOfAKind = 8;  // items told apart; the rest is counted
+
+class List {
+ public:
+  explicit List(const ToDoInput& input) : input_(input) {}
+
+  Json::Value Fill() {
+    Files();
+    Lens();
+    Control();
+    Photos();
+    Points();
+    Shapes();
+    Directions();
+    Light();
+    Site();
+    return items_;
+  }
+
+ private:
+  Json::Value& Add(const std::string& text, const std::string& why, const std::string& mode) {
+    Json::Value item;
+    item["text"] = text;
+    item["why"] = why;
+    if (!mode.empty()) item["where"]["mode"] = mode;
+    return items_.append(item);
+  }
+  Json::ArrayIndex Count(const char* table) const { return input_.tables[table].size(); }
+  bool Has(const std::filesystem::path& path) const { return std::filesystem::exists(path); }
+
+  void Files() {
+    for (const std::string& fault : input_.file_faults) {
+      Add(fault, "the file takes no part until this is mended", "");
+    }
+    const Json::Value& failed = input_.adjusted["failed"];
+    if (failed.isString()) Add(failed.asString(), "nothing can be adjusted before", "control");
+    for (const Json::Value& diagnosis : input_.adjusted["diagnoses"]) {
+      if (diagnosis["kind"] == "question") continue;
+      Json::Value& item =
+          Add(diagnosis["text"].asString(), "found in what was measured", "control");
+      for (const char* what : {"photo", "point"}) {
+        if (diagnosis.isMember(what)) item["where"][what] = diagnosis[what];
+      }
+    }
+  }
+
+  void Lens() {
+    std::vector<std::string> blind;
+    std::string why;
+    for (const Json::Value& left : input_.adjusted["left_out"]) {
+      const std::string reason = left["reason"].asString();
+      if (left["kind"] != "photo" || reason.find("insitu-calibrate") == std::string::npos) continue;
+      blind.push_back(left["name"].asString());
+      why = reason;
+    }
+    if (blind.empty()) return;
+    const bool has_something =
+        Has(input_.site.boards()) && !std::filesystem::is_empty(input_.site.boards());
+    if (has_something) {
+      Add("calibrate the camera", why, "")["run"] = "calibrate";
+    } else {
+      Add("put photographs of a board, or a camera file, into calibration/; or take the focal "
+          "length from EXIF for a first look",
+          why, "")["run"] = "exif-camera";
+    }
+  }
+
+  void Control() {
+    const Json::ArrayIndex count = Count("control_points");
+    if (count >= kLeastControl) return;
+    Add(Formatted("%d more control points", kLeastControl - static_cast<int>(count)),
+        "their coordinates place the photographs in the world: type or paste them",
+        "control")["where"]["table"] = "control_points";
+  }
+
+  void Photos() {
+    if (Count("control_points") < kLeastControl) return;
+    for (const Json::Value& left : input_.adjusted["left_out"]) {
+      if (left["kind"] != "photo") continue;
+      const std::string reason = left["reason"].asString();
+      if (reason.find("insitu-calibrate") != std::string::npos) continue;
+      Add(left["name"].asString() + ": " + reason, "the photo is not oriented yet",
+          "control")["where"]["photo"] = left["name"];
+    }
+  }
+
+  void Points() {
+    Json::ArrayIndex more = 0, told = 0;
+    for (const Json::Value& left : input_.adjusted["left_out"]) {
+      if (left["kind"] == "photo") continue;
+      if (told++ >= kMostOfAKind) {
+        ++more;
+        continue;
+      }
+      const std::string kind = left["kind"].asString(), name = left["name"].asString();
+      Json::Value& item =
+          Add(name + ": " + left["reason"].asString(), kind + " takes no part in the adjustment",
+              kind == "polygon" ? "polygons" : "control");
+      if (kind == "point" || kind == "observation") item["where"]["point"] = name;
+      if (left.isMember("photo")) item["where"]["photo"] = left["photo"];
+    }
+    if (more > 0)
+      Add(Formatted("and %d more that take no part", static_cast<int>(more)), "", "control");
+  }
+
+  void Shapes() {
+    if (Count("polygons") == 0) {
+      Add("outline the ground and the buildings as polygons",
+          "shadows, occlusion and light need to know what stands there", "polygons");
+      return;
+    }
+    std::vector<std::string> without;
+    for (const Json::Value& polygon : input_.tables["polygons"]) {
+      if (!polygon["photo"].isString()) without.push_back(polygon["name"].asString());
+    }
+    if (without.empty()) return;
+    Add(Listing("polygons without a photo that shows them", without, 4),
+        "their colour is taken from a photograph", "polygons");
+  }
+
+  void Directions() {
+    if (Count("zenith") == 0) {
+      Add("a vertical edge: bottom, then top",
+          "which way is up is else taken from the coordinates' z axis", "sun");
+    }
+    if (Count("sun") == 0) {
+      Add("a sun pair: a point, then its shadow",
+          "without one the sky is taken as overcast and no shadow is cast", "sun");
+    }
+  }
+
+  void Light() {
+    if (Count("horizon") == 0) {
+      Add("a sample of the sky at the horizon", "what haze fades to", "light");
+    }
+    if (Count("haze") == 0) {
+      Add("haze: one material at two distances or more", "else the air is taken as clear", "light");
+    }
+    if (Count("daylight") < 3) {
+      Add(Formatted("%d more daylight samples of one material, in sun and in shade",
+                    3 - static_cast<int>(Count("daylight"))),
+          "sun, sky and ambient light are told apart by them", "light");
+    }
+    const bool has_card = !input_.tables["light"].empty() &&
+                          input_.tables["light"][0].isMember("daylight_reflectance_rgb");
+    if (Count("daylight") > 0 && !has_card) {
+      Add("the reflectance of the daylight samples' material",
+          "from a grey card or a table: else the building comes out too dark", "light");
+    }
+    for (const Json::Value& text : input_.light["left_out"]) {
+      Add(text.asString(), "the sample takes no part", "light");
+    }
+  }
+
+  void Site() {
+    const Json::Value& site = input_.tables["site"];
+    if (site.empty() || !site[0].isMember("latitude") || !site[0].isMember("local_time")) {
+      Add("place and time of the photographs", "to check the sun against the almanac", "")["run"] =
+          "exif-site";
+    }
+    if (!Has(input_.site.building())) {
+      Add("put the planned building's model into building/", "nothing is planned yet", "");
+    } else if (!Has(input_.site.artificial())) {
+      Add("convert the building's model", "its wireframe then stands in every photo", "")["run"] =
+          "convert";
+    }
+    if (items_.empty()) Add("make the montage", "nothing is missing", "")["run"] = "montage";
+  }
+
+  const ToDoInput& input_;
+  Json::Value items_ = Json::Value(Json::arrayValue);
+};
+
+}  // namespace
+
+Json::Value ToDo(const ToDoInput& input) { return List(input).Fill(); }
+
+}  // namespace insitu

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What is missing for a montage, and why, in the order in which a person would do it.
+#pragma once
+
+#include <json/value.h>
+
+#include <string>
+#include <vector>
+
+#include "calibration/program/site.h"
+
+namespace insitu {
+
+struct ToDoInput {
+  SitePaths site;
+  std::vector<std::string> photos;
+  Json::Value tables;                    // as SiteEdit has them
+  Json::Value adjusted, light;           // messages, maybe null
+  std::vector<std::string> file_faults;  // files that take no part
+};
+
+// [{text, why, where: {photo, point, table, mode}, run}], of `where` and `run` what applies.
+Json::Value ToDo(const ToDoInput& input);
+
+}  // namespace insitu
