@@ -48,6 +48,7 @@ LiveWindow::LiveWindow(ServerCore& core, std::unique_ptr<ConnectionPlace> place,
   socket_.set_option(Timeouts(std::chrono::seconds(10), false));
   socket_.read_message_max(core.options.most_bytes);
   socket_.text(true);
+  socket_.auto_fragment(false);
 }
 
 void LiveWindow::Accept(Upgrade upgrade) {
