@@ -61,14 +61,15 @@ struct LoopbackServer::Parts {
     pause.async_wait([this](boost::system::error_code) { WaitForConnection(); });
   }
 
-  // Twice as many as are served are told that they are too many.
+  // As many more as are served are told that they are too many.
   void Serve(int descriptor) {
     tcp::socket socket(core.network, tcp::v4(), descriptor);
     const size_t most = core.options.most_connections;
-    if (core.connections >= 2 * most) return;
+    const bool is_beyond = core.served >= most;
+    if (is_beyond && core.turned_away >= most) return;
     boost::system::error_code error;
     socket.set_option(tcp::no_delay(true), error);
-    std::make_shared<WebConnection>(core, std::move(socket), core.connections >= most)->ReadHead();
+    std::make_shared<WebConnection>(core, std::move(socket), is_beyond)->ReadHead();
   }
 
   ServerCore core;

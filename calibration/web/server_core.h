@@ -24,7 +24,7 @@ struct ServerCore {
 
   const LoopbackServerOptions options;
   const LoopbackServerCallbacks callbacks;
-  std::atomic<size_t> connections = 0;
+  std::atomic<size_t> served = 0, turned_away = 0;  // connections
   int last_window = 0;
   boost::asio::io_context network{1};
   std::map<int, std::shared_ptr<LiveWindow>> windows;  // whose token was right
@@ -35,13 +35,13 @@ struct ServerCore {
 // A connection's place among those that are counted.
 class ConnectionPlace {
  public:
-  explicit ConnectionPlace(ServerCore& core) : core_(core) { ++core_.connections; }
-  ~ConnectionPlace() { --core_.connections; }
+  explicit ConnectionPlace(std::atomic<size_t>& count) : count_(count) { ++count_; }
+  ~ConnectionPlace() { --count_; }
   ConnectionPlace(const ConnectionPlace&) = delete;
   ConnectionPlace& operator=(const ConnectionPlace&) = delete;
 
  private:
-  ServerCore& core_;
+  std::atomic<size_t>& count_;
 };
 
 // Calls `work` on one of `threads`, then `done` with its result on the network's thread. `owner`

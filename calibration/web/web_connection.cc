@@ -69,7 +69,7 @@ WebResponse AnswerOf(const LoopbackServerCallbacks& callbacks, const WebRequest&
 
 WebConnection::WebConnection(ServerCore& core, boost::asio::ip::tcp::socket socket, bool is_beyond)
     : core_(core),
-      place_(std::make_unique<ConnectionPlace>(core)),
+      place_(std::make_unique<ConnectionPlace>(is_beyond ? core.turned_away : core.served)),
       stream_(std::move(socket)),
       is_beyond_(is_beyond) {}
 

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "calibration/web/loopback_server.h"
 
-#include <signal.h>
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include <chrono>
 #include <condition_variable>
@@ -203,6 +205,21 @@ TEST_F(LoopbackServerTest, TellsConnectionsBeyondTheMostThatTheyAre) {
     status = WebClient(port).Ask("GET", "/")->status;
   }
   EXPECT_EQ(status, 200);
+}
+
+// Else a run of a stage would hold the port and the connections after its server has ended.
+TEST_F(LoopbackServerTest, GivesNothingToChildren) {
+  const auto window = OpenWindow(Start());
+  int sockets = 0;
+  for (const auto& entry : std::filesystem::directory_iterator("/proc/self/fd")) {
+    const int descriptor = std::stoi(entry.path().filename());
+    struct stat status = {};
+    if (descriptor <= STDERR_FILENO || fstat(descriptor, &status) != 0) continue;
+    if (!S_ISSOCK(status.st_mode)) continue;
+    ++sockets;
+    EXPECT_TRUE(fcntl(descriptor, F_GETFD) & FD_CLOEXEC) << descriptor;
+  }
+  EXPECT_EQ(sockets, 3);  // the port, the window's two ends
 }
 
 TEST_F(LoopbackServerTest, AnswersWhileSlowRequestsRun) {

@@ -15,7 +15,7 @@
 namespace insitu {
 
 WebClient::WebClient(int port, int receive_buffer)
-    : port_(port), socket_(socket(AF_INET, SOCK_STREAM, 0)) {
+    : port_(port), socket_(socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0)) {
   if (receive_buffer > 0) {
     setsockopt(socket_, SOL_SOCKET, SO_RCVBUF, &receive_buffer, sizeof receive_buffer);
   }
