@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "calibration/web/photo_tiles.h"
+
+#include <algorithm>
+#include <mutex>
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
+#include <optional>
+#include <utility>
+
+#include "calibration/files/error.h"
+#include "calibration/photo/photograph.h"
+#include "calibration/web/photo_cache.h"
+
+namespace insitu {
+namespace {
+
+constexpr int kOverview = 3;  // the level that a JPEG's decoder makes by itself
+constexpr int kTileQuality = 85, kPatchCompression = 1;
+constexpr int kMostRadius = 512;  // [px]
+
+std::string Encoded(const char* ending, const cv::Mat& image, const std::vector<int>& parameters) {
+  std::vector<unsigned char> bytes;
+  INSITU_CHECK(cv::imencode(ending, image, bytes, parameters));
+  return {bytes.begin(), bytes.end()};
+}
+
+int TileCount(int size, int level) {
+  const int level_size = static_cast<int>((int64_t{size} + (int64_t{1} << level) - 1) >> level);
+  return (level_size + kTileSize - 1) / kTileSize;
+}
+
+// The pixels of `wanted`, as 8-bit sRGB; what lies beyond the image as `border` says.
+cv::Mat CutOut(const cv::Mat& image, const cv::Rect& wanted, int border) {
+  const cv::Rect inside = wanted & cv::Rect({0, 0}, image.size());
+  cv::Mat cut;
+  cv::copyMakeBorder(EightBit(image(inside)), cut, inside.y - wanted.y,
+                     wanted.br().y - inside.br().y, inside.x - wanted.x,
+                     wanted.br().x - inside.br().x, border);
+  return cut;
+}
+
+double CodeAt(const cv::Mat& image, int x, int y, int channel) {
+  switch (image.depth()) {
+    case CV_8U:
+      return image.ptr<uint8_t>(y)[3 * x + channel] / 255.;
+    case CV_16U:
+      return image.ptr<uint16_t>(y)[3 * x + channel] / 65535.;
+    default:
+      return image.ptr<float>(y)[3 * x + channel];
+  }
+}
+
+}  // namespace
+
+struct PhotoTiles::Parts {
+  Parts(std::vector<std::filesystem::path> paths, size_t most_bytes)
+      : photos(std::move(paths)), cache(most_bytes), sizes(photos.size()) {}
+
+  const std::filesystem::path& PathOf(int photo) const {
+    if (photo >= 0 && photo < static_cast<int>(photos.size())) return photos[photo];
+    throw InputError("photograph " + std::to_string(photo),
+                     "is not there, expected one of " + std::to_string(photos.size()));
+  }
+
+  void RequirePixel(int photo, int x, int y) {
+    const PhotoSize size = SizeOf(photo);
+    if (x >= 0 && y >= 0 && x < size.width && y < size.height) return;
+    throw InputError(PathOf(photo), "has no pixel (" + std::to_string(x) + ", " +
+                                        std::to_string(y) + "), it is " +
+                                        SizeText(size.width, size.height));
+  }
+
+  PhotoSize SizeOf(int photo) {
+    const std::filesystem::path& path = PathOf(photo);
+    {
+      const std::lock_guard lock(mutex);
+      if (sizes[photo]) return *sizes[photo];
+    }
+    const Eigen::Vector2i size = ReadPhotographSize(path);
+    const std::lock_guard lock(mutex);
+    sizes[photo] = PhotoSizeOf(size.x(), size.y());
+    return *sizes[photo];
+  }
+
+  // A photograph changed meanwhile, or its header lies: its tiles would be others than announced.
+  std::shared_ptr<PhotoPyramid> Decoded(int photo, cv::Mat image, int level) {
+    const PhotoSize size = SizeOf(photo);
+    const int step = 1 << level;
+    if (image.cols != (size.width + step - 1) / step ||
+        image.rows != (size.height + step - 1) / step) {
+      throw InputError(PathOf(photo), "has another size than before, expected " +
+                                          SizeText(size.width, size.height));
+    }
+    return std::make_shared<PhotoPyramid>(std::move(image), level);
+  }
+
+  std::shared_ptr<PhotoPyramid> Whole(int photo) {
+    return cache.Get({photo, false},
+                     [&] { return Decoded(photo, ReadShownPhotograph(PathOf(photo)), 0); });
+  }
+
+  // Of a JPEG's overview, which is there soon, or of the whole.
+  cv::Mat LevelOf(int photo, int level) {
+    if (level < kOverview) return Whole(photo)->Level(level);
+    const auto overview = cache.Get({photo, true}, [&] {
+      cv::Mat eighth = ReadEighthOfPhotograph(PathOf(photo));
+      if (eighth.empty()) eighth = Whole(photo)->Level(kOverview);
+      return Decoded(photo, std::move(eighth), kOverview);
+    });
+    return overview->Level(level);
+  }
+
+  const std::vector<std::filesystem::path> photos;
+  PhotoCache cache;
+  std::mutex mutex;  // for the next one
+  std::vector<std::optional<PhotoSize>> sizes;
+};
+
+PhotoSize PhotoSizeOf(int width, int height) {
+  PhotoSize size{width, height, 1};
+  while (TileCount(std::max(width, height), size.levels - 1) > 1) ++size.levels;
+  return size;
+}
+
+PhotoTiles::PhotoTiles(std::vector<std::filesystem::path> photos, size_t most_bytes)
+    : parts_(std::make_unique<Parts>(std::move(photos), most_bytes)) {}
+
+PhotoTiles::~PhotoTiles() = default;
+
+int PhotoTiles::count() const { return static_cast<int>(parts_->photos.size()); }
+
+PhotoSize PhotoTiles::SizeOf(int photo) { return parts_->SizeOf(photo); }
+
+std::string PhotoTiles::Tile(int photo, int level, int x, int y) {
+  const PhotoSize size = parts_->SizeOf(photo);
+  if (level < 0 || level >= size.levels || x < 0 || y < 0 || x >= TileCount(size.width, level) ||
+      y >= TileCount(size.height, level)) {
+    throw InputError(parts_->PathOf(photo), "has no tile (" + std::to_string(x) + ", " +
+                                                std::to_string(y) + ") of level " +
+                                                std::to_string(level));
+  }
+  const cv::Rect wanted(x * kTileSize, y * kTileSize, kTileSize, kTileSize);
+  return Encoded(".jpg", CutOut(parts_->LevelOf(photo, level), wanted, cv::BORDER_REPLICATE),
+                 {cv::IMWRITE_JPEG_QUALITY, kTileQuality});
+}
+
+std::string PhotoTiles::Patch(int photo, int x, int y, int radius) {
+  parts_->RequirePixel(photo, x, y);
+  if (radius < 0 || radius > kMostRadius) {
+    throw InputError(parts_->PathOf(photo), "a patch of radius " + std::to_string(radius) +
+                                                ", expected 0 to " + std::to_string(kMostRadius));
+  }
+  const cv::Rect wanted(x - radius, y - radius, 2 * radius + 1, 2 * radius + 1);
+  return Encoded(".png", CutOut(parts_->Whole(photo)->Level(0), wanted, cv::BORDER_CONSTANT),
+                 {cv::IMWRITE_PNG_COMPRESSION, kPatchCompression});
+}
+
+PixelValue PhotoTiles::Value(int photo, int x, int y) {
+  parts_->RequirePixel(photo, x, y);
+  const cv::Mat image = parts_->Whole(photo)->Level(0);
+  PixelValue value;
+  for (int c = 0; c < 3; ++c) {
+    const double code = CodeAt(image, x, y, 2 - c);
+    const bool is_linear = image.depth() == CV_32F;
+    value.linear[c] = is_linear ? code : LinearFromSrgb(code);
+    value.encoded[c] = is_linear ? SrgbFromLinear(code) : code;
+  }
+  return value;
+}
+
+}  // namespace insitu

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Photographs to zoom into: tiles, patches and pixels, from memory and on demand.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace insitu {
+
+inline constexpr int kTileSize = 512;  // [px]
+
+// Level 0 is the photograph; level l is it halved l times, sizes rounded up; the last one fits into
+// one tile.
+struct PhotoSize {
+  int width = 0, height = 0, levels = 0;
+};
+
+PhotoSize PhotoSizeOf(int width, int height);
+
+struct PixelValue {
+  Eigen::Vector3d linear;   // Rec. 709
+  Eigen::Vector3d encoded;  // sRGB, [0, 1]; beyond for an EXR
+};
+
+// Pixels are the file's, EXIF's orientation not applied; 16 bits and EXR are shown as 8-bit sRGB.
+// Any thread may ask; a photograph is decoded once, however many ask. Each throws InputError: the
+// photograph cannot be decoded (names it), or there is no such photograph, tile or pixel.
+class PhotoTiles {
+ public:
+  // What is decoded takes at most about `most_bytes`, of which what was asked for last.
+  explicit PhotoTiles(std::vector<std::filesystem::path> photos,
+                      size_t most_bytes = size_t{2} << 30);
+  ~PhotoTiles();
+
+  int count() const;
+  PhotoSize SizeOf(int photo);  // from the header alone
+
+  // JPEG of kTileSize squared; beyond the photograph its edge is repeated.
+  std::string Tile(int photo, int level, int x, int y);
+
+  // PNG of the 2 radius + 1 pixels squared around (x, y), lossless; black beyond the photograph.
+  std::string Patch(int photo, int x, int y, int radius);
+
+  PixelValue Value(int photo, int x, int y);
+
+ private:
+  struct Parts;
+  std::unique_ptr<Parts> parts_;
+};
+
+}  // namespace insitu
