@@ -77,11 +77,21 @@ bool MeansNothing(const EditedTable& table, const std::string& field, const Json
          (table.has_state && field == "state" && value.asString() == "on");
 }
 
-Json::Value Meaning(const EditedTable& table, const Json::Value& row) {
-  if (!row.isObject()) return row;
+// Whether what `a` says stands in `b`.
+bool HasMeaningOf(const EditedTable& table, const Json::Value& a, const Json::Value& b) {
+  for (auto member = a.begin(); member != a.end(); ++member) {
+    const std::string name = member.name();
+    if (MeansNothing(table, name, *member)) continue;
+    const Json::Value* other = b.find(name.data(), name.data() + name.size());
+    if (!other || !IsSameValue(*member, *other)) return false;
+  }
+  return true;
+}
+
+Json::Value Meaning(const Json::Value& row) {
   Json::Value meaning(Json::objectValue);
   for (auto member = row.begin(); member != row.end(); ++member) {
-    if (!MeansNothing(table, member.name(), *member)) meaning[member.name()] = *member;
+    if (!member->isNull()) meaning[member.name()] = *member;
   }
   return meaning;
 }
@@ -138,12 +148,13 @@ bool IsSameValue(const Json::Value& a, const Json::Value& b) {
 }
 
 bool IsSameRow(const EditedTable& table, const Json::Value& a, const Json::Value& b) {
-  return IsSameValue(Meaning(table, a), Meaning(table, b));
+  if (!a.isObject() || !b.isObject()) return IsSameValue(a, b);
+  return HasMeaningOf(table, a, b) && HasMeaningOf(table, b, a);
 }
 
 std::string KeyOfRow(const EditedTable& table, const Json::Value& row) {
   if (table.form == TableForm::kRoot || !row.isObject()) return "";
-  if (table.key.empty()) return OneLineJson(Meaning(table, row));
+  if (table.key.empty()) return OneLineJson(Meaning(row));
   std::string key;
   for (const std::string& field : table.key) key += OneLineJson(row[field]) + '\n';
   return key;

@@ -26,10 +26,9 @@ struct KeyedRows {
 KeyedRows ByKey(const EditedTable& table, const SurveyText& text) {
   KeyedRows keyed;
   for (Json::Value& row : text.Rows(table)) {
-    std::string key = KeyOfRow(table, row);
-    for (int again = 1; keyed.rows.contains(key); ++again) {
-      key = KeyOfRow(table, row) + "#" + std::to_string(again);
-    }
+    const std::string once = KeyOfRow(table, row);
+    std::string key = once;
+    for (int again = 1; keyed.rows.contains(key); ++again) key = once + std::to_string(again);
     keyed.rows.emplace(key, std::move(row));
     keyed.order.push_back(std::move(key));
   }
