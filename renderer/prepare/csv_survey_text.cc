@@ -176,10 +176,10 @@ std::string CsvSurveyText::text() const {
   return text;
 }
 
-std::vector<Json::Value> CsvSurveyText::Rows(const EditedTable&) const {
-  std::vector<Json::Value> rows;
+std::vector<const Json::Value*> CsvSurveyText::Rows(const EditedTable&) const {
+  std::vector<const Json::Value*> rows;
   for (const Line& line : lines_) {
-    if (line.is_row) rows.push_back(line.row);
+    if (line.is_row) rows.push_back(&line.row);
   }
   return rows;
 }

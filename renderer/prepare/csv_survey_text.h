@@ -21,7 +21,7 @@ class CsvSurveyText : public SurveyText {
   CsvSurveyText(const EditedTable& table, std::filesystem::path path, const std::string& text);
 
   std::string text() const override;
-  std::vector<Json::Value> Rows(const EditedTable& table) const override;
+  std::vector<const Json::Value*> Rows(const EditedTable& table) const override;
   const Json::Value* Find(const EditedTable& table, const Json::Value& row) const override;
   bool CanHold(const EditedTable& table, const std::string& field) const override;
   Json::Value Edit(const EditedTable& table, const Json::Value& before, const Json::Value& after,

@@ -142,12 +142,14 @@ std::string JsonSurveyText::text() const {
   return before_ + root.text() + after_;
 }
 
-std::vector<Json::Value> JsonSurveyText::Rows(const EditedTable& table) const {
+std::vector<const Json::Value*> JsonSurveyText::Rows(const EditedTable& table) const {
+  std::vector<const Json::Value*> rows;
   if (table.form == TableForm::kRoot) {
-    return root_row_.empty() ? std::vector<Json::Value>() : std::vector{root_row_};
+    if (!root_row_.empty()) rows.push_back(&root_row_);
+    return rows;
   }
-  const Listed& listed = lists_.at(table.member);
-  return {listed.rows.begin(), listed.rows.end()};
+  for (const Json::Value& row : lists_.at(table.member).rows) rows.push_back(&row);
+  return rows;
 }
 
 const Json::Value* JsonSurveyText::Find(const EditedTable& table, const Json::Value& row) const {

@@ -15,21 +15,21 @@ constexpr double kFarApart = 3;  // [sigma of the difference]
 // Rows by their key; equal rows one after the other.
 struct KeyedRows {
   std::vector<std::string> order;
-  std::unordered_map<std::string, Json::Value> rows;
+  std::unordered_map<std::string, const Json::Value*> rows;
 
   const Json::Value& At(const std::string& key) const {
     const auto row = rows.find(key);
-    return row == rows.end() ? Json::Value::nullSingleton() : row->second;
+    return row == rows.end() ? Json::Value::nullSingleton() : *row->second;
   }
 };
 
 KeyedRows ByKey(const EditedTable& table, const SurveyText& text) {
   KeyedRows keyed;
-  for (Json::Value& row : text.Rows(table)) {
-    const std::string once = KeyOfRow(table, row);
+  for (const Json::Value* row : text.Rows(table)) {
+    const std::string once = KeyOfRow(table, *row);
     std::string key = once;
     for (int again = 1; keyed.rows.contains(key); ++again) key = once + std::to_string(again);
-    keyed.rows.emplace(key, std::move(row));
+    keyed.rows.emplace(key, row);
     keyed.order.push_back(std::move(key));
   }
   return keyed;
@@ -56,7 +56,7 @@ void MergeTable(const EditedTable& table, const SurveyText& base_text, const Sur
     const Json::Value &was = base.At(key), &our = ours.At(key), &their = theirs.At(key);
     if (IsSameRow(table, our, their)) continue;
     if (IsSameRow(table, was, their)) {
-      merged.text->Edit(table, their, our, Json::Value());
+      merged.text->Edit(table, Json::Value(their), our, Json::Value());
       continue;
     }
     merged.outside.push_back({table.name, our, their});
@@ -90,12 +90,12 @@ MergedRows MergeSurvey(const std::vector<EditedTable>& tables, const SurveyText&
                        const SurveyText& theirs) {
   MergedRows merged;
   for (const EditedTable& table : tables) {
-    for (const Json::Value& row : theirs.Rows(table)) {
-      const Json::Value* our = ours.Find(table, row);
+    for (const Json::Value* row : theirs.Rows(table)) {
+      const Json::Value* our = ours.Find(table, *row);
       if (!our) {
-        merged.edits.push_back({table.name, Json::Value(), row});
-      } else if (AreFarApart(table, *our, row)) {
-        merged.conflicts.push_back({table.name, Json::Value(), *our, row});
+        merged.edits.push_back({table.name, Json::Value(), *row});
+      } else if (AreFarApart(table, *our, *row)) {
+        merged.conflicts.push_back({table.name, Json::Value(), *our, *row});
       }
     }
   }

@@ -44,14 +44,16 @@ const SiteFile& SiteEdit::FileOf(const EditedTable& table) const {
 std::vector<Json::Value> SiteEdit::Rows(const std::string& table) const {
   const EditedTable* found = FindEditedTable(table);
   INSITU_CHECK(found);
-  return FileOf(*found).now->Rows(*found);
+  std::vector<Json::Value> rows;
+  for (const Json::Value* row : FileOf(*found).now->Rows(*found)) rows.push_back(*row);
+  return rows;
 }
 
 Json::Value SiteEdit::Tables() const {
   Json::Value tables(Json::objectValue);
   for (const EditedTable& table : EditedTables()) {
     Json::Value& rows = tables[table.name] = Json::Value(Json::arrayValue);
-    for (Json::Value& row : Rows(table.name)) rows.append(std::move(row));
+    for (const Json::Value* row : FileOf(table).now->Rows(table)) rows.append(*row);
   }
   return tables;
 }

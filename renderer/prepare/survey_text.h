@@ -23,7 +23,8 @@ class SurveyText {
   // The file's whole content; "" where there is no file.
   virtual std::string text() const = 0;
 
-  virtual std::vector<Json::Value> Rows(const EditedTable& table) const = 0;
+  // In the file's order. Valid until the next edit.
+  virtual std::vector<const Json::Value*> Rows(const EditedTable& table) const = 0;
 
   // The row that means the same as `row`, else one of the same key, else nullptr.
   virtual const Json::Value* Find(const EditedTable& table, const Json::Value& row) const = 0;

@@ -117,7 +117,7 @@ TEST(CsvSurveyText, SwitchesAMarkOffByAComment) {
   kOffA.insert(kOffA.size() - 1, R"(, "state": "off")");
   EXPECT_EQ(MarksAfter(on, kA, kOffA), off);
   EXPECT_EQ(MarksAfter(off, kOffA, kA), on);
-  EXPECT_EQ(Marks(off)->Rows(Table("observations")).front()["state"], "off");
+  EXPECT_EQ(Marks(off)->Rows(Table("observations")).front()->get("state", ""), "off");
 }
 
 TEST(CsvSurveyText, AddsColumnsWhenFirstNeeded) {
@@ -140,7 +140,7 @@ TEST(CsvSurveyText, TakesOtherCommentsForComments) {
       "A,p,1,2\n"
       "A,q,3,4,0.5,off\n");
   ASSERT_EQ(marks->Rows(Table("observations")).size(), 1u);
-  EXPECT_FALSE(marks->Rows(Table("observations"))[0].isMember("state"));  // programs read the row
+  EXPECT_FALSE(marks->Rows(Table("observations"))[0]->isMember("state"));  // programs read the row
 }
 
 TEST(CsvSurveyText, SaysWhereItCannotBeUnderstood) {
