@@ -33,20 +33,6 @@ InputError SyntaxError(const std::filesystem::path& path, const std::string& rep
   return InputError(path, line, "not valid JSON: " + message);
 }
 
-Json::Value Parse(const std::filesystem::path& path, const std::string& text) {
-  Json::CharReaderBuilder builder;
-  Json::CharReaderBuilder::strictMode(&builder.settings_);  // no doubled keys, NaN, trailing text
-  const std::unique_ptr<Json::CharReader> reader(builder.newCharReader());
-  Json::Value root;
-  std::string report;
-  try {
-    if (reader->parse(text.data(), text.data() + text.size(), &root, &report)) return root;
-  } catch (const Json::Exception& exception) {  // nested too deeply
-    throw InputError(path, std::string("not valid JSON: ") + exception.what());
-  }
-  throw SyntaxError(path, report);
-}
-
 const char* TypeName(const Json::Value& value) {
   switch (value.type()) {
     case Json::nullValue:
@@ -74,7 +60,7 @@ JsonNode JsonNode::Load(const std::filesystem::path& path) {
   auto document = std::make_shared<Document>();
   document->path = path;
   document->text = ReadWhole(path);
-  document->root = Parse(path, document->text);
+  document->root = ParseJson(path, document->text);
   const Json::Value* root = &document->root;
   return JsonNode(std::move(document), root, "");
 }
@@ -198,7 +184,21 @@ Json::Value ToJson(const Eigen::MatrixXd& matrix) {
   return rows;
 }
 
-Json::Value ReadJson(const std::filesystem::path& path) { return Parse(path, ReadWhole(path)); }
+Json::Value ReadJson(const std::filesystem::path& path) { return ParseJson(path, ReadWhole(path)); }
+
+Json::Value ParseJson(const std::filesystem::path& path, const std::string& text) {
+  Json::CharReaderBuilder builder;
+  Json::CharReaderBuilder::strictMode(&builder.settings_);  // no doubled keys, NaN, trailing text
+  const std::unique_ptr<Json::CharReader> reader(builder.newCharReader());
+  Json::Value root;
+  std::string report;
+  try {
+    if (reader->parse(text.data(), text.data() + text.size(), &root, &report)) return root;
+  } catch (const Json::Exception& exception) {  // nested too deeply
+    throw InputError(path, std::string("not valid JSON: ") + exception.what());
+  }
+  throw SyntaxError(path, report);
+}
 
 void WriteJson(const std::filesystem::path& path, const Json::Value& value) {
   Json::StreamWriterBuilder builder;

@@ -58,6 +58,9 @@ Json::Value ToJson(const Eigen::MatrixXd& matrix);  // array of rows
 // A whole file as it is, for what is only passed on. Throws InputError, at its line.
 Json::Value ReadJson(const std::filesystem::path& path);
 
+// The same of a text that was read already; `path` is for messages.
+Json::Value ParseJson(const std::filesystem::path& path, const std::string& text);
+
 // Indented, 17 digits; temporary file, then rename.
 void WriteJson(const std::filesystem::path& path, const Json::Value& value);
 

@@ -41,4 +41,11 @@ std::string Sha256(const std::filesystem::path& path) {
   return Hexadecimal(digest, size);
 }
 
+std::string Sha256OfText(std::string_view text) {
+  unsigned char digest[EVP_MAX_MD_SIZE];
+  unsigned size = 0;
+  INSITU_CHECK(EVP_Digest(text.data(), text.size(), digest, &size, EVP_sha256(), nullptr) == 1);
+  return Hexadecimal(digest, size);
+}
+
 }  // namespace insitu

@@ -49,11 +49,15 @@ int OpenLock(const std::filesystem::path& path) {
 }  // namespace
 
 SiteLock::SiteLock(const SitePaths& site, const std::string& command)
-    : descriptor_(OpenLock(site.lock())) {
+    : SiteLock(site, command, site.lock()) {}
+
+SiteLock::SiteLock(const SitePaths& site, const std::string& command,
+                   const std::filesystem::path& file)
+    : descriptor_(OpenLock(file)) {
   if (flock(descriptor_, LOCK_EX | LOCK_NB) != 0) {
     close(descriptor_);
-    throw InputError(site.root, "is in use by " + ReadWhole(site.lock()) +
-                                    "; wait until it has ended, or stop it");
+    throw InputError(site.root,
+                     "is in use by " + ReadWhole(file) + "; wait until it has ended, or stop it");
   }
   const std::string holder = command + " (process " + std::to_string(getpid()) + " on " +
                              HostName() + ", since " + Now() + ")";
@@ -63,7 +67,7 @@ SiteLock::SiteLock(const SitePaths& site, const std::string& command)
   if (is_written) return;
   const std::string reason = std::strerror(errno);
   close(descriptor_);
-  RefuseUnwritable(site.lock(), reason);
+  RefuseUnwritable(file, reason);
 }
 
 SiteLock::~SiteLock() { close(descriptor_); }
