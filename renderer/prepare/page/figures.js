@@ -4,7 +4,7 @@
 import {ask} from "./api.js";
 import {svg} from "./dom.js";
 import {mark, rows, state} from "./state.js";
-import {redraw} from "./signals.js";
+import {emit} from "./signals.js";
 import {placeOf, ui} from "./ui.js";
 
 const path = (line, isClosed = false) =>
@@ -16,7 +16,10 @@ const path = (line, isClosed = false) =>
  */
 export function drawFigures(pane) {
   const {k, tx, ty, figures} = pane, photo = pane.photo.name;
-  figures.setAttribute("transform", `matrix(${k} 0 0 ${k} ${tx + k / 2} ${ty + k / 2})`);
+  const transform = `matrix(${k} 0 0 ${k} ${tx + k / 2} ${ty + k / 2})`;
+  if (figures.placed !== transform) figures.setAttribute("transform", figures.placed = transform);
+  if (figures.seen === pane.drawings && !ui.tool?.outline && figures.k === k) return;
+  figures.seen = pane.drawings;
   const shapes = [...polygons(photo), ...building(photo), ...edges(photo), ...pairs(photo), ...curves(photo),
     ...samples(photo), ...drawing(photo, pane)];
   const signature = shapes.map(shape => `${shape.class}|${shape.d}`).join("\n");
@@ -129,5 +132,5 @@ async function fetchCurve(name, key, question) {
   const answer = await ask("/api/epipolar", question);
   if (known.get(name)?.key !== key) return;
   known.set(name, {key, curve: answer.curve ?? []});
-  redraw();
+  emit("view");
 }

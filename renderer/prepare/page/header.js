@@ -43,6 +43,7 @@ export function buildHeader(menu) {
   if (!isReport) entries.unshift(button(t("secondWindow"), () => window.open(reportAddress(), "_blank"), {"data-menu": "report"}));
   byId("menu").replaceChildren(...entries, languages);
   on("draw", draw);
+  on("frame", drawStatus);
 }
 
 function draw() {
@@ -55,7 +56,6 @@ function draw() {
   }
   drawSaved();
   drawSigma();
-  drawStatus();
 }
 
 /** Sets text only where it differs, so that it is read out once. */
@@ -96,7 +96,6 @@ function drawStatus() {
   const place = pane.hover ?? pane.cursor, photo = pane.photo.name, point = ui.point;
   const parts = [`${photo}  x ${shown(place.x, 2)}  y ${shown(place.y, 2)}`];
   if (point !== null) parts.push(...pointParts(photo, point));
-  if (ui.tool) parts.push(ui.tool.hint());
   keepText(made, parts.join("  |  "));
 }
 

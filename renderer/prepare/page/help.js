@@ -6,7 +6,7 @@ import {actions, changeKey, keyFor, keyText, resetKeys} from "./keys.js";
 import {t} from "./words.js";
 
 const kFixed = [["←↑→↓", "key_nudge"], ["Space", "key_space"], ["Tab", "key_tab"], ["Backspace", "key_back"], ["Esc", "key_escape"],
-  [`${"⟳"}`, "key_wheel"]];
+  [t("wheel"), "key_wheel"]];
 
 export function showHelp() {
   const message = node("output", {"aria-live": "polite"}), body = node("tbody");

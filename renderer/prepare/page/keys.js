@@ -5,8 +5,8 @@ import {byId} from "./dom.js";
 import {cancel, centreAll, centreIn, confirm, deleteMark, match, nextSuspect, nudge, refine, stepPhoto, stepPoint,
   toggleDubious, toggleOff} from "./marking.js";
 import {kModes, redo, undo} from "./header.js";
-import {stepPane, nextLayout} from "./panes.js";
-import {redraw} from "./signals.js";
+import {enlarge, nextLayout, stepPane} from "./panes.js";
+import {emit, redraw} from "./signals.js";
 import {activePane, setMode, setTool, ui} from "./ui.js";
 
 const kStore = "insitu-keys";
@@ -78,7 +78,11 @@ export function addKeys() {
     ["match", "G", () => match(activePane())], ["switch", "X", toggleOff], ["delete", "Delete", deleteMark],
     ["dubious", "D", toggleDubious], ["arrows", "R", cycle], ["curves", "E", () => {
       ui.curves = !ui.curves;
-    }], ["nextSuspect", "U", nextSuspect], ["goTo", ".", () => focusField("go-to")], ["layout", ",", nextLayout]];
+    }], ["nextSuspect", "U", nextSuspect], ["goTo", ".", () => focusField("go-to")], ["layout", ",", nextLayout], ["enlarge", "*", enlarge], ["loupe", "/", () => {
+      ui.isLoupe = !ui.isLoupe;
+    }], ["names", "#", () => {
+      ui.isNamed = !ui.isNamed;
+    }]];
   for (const [id, key, run] of inPane) addAction({id, key, run});
   /** @type {[string, string, (event: KeyboardEvent) => any][]} */
   const onPage = [["undo", "Ctrl+Z", undo], ["redo", "Ctrl+Y", redo], ["find", "Ctrl+F", () => focusField("point-name")],
@@ -103,7 +107,7 @@ export function listenToKeys() {
     if (!action || (!action.isPage && !isInPane) || (isField(target) && !/^(Ctrl\+[FG]|Alt\+)/.test(key))) return;
     event.preventDefault();
     action.run(event);
-    redraw();
+    emit("view");
   });
   addEventListener("keyup", event => {
     if (event.key !== " " || !activePane()) return;
@@ -136,7 +140,7 @@ function paneKey(event) {
   }
   if (event.key === "Backspace" && ui.tool) {
     ui.tool.back?.();
-    redraw();
+    emit("view");
     return true;
   }
   return false;
@@ -145,5 +149,5 @@ function paneKey(event) {
 function escape() {
   if (ui.tool) setTool(null);
   else cancel();
-  redraw();
+  emit("view");
 }

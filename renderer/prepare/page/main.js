@@ -14,7 +14,7 @@ import {buildLists, showList} from "./lists.js";
 import {showMeasure} from "./measure.js";
 import {buildPanes} from "./panes.js";
 import {addPolygonKeys} from "./polygon_tool.js";
-import {redraw} from "./signals.js";
+import {emit} from "./signals.js";
 import {showSketches} from "./sketches.js";
 import {followRuns, showStages} from "./stages.js";
 import {start} from "./state.js";
@@ -56,7 +56,7 @@ async function begin() {
   }
   listenToKeys();
   document.body.dataset.ready = "true";
-  redraw();
+  emit("view");
 }
 
 begin();

@@ -5,7 +5,7 @@ import {ask} from "./api.js";
 import {byId} from "./dom.js";
 import {edit, freeName, indexed, isReadOnly, live, mark, nameFault, photoOf, prediction, raysOf, rows, state}
   from "./state.js";
-import {emit, redraw} from "./signals.js";
+import {emit} from "./signals.js";
 import {stored} from "./numbers.js";
 import {activePane, choosePoint, photosOf, placeOf, showPhoto, ui} from "./ui.js";
 import {say} from "./notices.js";
@@ -29,7 +29,9 @@ export function settle() {
   const old = moving.point && mark(moving.photo, moving.point);
   const {photo, point, x, y} = moving;
   moving.point = "";
-  if (old) edit(t("opMove", {point, photo}), [{table: "observations", before: old,
+  if (!old) return;
+  rest(photo);
+  edit(t("opMove", {point, photo}), [{table: "observations", before: old,
     after: {...old, x: stored(x), y: stored(y)}}]);
 }
 
@@ -37,7 +39,7 @@ function move(photo, point, x, y, delay) {
   if (moving.point && (moving.photo !== photo || moving.point !== point)) settle();
   clearTimeout(moving.timer);
   Object.assign(moving, {photo, point, x, y, timer: window.setTimeout(settle, delay)});
-  redraw();
+  emit("view");
 }
 
 /** The name of the mark nearest to a place, if within reach. */
@@ -109,7 +111,7 @@ function useTool(pane) {
   if (name !== null) tool.pickPoint?.(name);
   else if (tool.place) tool.place(pane.photo.name, x, y);
   else say(t("pickMark"));
-  redraw();
+  emit("view");
 }
 
 /** Inserts or moves a mark. */
@@ -122,6 +124,13 @@ export function place(photo, point, x, y, proposal = null) {
   edit(mark(photo, point) ? t("opMove", {point, photo}) : t("opMark", {point, photo}),
     [markEdit(photo, point, x, y, proposal)]);
   proposals.byPhoto.delete(photo);
+  rest(photo);
+  say("");
+}
+
+/** The crosshair of a photo stands where it belongs. */
+function rest(photo) {
+  for (const pane of ui.panes) if (pane.photo?.name === photo) pane.isMoved = false;
 }
 
 /**
@@ -251,7 +260,7 @@ function propose(photo, point, proposal) {
     pane.isMoved = false;
     pane.reveal();
   }
-  redraw();
+  emit("view");
 }
 
 /** Asks where the corner at the crosshair is; Enter takes it. */

@@ -17,14 +17,14 @@ const kOff = "M-9 -9L9 9M9 -9L-9 9", kDot = "M-1.5 0H1.5M0 -1.5V1.5";
 
 /** @param {any} pane */
 export function drawMarks(pane) {
-  const nodes = pane.markNodes ??= new Map(), wanted = new Set(), photo = pane.photo.name;
+  const nodes = pane.markNodes, wanted = new Set(), photo = pane.photo.name;
   const draw = (key, make, update) => {
     wanted.add(key);
     if (!nodes.has(key)) pane.markLayer.append(nodes.set(key, make()).get(key));
     update(nodes.get(key));
   };
-  const margin = 20;
-  const isNear = at => at.x > -margin && at.y > -margin && at.x < pane.width + margin && at.y < pane.height + margin;
+  const {width, height} = pane; // a pan of half of them shows what was outside
+  const isNear = at => at.x > -width && at.y > -height && at.x < 2 * width && at.y < 2 * height;
   for (const [point, about] of Object.entries(state.adjusted?.points ?? {})) {
     const image = about.images?.[photo];
     if (!image || mark(photo, point) || (!ui.predictions && point !== ui.point)) continue;
@@ -79,8 +79,9 @@ function updateMark(made, one, at, k) {
   const shape = (kShapes[kind] ?? kShapes.tie) + (isOff ? kOff : "");
   const arrow = about && ui.arrows && !isOff ? arrowPath(about.vx * ui.arrows * k, about.vy * ui.arrows * k) : "";
   [arrow, arrow, shape, shape].forEach((d, i) => keep(made.childNodes[i], "d", d));
+  for (const i of [2, 3]) keep(made.childNodes[i], "transform", k < 1 && !isCurrent ? "scale(.7)" : "scale(1)");
   const signs = (level === "bad" ? " !" : "") + (one.state === "dubious" ? " ?" : "");
-  const text = isCurrent || signs || k > 1.5 ? one.point + signs : "";
+  const text = isCurrent || signs || ui.isNamed || k >= 6 ? one.point + signs : "";
   if (made.lastChild.textContent !== text) made.lastChild.textContent = text;
   keep(made, "aria-label", markLabel(one, about, kind));
 }
@@ -110,11 +111,11 @@ function updatePrediction(made, point, image, at, k) {
   put(made, at);
   keep(made, "class", `mark prediction${isCurrent ? " current" : ""}`);
   for (const i of [0, 1]) {
-    keep(made.childNodes[i], "rx", Math.max(image.major * k, 4).toFixed(1));
-    keep(made.childNodes[i], "ry", Math.max(image.minor * k, 4).toFixed(1));
+    keep(made.childNodes[i], "rx", Math.max(image.major * k, isCurrent ? 4 : 3).toFixed(1));
+    keep(made.childNodes[i], "ry", Math.max(image.minor * k, isCurrent ? 4 : 3).toFixed(1));
     keep(made.childNodes[i], "transform", `rotate(${(image.angle * 180 / Math.PI).toFixed(1)})`);
   }
-  const text = isCurrent || k > 1.5 ? point : "";
+  const text = isCurrent || ui.isNamed || k >= 6 ? point : "";
   if (made.lastChild.textContent !== text) made.lastChild.textContent = text;
   keep(made, "aria-label", `${t("prediction")}, ${point}, x ${shown(image.x, 1)} y ${shown(image.y, 1)}`);
 }

@@ -3,7 +3,7 @@
 
 import {button, byId, node, table} from "./dom.js";
 import {edit, kKeys, state} from "./state.js";
-import {emit, on, redraw} from "./signals.js";
+import {emit, on} from "./signals.js";
 import {failures, sendNow, storeFault, unconfirmed} from "./outbox.js";
 import {t} from "./words.js";
 
@@ -44,7 +44,7 @@ function draw() {
   state.faults.forEach(one => made.push(banner("review", one.file ? `${one.file}:${one.line}: ${one.text}` : one.text,
     button(t("dismiss"), () => {
       state.faults = state.faults.filter(other => other !== one);
-      redraw();
+      emit("faults");
     }))));
   if (state.refused.length > 0) made.push(conflict(state.refused[0]));
   byId("banners").replaceChildren(...made);
@@ -78,13 +78,13 @@ const isKeyAlike = (table_, a, b) => !kKeys[table_] || !a || !b || kKeys[table_]
 const rowText = one => one ? Object.entries(one).map(([key, value]) =>
   `${key} ${Array.isArray(value) ? value.join(" ") : value}`).join(", ") : t("deleted");
 
-let isLate = true, lateTimer = 0;
+let isLate = false, lateTimer = 0;
 on("connection", () => { // a moment without a connection is not worth a banner
   clearTimeout(lateTimer);
   isLate = false;
   lateTimer = window.setTimeout(() => {
     isLate = true;
-    redraw();
+    emit("saved");
   }, 1500);
 });
 on("draw", draw);

@@ -8,7 +8,7 @@ import {listenTo} from "./gestures.js";
 import {Loupe} from "./loupe.js";
 import {drawMarks} from "./marks.js";
 import {photoOf, state} from "./state.js";
-import {redraw} from "./signals.js";
+import {emit, redraw} from "./signals.js";
 import {fetchTiles, kTile, tileIfHere, wishTile} from "./tiles.js";
 import {activePane, placeOf, ui} from "./ui.js";
 import {t} from "./words.js";
@@ -27,6 +27,12 @@ export class Pane {
     this.cursor = {x: 0, y: 0};
     this.isMoved = false;
     this.paintMs = 0;
+    this.isDrawn = false;
+    /** @type {Map<string, any>} */
+    this.markNodes = new Map();
+    this.drawings = 0;
+    this.drawn = {k: 0, tx: 0, ty: 0};
+    this.shift = {x: 0, y: 0};
     /** @type {any} */
     this.context = null;
     this.build();
@@ -46,6 +52,7 @@ export class Pane {
     this.chooser = node("select", {tabindex: -1, "aria-label": t("photo")});
     this.chooser.addEventListener("change", () => {
       this.setPhoto(photoOf(this.chooser.value) ?? null);
+      emit("selection");
       this.focus();
     });
     this.note = node("span", {class: "note"});
@@ -58,6 +65,9 @@ export class Pane {
     if (!photo || photo === this.photo) return;
     this.photo = photo;
     this.index = state.photos.indexOf(photo);
+    this.isDrawn = false;
+    this.markLayer.replaceChildren();
+    this.markNodes = new Map();
     this.cursor = {x: (photo.width - 1) / 2, y: (photo.height - 1) / 2};
     this.isMoved = false;
     this.stage.setAttribute("aria-label", t("paneLabel", {photo: photo.name}));
@@ -78,6 +88,7 @@ export class Pane {
     this.height = box.height;
     this.canvas.width = Math.round(box.width * ratio);
     this.canvas.height = Math.round(box.height * ratio);
+    this.isDrawn = false;
     this.overlay.setAttribute("viewBox", `0 0 ${box.width} ${box.height}`);
     if (this.isFitted) this.fit();
     else this.setView(this.k, this.tx + dx, this.ty + dy);
@@ -149,6 +160,13 @@ export class Pane {
     redraw();
   }
 
+  /** The crosshair stays on the point, wherever that is now. */
+  stay() {
+    const isBusy = this.isMoved || ui.tool || ui.point === null || !this.photo;
+    const place = isBusy ? null : placeOf(this.photo.name, ui.point);
+    if (place) this.cursor = place;
+  }
+
   /** The crosshair to a pixel, kept on the photo. */
   moveCursor(x, y) {
     if (!this.photo) return;
@@ -171,9 +189,25 @@ export class Pane {
     if (!this.photo) return;
     const at = this.toScreen(this.cursor.x, this.cursor.y);
     this.cross.setAttribute("transform", `translate(${at.x} ${at.y})`);
-    drawFigures(this);
-    drawMarks(this);
+    this.drawOverlay();
     this.loupe.draw();
+  }
+
+  /** Lines and marks: anew after a change or a zoom; a pan only shifts them. */
+  drawOverlay() {
+    const dx = this.tx - this.drawn.tx, dy = this.ty - this.drawn.ty;
+    const isFar = Math.abs(dx) > this.width / 2 || Math.abs(dy) > this.height / 2;
+    if (!this.isDrawn || this.k !== this.drawn.k || isFar) {
+      this.isDrawn = true;
+      this.drawings += 1;
+      this.drawn = {k: this.k, tx: this.tx, ty: this.ty};
+      drawMarks(this);
+      this.markLayer.setAttribute("transform", "translate(0 0)");
+    } else if (dx !== this.shift.x || dy !== this.shift.y) {
+      this.markLayer.setAttribute("transform", `translate(${dx} ${dy})`);
+    }
+    this.shift = {x: this.tx - this.drawn.tx, y: this.ty - this.drawn.ty};
+    drawFigures(this);
   }
 
   drawHeader() {

@@ -11,8 +11,12 @@ import {photosOf, ui} from "./ui.js";
 export function buildPanes() {
   onTiles(redraw);
   setLayout(Number(localStorage.getItem("insitu-layout")) || Math.min(state.photos.length > 2 ? 4 : state.photos.length || 1, 4));
-  on("draw", () => ui.panes.forEach(pane => pane.draw()));
+  on("draw", () => ui.panes.forEach(pane => {
+    pane.isDrawn = false;
+  }));
+  on("frame", () => ui.panes.forEach(pane => pane.draw()));
   on("selection", follow);
+  on("tables adjusted", () => ui.panes.forEach(pane => pane.stay()));
 }
 
 /** @param {number} count 1, 2 or 4 panes */
@@ -46,6 +50,16 @@ export function stepPane(step) {
   next.focus();
   live.send({focus: next.photo?.name});
   return true;
+}
+
+/** The active photo and that of the large pane change places. */
+export function enlarge() {
+  const [large] = ui.panes, pane = ui.panes[ui.active], photo = pane.photo;
+  if (pane === large || !photo) return;
+  const before = large.photo;
+  large.setPhoto(photo);
+  pane.setPhoto(before);
+  large.focus();
 }
 
 let followed = "";

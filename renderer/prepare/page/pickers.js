@@ -4,7 +4,7 @@
 import {markEdit} from "./marking.js";
 import {edit, freeName, isReadOnly, mark} from "./state.js";
 import {say} from "./notices.js";
-import {redraw} from "./signals.js";
+import {emit} from "./signals.js";
 import {placeOf, setTool, ui} from "./ui.js";
 import {t} from "./words.js";
 
@@ -68,7 +68,7 @@ export function pointTool(what) {
       made.add(name);
       photo ??= on;
       tool.pickPoint?.(name);
-      redraw();
+      emit("view");
     };
   }
   return tool;

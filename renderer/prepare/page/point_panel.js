@@ -25,8 +25,9 @@ export function buildPointPanel(root) {
     if (event.key === "Enter") goToPlace(place);
     if (event.key === "Escape") backFrom(place);
   });
-  root.replaceChildren(node("div", {class: "row"}, labelled(t("point"), name), labelled(t("goTo"), place)),
-    node("datalist", {id: "names"}), node("div", {id: "point-about"}));
+  root.replaceChildren(node("div", {class: "row", id: "point-row"}, labelled(t("point"), name), labelled(t("goTo"), place),
+    node("span", {class: "sigma"}, labelled(t("sigmaNew"), sigmaField()))),
+    node("datalist", {id: "names"}));
   on("tables site", fillNames);
   on("selection", () => {
     if (document.activeElement !== name) name.value = ui.point ?? "";
@@ -58,7 +59,8 @@ function fillNames() {
   byId("names").replaceChildren(...names.map(value => node("option", {value})));
 }
 
-export function buildMarkPanel(root) {
+/** The σ that new marks get. */
+function sigmaField() {
   const sigma = node("input", {id: "sigma-px", type: "text", inputmode: "decimal", value: String(marking.sigma)});
   sigma.addEventListener("change", () => {
     const value = parseNumber(sigma.value);
@@ -70,15 +72,19 @@ export function buildMarkPanel(root) {
     marking.sigma = value;
     localStorage.setItem("insitu-sigma", String(value));
   });
+  return sigma;
+}
+
+export function buildMarkPanel(root) {
   const on_ = (text, key, action) => button(t(text), () => {
     action();
     activePane().focus();
   }, {title: `${t(text)} (${key})`});
   root.replaceChildren(node("div", {class: "buttons"},
     button(t("confirm"), () => confirm(activePane(), false), {class: "main", id: "confirm", title: "Enter"}),
-    on_("switch", "X", toggleOff), on_("dubious", "D", toggleDubious), on_("delete", "Del", deleteMark),
+    on_("switch", "X", toggleOff), on_("doubt", "D", toggleDubious), on_("delete", "Del", deleteMark),
     on_("refine", "F", () => refine(activePane())), on_("match", "G", () => match(activePane()))),
-  labelled(t("sigmaNew"), sigma), node("div", {id: "marks-of-point"}));
+  node("div", {id: "marks-of-point"}));
 }
 
 let drawn = "";

@@ -8,7 +8,7 @@ import {edit, freeName, isReadOnly, nameFault, row, rows, state} from "./state.j
 import {shown} from "./numbers.js";
 import {say} from "./notices.js";
 import {pointTool} from "./pickers.js";
-import {redraw} from "./signals.js";
+import {emit} from "./signals.js";
 import {activePane, placeOf, setMode, setTool, ui} from "./ui.js";
 import {t} from "./words.js";
 
@@ -102,7 +102,7 @@ export function buildPolygonPanel(root) {
   const then = action => async () => {
     await action();
     activePane().focus();
-    redraw();
+    emit("view");
   };
   root.append(node("div", {class: "buttons"}, button(t("drawPolygon"), then(drawPolygon), {class: "main", title: "B"}),
     button(t("bestImage"), then(bestPhoto), {title: "I"}),

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Who wants to know of what. Signals: "tables", "adjusted", "light", "building", "todo", "history",
-// "saved", "connection", "run", "selection", "tool", "mode", "view"; "draw" once a frame after any.
+// "saved", "connection", "run", "selection", "tool", "mode", "view"; "draw" in the next frame after any of
+// them; "frame" in each, also where only a view has moved.
 
 /** @type {Map<string, ((detail?: any) => void)[]>} */
 const listeners = new Map();
-let isScheduled = false;
+let isScheduled = false, hasChanged = false;
 
 /**
  * @param {string} names separated by blanks
@@ -29,17 +30,20 @@ function tell(name, detail) {
  */
 export function emit(name, detail) {
   tell(name, detail);
+  hasChanged = true;
   redraw();
 }
 
-/** Draws in the next frame. */
+/** Moves, paints in the next frame; what is drawn stays as it is. */
 export function redraw() {
   if (isScheduled) return;
   isScheduled = true;
   const draw = () => {
     if (!isScheduled) return;
     isScheduled = false;
-    tell("draw");
+    if (hasChanged) tell("draw");
+    hasChanged = false;
+    tell("frame");
   };
   requestAnimationFrame(draw);
   if (document.hidden) setTimeout(draw, 100); // no frames come to a window in the background

@@ -2,7 +2,7 @@
 // What the person at the page is about: mode, point, panes, tool.
 
 import {indexed, live, photoOf, prediction, state} from "./state.js";
-import {emit, redraw} from "./signals.js";
+import {emit} from "./signals.js";
 import {adjustedMark, mark} from "./state.js";
 
 /**
@@ -26,7 +26,7 @@ export const ui = {
   /** @type {any[]} */ panes: [],
   active: 0,
   /** @type {Tool|null} */ tool: null,
-  arrows: 10, curves: true, predictions: true, wireframe: true, isLoupe: true,
+  arrows: 10, curves: true, predictions: true, wireframe: true, isLoupe: true, isNamed: false,
 };
 
 /** The window with the lists alone tells those with panes what was chosen in it. */
@@ -66,6 +66,7 @@ export function setMode(mode) {
 export function setTool(tool) {
   const before = ui.tool;
   ui.tool = tool;
+  for (const pane of ui.panes) pane.isMoved = false; // a place that was meant for what went before
   if (before && before !== tool) before.cancelled?.();
   emit("tool");
 }
@@ -88,7 +89,8 @@ export function placeOf(photo, point) {
 export function choosePoint(point, moves = true) {
   if (point !== null && ui.tool?.pickPoint) {
     ui.tool.pickPoint(point);
-    redraw();
+    for (const pane of ui.panes) pane.isMoved = false;
+    emit("view");
     return;
   }
   ui.point = point;

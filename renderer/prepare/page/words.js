@@ -4,7 +4,7 @@
 import {kTexts} from "./texts.js";
 
 /** @type {[string, string][]} */
-export const kLanguages = [["en", "English"], ["de", "Deutsch"]];
+export const kLanguages = [["en", "EN"], ["de", "DE"]];
 export const language = localStorage.getItem("insitu-language") ?? (navigator.language.startsWith("de") ? "de" : "en");
 
 /**
