@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Operations on their way: in memory and in the browser's store until the server has confirmed them,
+// sent in order, one after the other, and again after a failure. Each counts once, by its id.
+
+import {post} from "./api.js";
+
+/** @typedef {{table: string, before: any, after: any}} Edit */
+/** @typedef {{id: string, label: string, edits: Edit[]}} Operation */
+
+const kPrefix = "insitu-operation:";
+/** @type {Operation[]} */
+const waiting = [];
+let isSending = false, site = "", timer = 0;
+let handlers = {confirmed: (_operation, _revision) => {}, refused: (_operation, _status, _body) => {},
+  changed: () => {}};
+
+/** Operations that the server has not confirmed. */
+export const unconfirmed = () => waiting;
+/** How often sending has failed since it last succeeded. */
+export let failures = 0;
+/** Why the server keeps an operation off its disk, or "". */
+export let storeFault = "";
+
+/** A text that no other operation has. */
+export const newId = () => [...crypto.getRandomValues(new Uint8Array(12))]
+  .map(byte => byte.toString(16).padStart(2, "0")).join("");
+
+const keep = operation => {
+  try {
+    localStorage.setItem(kPrefix + operation.id, JSON.stringify({site, at: Date.now(), operation}));
+  } catch {
+    // A full or forbidden store: memory still has it.
+  }
+};
+
+/**
+ * Those that an earlier page of this site left unconfirmed.
+ * @param {string} siteFolder
+ * @param {typeof handlers} called
+ * @returns {Operation[]}
+ */
+export function openOutbox(siteFolder, called) {
+  site = siteFolder;
+  handlers = called;
+  const kept = Object.keys(localStorage).filter(key => key.startsWith(kPrefix))
+    .map(key => JSON.parse(localStorage.getItem(key) ?? "{}"))
+    .filter(one => one.site === site && !waiting.some(o => o.id === one.operation.id))
+    .sort((a, b) => a.at - b.at).map(one => one.operation);
+  waiting.push(...kept);
+  if (waiting.length > 0) sendNow();
+  return kept;
+}
+
+/** @param {Operation} operation */
+export function enqueue(operation) {
+  waiting.push(operation);
+  keep(operation);
+  handlers.changed();
+  if (failures === 0) sendNow();
+}
+
+/** @param {Operation} operation */
+function forget(operation) {
+  const place = waiting.indexOf(operation);
+  if (place >= 0) waiting.splice(place, 1);
+  localStorage.removeItem(kPrefix + operation.id);
+}
+
+/**
+ * Sends the oldest; true if the next may follow.
+ * @param {Operation} operation
+ */
+async function send(operation) {
+  const {status, body} = await post("/api/op", operation);
+  if (status === 200) {
+    forget(operation);
+    storeFault = "";
+    handlers.confirmed(operation, body.revision);
+    return true;
+  }
+  if (status === 400 || status === 409) { // wrong for ever: a person decides
+    forget(operation);
+    handlers.refused(operation, status, body);
+    return true;
+  }
+  storeFault = body.error ?? `${status}`; // 5xx: the disk is full, ...; 401: another server's token
+  return false;
+}
+
+/** Sends what waits; after a failure again in a while. */
+export async function sendNow() {
+  if (isSending) return;
+  isSending = true;
+  clearTimeout(timer);
+  try {
+    while (waiting.length > 0) {
+      if (!await send(waiting[0])) throw new Error(storeFault);
+      failures = 0;
+    }
+    failures = 0;
+  } catch {
+    failures += 1;
+    timer = window.setTimeout(sendNow, Math.min(4000, 250 * 2 ** Math.min(failures, 4)));
+  }
+  isSending = false;
+  handlers.changed();
+}
+
+/**
+ * Resolves when nothing waits any more, false after `seconds`.
+ * @param {number} seconds
+ */
+export async function emptied(seconds) {
+  for (let i = 0; i < seconds * 50; ++i) {
+    if (waiting.length === 0) return true;
+    await new Promise(done => setTimeout(done, 20));
+  }
+  return waiting.length === 0;
+}

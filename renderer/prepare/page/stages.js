@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The stages of a site as runs of their programs: begun, followed, stopped.
+
+import {ask} from "./api.js";
+import {button, byId, dialog, node} from "./dom.js";
+import {on} from "./signals.js";
+import {say} from "./notices.js";
+import {t} from "./words.js";
+
+export const kStages = ["calibrate", "tie-points", "reconstruct", "undistort", "light", "convert", "render", "montage"];
+const kMostLines = 2000;
+
+/** What the newest run has said. */
+const run = {stage: "", status: "", progress: /** @type {number|null} */ (null), lines: /** @type {string[]} */ ([])};
+
+/** @param {string} stage */
+export async function runStage(stage) {
+  Object.assign(run, {stage, status: t("running"), progress: null, lines: []});
+  showStages();
+  const answer = await ask("/api/run", {stage});
+  if (answer.error) run.status = answer.error;
+  draw();
+}
+
+export function showStages() {
+  if (byId("stage-log")) return draw();
+  const stop = button(t("stop"), async () => {
+    const answer = await ask("/api/stop", {});
+    if (answer.error) say(answer.error);
+  }, {id: "stage-stop"});
+  dialog(t("stages"), [node("div", {class: "buttons"}, ...kStages.map(stage =>
+    button(t(`stage_${stage}`), () => runStage(stage), {"data-stage": stage})), stop),
+  node("p", {}, node("output", {id: "stage-status", "aria-live": "polite"}), node("progress", {id: "stage-progress", max: "1"})),
+  node("pre", {id: "stage-log", tabindex: "0"})], t("close"));
+  draw();
+}
+
+function draw() {
+  if (!byId("stage-log")) return;
+  byId("stage-status").textContent = run.stage ? `${t(`stage_${run.stage}`)}: ${run.status}` : "";
+  const bar = byId("stage-progress");
+  bar.hidden = run.progress === null;
+  if (run.progress !== null) bar.value = run.progress;
+  const log = byId("stage-log");
+  log.textContent = run.lines.join("\n");
+  log.scrollTop = log.scrollHeight;
+}
+
+/** A share: a number from 0 to 1, or {done, total}. */
+const share = progress => typeof progress === "number" ? progress : progress?.total ? progress.done / progress.total : null;
+
+export function followRuns() {
+  on("run", message => {
+    if (message.stage) run.stage = message.stage;
+    if (message.line !== undefined) run.lines = [...run.lines.slice(1 - kMostLines), message.line];
+    if (message.progress !== undefined) run.progress = share(message.progress);
+    if (message.status !== undefined) {
+      run.status = message.status === 0 ? t("done") : typeof message.status === "number" ? t("failed", {status: message.status})
+        : String(message.status);
+      run.progress = null;
+      say(`${t(`stage_${run.stage}`)}: ${run.status}`);
+    }
+    draw();
+  });
+}

@@ -1,0 +1,310 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What the site holds: tables as the server has confirmed them, and over them what this page has done
+// since. What the server has computed from them stands beside, as it was last told.
+
+import {connectLive, getJson} from "./api.js";
+import {enqueue, newId, openOutbox, unconfirmed} from "./outbox.js";
+import {emit} from "./signals.js";
+
+/** @typedef {Record<string, any>} Row */
+/** @typedef {{name: string, width: number, height: number, levels: number, camera: string}} Photo */
+
+/** The fields by which a row is known; none: the whole row; empty: the table's only row. */
+export const kKeys = {
+  control_points: ["name"], observations: ["photo", "point"], edges: ["photo", "from", "to", "x", "y"],
+  camera_positions: ["photo"], polygons: ["name"], sun: ["shadow", "object"], zenith: ["bottom", "top"],
+  constraints: null, horizon: ["photo", "x", "y"], haze: ["photo", "x", "y"], daylight: ["photo", "x", "y"],
+  light: [], materials: ["name"], drafts: ["id"], site: [],
+};
+
+/**
+ * A row's meaning as a text: fields in order, no state being "on".
+ * @param {any} value
+ * @returns {string}
+ */
+function meaning(value) {
+  if (Array.isArray(value)) return `[${value.map(meaning).join()}]`;
+  if (value === null || typeof value !== "object") return JSON.stringify(value ?? null);
+  return `{${Object.keys(value).sort().filter(key => value[key] !== undefined && value[key] !== "" &&
+    !(key === "state" && value[key] === "on")).map(key => `${key}:${meaning(value[key])}`).join()}}`;
+}
+/**
+ * @param {Row|null|undefined} a
+ * @param {Row|null|undefined} b
+ */
+export const isSame = (a, b) => meaning(a ?? null) === meaning(b ?? null);
+
+/**
+ * @param {string} table
+ * @param {Row} row
+ */
+export function keyOf(table, row) {
+  const fields = kKeys[table];
+  return fields ? fields.map(field => String(row[field])).join("\n") : meaning(row);
+}
+
+/** @type {Record<string, Map<string, Row>>} */
+let confirmed = {};
+export const state = {
+  name: "", version: "", siteFolder: "", revision: 0, saved: 0, notSaved: "", isConnected: false,
+  isLoaded: false,
+  /** @type {Photo[]} */ photos: [],
+  /** @type {Record<string, Map<string, Row>>} */ tables: {},
+  /** @type {{table: string, file: string, line: number, text: string}[]} */ readOnly: [],
+  /** @type {{undo: string|null, redo: string|null}} */ history: {undo: null, redo: null},
+  /** @type {any[]} */ todo: [],
+  /** @type {any} */ adjusted: null,
+  /** @type {any} */ light: null,
+  /** @type {any} */ building: null,
+  /** @type {{file?: string, line?: number, text: string}[]} */ faults: [],
+  /** @type {{operation: any, conflicts: any[], error?: string}[]} */ refused: [],
+};
+/** The live connection. */
+export let live = {send: (/** @type {any} */ _message) => {}};
+
+/**
+ * @param {string} table
+ * @returns {Row[]}
+ */
+export const rows = table => [...(state.tables[table]?.values() ?? [])];
+/**
+ * The row with this key.
+ * @param {string} table
+ * @param {...any} key
+ * @returns {Row|undefined}
+ */
+export const row = (table, ...key) => state.tables[table]?.get(key.map(String).join("\n"));
+/**
+ * @param {string} photo
+ * @param {string} point
+ */
+export const mark = (photo, point) => row("observations", photo, point);
+/**
+ * @param {string} name
+ * @returns {Photo|undefined}
+ */
+export const photoOf = name => state.photos.find(photo => photo.name === name);
+/** @param {string} table */
+export const isReadOnly = table => state.readOnly.some(one => one.table === table);
+
+/**
+ * @param {Record<string, Map<string, Row>>} tables
+ * @param {import("./outbox.js").Edit[]} edits
+ */
+function applyEdits(tables, edits) {
+  for (const {table, before, after} of edits) {
+    const rowsByKey = tables[table] ??= new Map();
+    const oldKey = before && keyOf(table, before);
+    if (after && oldKey === keyOf(table, after)) rowsByKey.set(oldKey, after);
+    else {
+      if (before) rowsByKey.delete(oldKey);
+      if (after) rowsByKey.set(keyOf(table, after), after);
+    }
+  }
+}
+
+/** Tables as confirmed and what waits over them. */
+function rebuild() {
+  state.tables = Object.fromEntries(Object.entries(confirmed).map(([table, all]) => [table, new Map(all)]));
+  for (const operation of unconfirmed()) applyEdits(state.tables, operation.edits);
+  index = null;
+  emit("tables");
+}
+
+/**
+ * The edits of an operation as they came: forwards, or if the rows already are as `after` says and not as
+ * `before` does, backwards.
+ */
+function direction(edits) {
+  const stands = (edit, side) => {
+    const at = edit.before ?? edit.after;
+    return isSame(confirmed[edit.table]?.get(keyOf(edit.table, edit[side] ?? at)) ?? null, edit[side]);
+  };
+  const isDone = edits.every(edit => stands(edit, "after")) && !edits.every(edit => stands(edit, "before"));
+  return isDone ? edits.map(edit => ({...edit, before: edit.after, after: edit.before})).reverse() : edits;
+}
+
+const seen = new Set(); // ids of edits that `confirmed` holds
+
+/** @param {any} message */
+function takeOperation(message) {
+  const {operation, kind, revision} = message;
+  const isKnown = kind === "edit" && operation.id && seen.has(operation.id);
+  if (!isKnown && revision > base) {
+    applyEdits(confirmed, kind === "undo" ? direction(operation.edits) : operation.edits);
+    if (kind === "edit") seen.add(operation.id);
+  }
+  if (message.history) state.history = message.history;
+  if (message.todo) state.todo = message.todo;
+  state.revision = Math.max(state.revision, revision);
+  rebuild();
+  emit("history");
+  emit("todo");
+}
+let base = 0; // the revision of the tables as they were loaded
+
+/** What the adjustment found, unless it is of an older state than what is shown. */
+function takeAdjusted(message) {
+  if (message && state.adjusted && message.revision < state.adjusted.revision) return;
+  state.adjusted = message;
+  index = null;
+  emit("adjusted");
+}
+
+const takers = {
+  op: takeOperation,
+  saved: message => {
+    state.saved = Math.max(state.saved, message.revision);
+    state.notSaved = "";
+    emit("saved");
+  },
+  not_saved: message => {
+    state.notSaved = message.text;
+    emit("saved");
+  },
+  adjusted: takeAdjusted,
+  light: message => {
+    state.light = message;
+    emit("light");
+  },
+  building: message => {
+    state.building = message;
+    emit("building");
+  },
+  run: message => emit("run", message),
+  fault: message => {
+    state.faults = [...state.faults.slice(-20), message];
+    emit("faults");
+  },
+  outside: message => {
+    state.faults = [...state.faults.slice(-20), message];
+    emit("faults");
+  },
+};
+
+/** Everything from the server; what waits here stays on top. */
+async function load() {
+  const site = await getJson("/api/site");
+  confirmed = Object.fromEntries(Object.keys(kKeys).map(table => [table,
+    new Map((site.tables[table] ?? []).map(one => [keyOf(table, one), one]))]));
+  seen.clear();
+  Object.assign(state, {name: site.name, version: site.version, siteFolder: site.site_folder,
+    photos: site.photos, readOnly: site.read_only ?? [], history: site.history, saved: site.saved,
+    revision: site.revision, todo: site.todo ?? [], light: site.light, adjusted: site.adjusted,
+    building: site.building ?? state.building, isLoaded: true});
+  base = site.revision;
+  rebuild();
+  for (const signal of ["site", "history", "todo", "adjusted", "light", "saved"]) emit(signal);
+}
+
+/** The first load; then the live connection, which loads again each time it comes back. */
+export async function start() {
+  await load();
+  openOutbox(state.siteFolder, {
+    confirmed: (operation, revision) => {
+      if (!seen.has(operation.id)) applyEdits(confirmed, operation.edits);
+      seen.add(operation.id);
+      state.revision = Math.max(state.revision, revision ?? 0);
+      rebuild();
+      emit("saved");
+    },
+    refused: (operation, status, body) => {
+      state.refused.push({operation, conflicts: status === 409 ? body.conflicts ?? [] : [], error: body.error});
+      for (const {table, before, current} of body.conflicts ?? []) {
+        applyEdits(confirmed, [{table, before: before ?? current, after: current}]);
+      }
+      rebuild();
+      emit("refused");
+    },
+    changed: () => emit("saved"),
+  });
+  rebuild();
+  let isFirst = true;
+  live = connectLive(message => takers[message.type]?.(message), isOpen => {
+    state.isConnected = isOpen;
+    if (isOpen && !isFirst) load().catch(() => {});
+    isFirst = false;
+    emit("connection");
+  });
+}
+
+/**
+ * Does something: at once on this page, then at the server.
+ * @param {string} label
+ * @param {import("./outbox.js").Edit[]} edits
+ */
+export function edit(label, edits) {
+  const changes = edits.filter(one => !isSame(one.before, one.after));
+  if (changes.length === 0) return;
+  const operation = {id: newId(), label,
+    edits: changes.map(one => ({table: one.table, before: one.before ?? null, after: one.after ?? null}))};
+  applyEdits(state.tables, operation.edits);
+  index = null;
+  enqueue(operation);
+  emit("tables");
+}
+
+// Derived: made when asked for after a change.
+/** @type {ReturnType<typeof makeIndex>|null} */
+let index = null;
+export const indexed = () => index ??= makeIndex();
+
+/** Marks and statistics by point, roles, who names a point. */
+function makeIndex() {
+  /** @type {Map<string, {name: string, kind: string, marks: Row[], w: number|null, redundancy: number|null}>} */
+  const points = new Map();
+  const want = (name, kind) => {
+    const known = points.get(name);
+    if (!known) points.set(name, {name, kind, marks: [], w: null, redundancy: null});
+    else if (kind !== "tie" && known.kind === "tie") known.kind = kind;
+    return /** @type {any} */ (points.get(name));
+  };
+  for (const one of rows("control_points")) want(one.name, one.role === "check" ? "check" : "control");
+  for (const polygon of rows("polygons")) for (const name of polygon.vertices) want(name, "vertex");
+  for (const one of rows("sun")) [one.object, one.shadow].forEach(name => want(name, "vertex"));
+  for (const one of rows("zenith")) [one.bottom, one.top].forEach(name => want(name, "vertex"));
+  for (const one of rows("observations")) want(one.point, "tie").marks.push(one);
+  const adjusted = new Map();
+  for (const one of state.adjusted?.marks ?? []) {
+    adjusted.set(`${one.photo}\n${one.point}`, one);
+    const point = points.get(one.point);
+    if (!point) continue;
+    if (one.w !== null) point.w = Math.max(point.w ?? 0, Math.abs(one.w));
+    point.redundancy = Math.min(point.redundancy ?? 1, one.r ?? 0);
+  }
+  return {points, adjusted};
+}
+
+/**
+ * What the adjustment says of a mark.
+ * @param {string} photo
+ * @param {string} point
+ */
+export const adjustedMark = (photo, point) => indexed().adjusted.get(`${photo}\n${point}`);
+/**
+ * Where a point should be on a photo.
+ * @param {string} photo
+ * @param {string} point
+ */
+export const prediction = (photo, point) => state.adjusted?.points?.[point]?.images?.[photo];
+/** @param {string} point */
+export const kindOf = point => indexed().points.get(point)?.kind ?? "tie";
+/**
+ * Marks of a point that count.
+ * @param {string} point
+ */
+export const raysOf = point => (indexed().points.get(point)?.marks ?? []).filter(one => one.state !== "off").length;
+
+/**
+ * A name that nothing has: the stem and the next number.
+ * @param {string} stem
+ */
+export function freeName(stem) {
+  const taken = stem === "polygon_" ? new Set(rows("polygons").map(one => one.name)) : indexed().points;
+  for (let i = 1; ; ++i) if (!taken.has(`${stem}${i}`)) return `${stem}${i}`;
+}
+/**
+ * Why a name cannot be in the files, or "".
+ * @param {string} name
+ */
+export const nameFault = name => /^$|^\s|\s$|^#|,|["\n\r\t]/.test(name) ? "badName" : "";

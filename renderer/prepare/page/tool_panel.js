@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The panel beside the panes: what is always there, and the mode's own part.
+
+import {button, byId, node} from "./dom.js";
+import {on} from "./signals.js";
+import {buildMarkPanel, buildPointPanel, updateMarkPanel} from "./point_panel.js";
+import {buildPolygonPanel, updatePolygonPanel} from "./polygon_tool.js";
+import {buildDirectionPanel, updateDirectionPanel} from "./directions.js";
+import {buildLightPanel, updateLightPanel} from "./light_panel.js";
+import {setTool, ui} from "./ui.js";
+import {t} from "./words.js";
+
+/** @type {Record<string, [(root: any) => void, () => void]>} */
+const kParts = {control: [buildMarkPanel, updateMarkPanel], polygons: [buildPolygonPanel, updatePolygonPanel],
+  sun: [buildDirectionPanel, updateDirectionPanel], light: [buildLightPanel, updateLightPanel]};
+
+export function buildToolPanel() {
+  const always = node("div"), hint = node("p", {class: "hint", hidden: true}), part = node("div", {id: "mode-part"});
+  byId("tool").replaceChildren(always, hint, part);
+  buildPointPanel(always);
+  const build = () => {
+    part.replaceChildren();
+    kParts[ui.mode][0](part);
+    kParts[ui.mode][1]();
+  };
+  on("mode", build);
+  on("draw", () => {
+    kParts[ui.mode][1]();
+    const text = ui.tool ? `${t(ui.tool.name)}: ${ui.tool.hint()}` : "";
+    if (hint.dataset.text === text) return;
+    hint.dataset.text = text;
+    hint.hidden = text === "";
+    hint.replaceChildren(node("span", {text}), button(t("cancel"), () => setTool(null)));
+  });
+  build();
+}
