@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "reconstruction/adjustment/adjust.h"
 
-#include <ceres/sphere_manifold.h>
-
 #include <algorithm>
 #include <cmath>
 #include <set>
@@ -11,35 +9,15 @@
 #include "calibration/files/error.h"
 #include "calibration/files/wording.h"
 #include "reconstruction/adjustment/adjusted_observations.h"
+#include "reconstruction/adjustment/adjusted_scene.h"
 #include "reconstruction/adjustment/adjusted_unknowns.h"
 #include "reconstruction/adjustment/planarity.h"
 #include "reconstruction/adjustment/plane_effect.h"
-#include "reconstruction/adjustment/polygon_covariance.h"
-#include "reconstruction/adjustment/solution_errors.h"
+#include "reconstruction/adjustment/solve_survey.h"
 #include "reconstruction/diagnosis/survey_diagnosis.h"
-#include "reconstruction/geometry/plane.h"
 
 namespace insitu {
 namespace {
-
-void CompareWithSurvey(const Survey& survey, Adjustment* adjustment) {
-  std::map<std::string, const AdjustedPoint*> adjusted;
-  for (const AdjustedPoint& point : adjustment->points) adjusted[point.name] = &point;
-  for (const ControlPoint& surveyed : survey.control_points) {
-    const auto point = adjusted.find(surveyed.name);
-    if (point == adjusted.end()) continue;
-    PointComparison comparison{surveyed.name,  point->second->position - surveyed.position,
-                               surveyed.sigma, surveyed.position,
-                               surveyed.sigma, point->second->covariance.diagonal().cwiseSqrt()};
-    if (surveyed.role == ControlRole::kControl) {
-      adjustment->control.push_back(comparison);
-      continue;
-    }
-    const Eigen::Array3d variance = point->second->covariance.diagonal();
-    comparison.sigma = (surveyed.sigma.array().square() + variance).sqrt();
-    adjustment->check.push_back(comparison);
-  }
-}
 
 // Root mean square of differences over their sigmas.
 double RmsOverSigma(const std::vector<PointComparison>& comparisons) {
@@ -48,87 +26,6 @@ double RmsOverSigma(const std::vector<PointComparison>& comparisons) {
     squares += point.difference.cwiseQuotient(point.sigma).squaredNorm();
   }
   return comparisons.empty() ? 0 : std::sqrt(squares / (3.0 * comparisons.size()));
-}
-
-Direction AdjustedDirection(const SurveyNetwork& survey_network, const NetworkSolution& solution,
-                            int index) {
-  const NetworkDirection& direction = survey_network.network.directions[index];
-  const std::optional<int> column = solution.columns.direction[index];
-  if (!column) return {direction.unit, Eigen::Matrix3d::Zero()};
-  Eigen::Matrix<double, 3, 2, Eigen::RowMajor> unit_from_tangent;
-  ceres::SphereManifold<3>().PlusJacobian(direction.unit.data(), unit_from_tangent.data());
-  return {direction.unit, unit_from_tangent *
-                              Covariance(survey_network.network, solution, *column, 2, *column, 2) *
-                              unit_from_tangent.transpose()};
-}
-
-std::vector<Polygon> AdjustedPolygons(const Survey& survey, const SurveyNetwork& survey_network) {
-  const Network& network = survey_network.network;
-  std::vector<Polygon> polygons;
-  for (const PolygonOutline& outline : survey.polygons) {
-    Polygon polygon;
-    polygon.name = outline.name;
-    polygon.material = outline.material;
-    for (const std::string& vertex : outline.vertices) {
-      polygon.vertices.push_back(network.points[survey_network.index_of_point.at(vertex)].position +
-                                 network.origin);
-    }
-    if (outline.photo) {
-      const auto photo = survey_network.index_of_photo.find(*outline.photo);
-      if (photo != survey_network.index_of_photo.end()) polygon.photo = photo->second;
-    }
-    const Eigen::Vector3d newell = OutlineNormal(polygon.vertices);
-    const auto plane = survey_network.index_of_plane.find(outline.name);
-    polygon.normal = plane == survey_network.index_of_plane.end()
-                         ? newell
-                         : network.planes[plane->second].normal;
-    if (polygon.normal.dot(newell) < 0) polygon.normal = -polygon.normal;
-    polygons.push_back(std::move(polygon));
-  }
-  return polygons;
-}
-
-// The median posterior sigma of the coordinates of the polygons' vertices [m].
-double MedianVertexSigma(const Survey& survey, const std::vector<AdjustedPoint>& points) {
-  std::set<std::string> vertices;
-  for (const PolygonOutline& polygon : survey.polygons) {
-    vertices.insert(polygon.vertices.begin(), polygon.vertices.end());
-  }
-  std::vector<double> sigmas;
-  for (const AdjustedPoint& point : points) {
-    if (!vertices.contains(point.name)) continue;
-    for (int axis = 0; axis < 3; ++axis) {
-      sigmas.push_back(std::sqrt(point.covariance(axis, axis)));
-    }
-  }
-  if (sigmas.empty()) return 0;
-  const auto middle = sigmas.begin() + static_cast<std::ptrdiff_t>(sigmas.size() / 2);
-  std::nth_element(sigmas.begin(), middle, sigmas.end());
-  return *middle;
-}
-
-SceneGeometry AdjustedScene(const Survey& survey, const SurveyNetwork& survey_network,
-                            const NetworkSolution& solution, const Adjustment& adjustment) {
-  const Network& network = survey_network.network;
-  SceneGeometry scene;
-  scene.origin = network.origin;
-  for (size_t i = 0; i < network.photos.size(); ++i) {
-    const NetworkPhoto& photo = network.photos[i];
-    scene.cameras.push_back({photo.name, std::get<Camera>(network.cameras[photo.camera].lens),
-                             adjustment.poses[i].cam_from_world});
-  }
-  scene.camera_covariances = CameraCovariances(network, solution);
-  scene.polygons = AdjustedPolygons(survey, survey_network);
-  std::vector<Eigen::MatrixXd> covariances = PolygonCovariances(survey, survey_network, solution);
-  for (size_t i = 0; i < covariances.size(); ++i) {
-    scene.polygons[i].covariance = std::move(covariances[i]);
-  }
-  if (survey_network.sun) {
-    scene.sun = AdjustedDirection(survey_network, solution, *survey_network.sun);
-  }
-  scene.zenith = AdjustedDirection(survey_network, solution, *survey_network.zenith);
-  scene.vertex_sigma = MedianVertexSigma(survey, adjustment.points);
-  return scene;
 }
 
 std::map<std::string, StartPoint> JudgedPoints(const std::vector<AdjustedPoint>& points) {
@@ -214,16 +111,6 @@ std::map<std::string, int> CountUnknowns(const Network& network, const NetworkCo
   return counts;
 }
 
-NetworkSolution Solve(const Survey& survey, SurveyNetwork* survey_network) {
-  try {
-    return SolveNetwork(&survey_network->network);
-  } catch (const NoSolution& failure) {
-    throw NoSolutionError(failure, survey_network->network, survey);
-  } catch (const RankDefect& defect) {
-    throw RankDefectError(defect, *survey_network, survey);
-  }
-}
-
 // Start values of a survey that does not contradict itself, with what looks odd in it nevertheless.
 struct SoundStart {
   StartValues values;
@@ -265,8 +152,7 @@ Adjustment Adjust(const Survey& survey, const std::vector<std::string>& photos,
   INSITU_CHECK(lenses.empty() || lenses.size() == photos.size());
   const SoundStart start =
       FindSoundStart(survey, photos, cameras, initial_cam_from_world, options.plane_sigma);
-  SurveyNetwork survey_network = MakeSurveyNetwork(survey, start.values, lenses, options);
-  const NetworkSolution solution = Solve(survey, &survey_network);
+  const auto [survey_network, solution] = SolveSurvey(survey, start.values, lenses, options);
   const Network& network = survey_network.network;
 
   Adjustment adjustment;

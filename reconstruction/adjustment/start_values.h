@@ -48,4 +48,7 @@ StartValues FindStartValues(const Survey& survey, const std::vector<std::string>
                             const std::vector<Camera>& cameras,
                             const std::map<std::string, Rigid3>& initial_cam_from_world = {});
 
+// Where the marks stand, for faults that none of them is to blame for.
+FilePlace FileOfObservations(const Survey& survey);
+
 }  // namespace insitu

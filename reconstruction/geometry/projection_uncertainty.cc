@@ -9,10 +9,12 @@
 #include "calibration/files/error.h"
 
 namespace insitu {
+namespace {
 
-std::optional<ImageUncertainty> ProjectWithUncertainty(const PosedCamera& posed,
-                                                       const Eigen::MatrixXd& covariance,
-                                                       const Eigen::Vector3d& world) {
+std::optional<ImageUncertainty> ProjectBoth(const PosedCamera& posed,
+                                            const Eigen::MatrixXd& covariance,
+                                            const Eigen::Vector3d& world,
+                                            const PointUncertainty* uncertain) {
   const Camera& camera = posed.camera;
   const auto intrinsics = static_cast<Eigen::Index>(camera.intrinsics().size());
   INSITU_CHECK(covariance.rows() == covariance.cols());
@@ -35,6 +37,14 @@ std::optional<ImageUncertainty> ProjectWithUncertainty(const PosedCamera& posed,
   ImageUncertainty result;
   result.pixel = *pixel;
   result.covariance_px = jacobian * covariance * jacobian.transpose();
+  if (uncertain != nullptr) {
+    const Eigen::Matrix<double, 2, 3> by_world = by_point * cam_from_world;
+    result.covariance_px += by_world * uncertain->covariance * by_world.transpose();
+    if (uncertain->with_camera.size() > 0) {
+      const Eigen::Matrix2d common = by_world * uncertain->with_camera * jacobian.transpose();
+      result.covariance_px += common + common.transpose();
+    }
+  }
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes(result.covariance_px);
   const Eigen::Vector2d variances = axes.eigenvalues().cwiseMax(0);
   result.minor_px = std::sqrt(variances[0]);
@@ -47,6 +57,21 @@ std::optional<ImageUncertainty> ProjectWithUncertainty(const PosedCamera& posed,
       std::max(0.0, Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(across, Eigen::EigenvaluesOnly)
                         .eigenvalues()[2]));
   return result;
+}
+
+}  // namespace
+
+std::optional<ImageUncertainty> ProjectWithUncertainty(const PosedCamera& posed,
+                                                       const Eigen::MatrixXd& covariance,
+                                                       const Eigen::Vector3d& world) {
+  return ProjectBoth(posed, covariance, world, nullptr);
+}
+
+std::optional<ImageUncertainty> ProjectWithUncertainty(const PosedCamera& posed,
+                                                       const Eigen::MatrixXd& covariance,
+                                                       const Eigen::Vector3d& world,
+                                                       const PointUncertainty& point) {
+  return ProjectBoth(posed, covariance, world, &point);
 }
 
 }  // namespace insitu

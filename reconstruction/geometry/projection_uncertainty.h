@@ -24,4 +24,17 @@ std::optional<ImageUncertainty> ProjectWithUncertainty(const PosedCamera& camera
                                                        const Eigen::MatrixXd& covariance,
                                                        const Eigen::Vector3d& world);
 
+// What is known of a point that was adjusted together with the camera.
+struct PointUncertainty {
+  Eigen::Matrix3d covariance;   // [m^2]
+  Eigen::MatrixXd with_camera;  // 3 x n, against the camera's `covariance`; empty: independent
+};
+
+// The same of a point that is itself not exactly known: J_p C_p J_p^T + J_c C_c J_c^T and what both
+// have in common.
+std::optional<ImageUncertainty> ProjectWithUncertainty(const PosedCamera& camera,
+                                                       const Eigen::MatrixXd& covariance,
+                                                       const Eigen::Vector3d& world,
+                                                       const PointUncertainty& point);
+
 }  // namespace insitu

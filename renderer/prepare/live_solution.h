@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What the marks made so far say: the message `adjusted` to the page.
+#pragma once
+
+#include <json/value.h>
+
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "calibration/lens/camera.h"
+#include "calibration/lens/rigid3.h"
+#include "reconstruction/adjustment/adjustment_options.h"
+#include "reconstruction/adjustment/photo_lens.h"
+#include "reconstruction/adjustment/solve_survey.h"
+#include "reconstruction/geometry/scene_geometry.h"
+#include "reconstruction/geometry/solar_position.h"
+#include "reconstruction/survey/survey.h"
+
+namespace insitu {
+
+// A photograph with its lens, if that is known yet.
+struct LivePhoto {
+  std::string name;
+  std::optional<Camera> camera;
+  PhotoLens lens = {};
+  std::string no_lens_because = {};  // where there is no camera: what to do
+};
+
+// What the almanac needs, of site.json.
+struct LiveSite {
+  GeographicPlace place;
+  Eigen::Vector3d true_north;        // unit, world
+  std::optional<double> julian_day;  // UTC; nullopt: no time, or none that says its offset
+};
+
+struct LiveInput {
+  Survey survey;
+  std::vector<LivePhoto> photos;
+  AdjustmentOptions options = {};
+  std::map<std::string, Rigid3> last_poses = {};  // of the last LiveResult
+  std::optional<LiveSite> site = {};
+};
+
+struct LiveResult {
+  Json::Value message;                         // without type and revision
+  std::vector<PosedCamera> cameras;            // oriented photos only
+  std::map<std::string, Rigid3> poses;         // of these, for the next time
+  std::optional<SceneGeometry> scene;          // as the adjustment hands it on; nullopt likewise
+  std::shared_ptr<const SolvedSurvey> solved;  // for derived_quantity.h; null: nothing is adjusted
+};
+
+// Adjusts what is determined and tells what is not, and why. Throws nothing for any survey that
+// ReadSurvey returns: contradictions are `failed`, `left_out` and `diagnoses`.
+LiveResult SolveLive(const LiveInput& input);
+
+// The message alone.
+Json::Value LiveSolution(const LiveInput& input);
+
+}  // namespace insitu
