@@ -45,10 +45,25 @@ export class Pane {
     this.canvas = node("canvas");
     this.figures = svg("g", {class: "figures"});
     this.markLayer = svg("g", {class: "marks"});
-    this.cross = svg("g", {class: "crosshair"}, svg("path", {class: "casing", d: kCross}),
-      svg("path", {d: kCross}));
-    this.overlay = svg("svg", {class: "overlay", "aria-hidden": false}, this.figures, this.markLayer, this.cross);
-    this.stage = node("div", {class: "stage", tabindex: 0, role: "application"}, this.canvas, this.overlay);
+    this.cross = svg(
+      "g",
+      {class: "crosshair"},
+      svg("path", {class: "casing", d: kCross}),
+      svg("path", {d: kCross})
+    );
+    this.overlay = svg(
+      "svg",
+      {class: "overlay", "aria-hidden": false},
+      this.figures,
+      this.markLayer,
+      this.cross
+    );
+    this.stage = node(
+      "div",
+      {class: "stage", tabindex: 0, role: "application"},
+      this.canvas,
+      this.overlay
+    );
     this.chooser = node("select", {tabindex: -1, "aria-label": t("photo")});
     this.chooser.addEventListener("change", () => {
       this.setPhoto(photoOf(this.chooser.value) ?? null);
@@ -56,8 +71,12 @@ export class Pane {
       this.focus();
     });
     this.note = node("span", {class: "note"});
-    this.root = node("section", {class: "pane"},
-      node("header", {}, this.chooser, this.note), this.stage);
+    this.root = node(
+      "section",
+      {class: "pane"},
+      node("header", {}, this.chooser, this.note),
+      this.stage
+    );
   }
 
   /** @param {import("./state.js").Photo|null} photo */
@@ -81,9 +100,11 @@ export class Pane {
   }
 
   resize() {
-    const box = this.stage.getBoundingClientRect(), ratio = devicePixelRatio;
+    const box = this.stage.getBoundingClientRect(),
+      ratio = devicePixelRatio;
     if (box.width === 0) return;
-    const dx = (box.width - (this.width ?? box.width)) / 2, dy = (box.height - (this.height ?? box.height)) / 2;
+    const dx = (box.width - (this.width ?? box.width)) / 2,
+      dy = (box.height - (this.height ?? box.height)) / 2;
     this.width = box.width;
     this.height = box.height;
     this.canvas.width = Math.round(box.width * ratio);
@@ -97,7 +118,8 @@ export class Pane {
 
   /** The view: t on whole device pixels, so that at whole k every pixel is a sharp square. */
   setView(k, tx, ty) {
-    const ratio = devicePixelRatio, snap = value => Math.round(value * ratio) / ratio;
+    const ratio = devicePixelRatio,
+      snap = value => Math.round(value * ratio) / ratio;
     this.k = clamp(k, this.fitScale() / 4, 64);
     this.tx = snap(tx);
     this.ty = snap(ty);
@@ -134,7 +156,11 @@ export class Pane {
   /** Pixel (x, y) to the middle of the pane. */
   centre(x, y) {
     this.isFitted = false;
-    this.setView(this.k, (this.width ?? 0) / 2 - this.k * (x + 0.5), (this.height ?? 0) / 2 - this.k * (y + 0.5));
+    this.setView(
+      this.k,
+      (this.width ?? 0) / 2 - this.k * (x + 0.5),
+      (this.height ?? 0) / 2 - this.k * (y + 0.5)
+    );
   }
 
   toScreen(x, y) {
@@ -146,7 +172,13 @@ export class Pane {
   }
 
   isInFrame(x, y) {
-    return this.photo !== null && x >= -0.5 && y >= -0.5 && x <= this.photo.width - 0.5 && y <= this.photo.height - 0.5;
+    return (
+      this.photo !== null &&
+      x >= -0.5 &&
+      y >= -0.5 &&
+      x <= this.photo.width - 0.5 &&
+      y <= this.photo.height - 0.5
+    );
   }
 
   /** The crosshair to a point, if its place is known; the view along, if asked. */
@@ -170,7 +202,10 @@ export class Pane {
   /** The crosshair to a pixel, kept on the photo. */
   moveCursor(x, y) {
     if (!this.photo) return;
-    this.cursor = {x: clamp(x, -0.5, this.photo.width - 0.5), y: clamp(y, -0.5, this.photo.height - 0.5)};
+    this.cursor = {
+      x: clamp(x, -0.5, this.photo.width - 0.5),
+      y: clamp(y, -0.5, this.photo.height - 0.5)
+    };
     this.isMoved = true;
     this.reveal();
     redraw();
@@ -178,8 +213,13 @@ export class Pane {
 
   /** Pans if the crosshair is out of sight. */
   reveal() {
-    const at = this.toScreen(this.cursor.x, this.cursor.y), edge = 24;
-    if (!this.width || (at.x >= edge && at.y >= edge && at.x <= this.width - edge && at.y <= this.height - edge)) return;
+    const at = this.toScreen(this.cursor.x, this.cursor.y),
+      edge = 24;
+    if (
+      !this.width ||
+      (at.x >= edge && at.y >= edge && at.x <= this.width - edge && at.y <= this.height - edge)
+    )
+      return;
     if (!this.isFitted) this.centre(this.cursor.x, this.cursor.y);
   }
 
@@ -195,7 +235,8 @@ export class Pane {
 
   /** Lines and marks: anew after a change or a zoom; a pan only shifts them. */
   drawOverlay() {
-    const dx = this.tx - this.drawn.tx, dy = this.ty - this.drawn.ty;
+    const dx = this.tx - this.drawn.tx,
+      dy = this.ty - this.drawn.ty;
     const isFar = Math.abs(dx) > this.width / 2 || Math.abs(dy) > this.height / 2;
     if (!this.isDrawn || this.k !== this.drawn.k || isFar) {
       this.isDrawn = true;
@@ -218,17 +259,21 @@ export class Pane {
     }
     this.chooser.value = this.photo?.name ?? "";
     const about = state.adjusted?.photos?.[this.photo?.name ?? ""];
-    this.note.textContent = !this.photo ? "" : noteOf(this.photo.name, about) +
-      `  ${Math.round(100 * this.k * devicePixelRatio)} %`;
+    this.note.textContent = !this.photo
+      ? ""
+      : noteOf(this.photo.name, about) +
+        `  ${Math.round(100 * this.k * devicePixelRatio)} %${ui.arrows ? `  v × ${ui.arrows}` : ""}`;
   }
 
   paint() {
-    const begin = performance.now(), ratio = devicePixelRatio;
-    const context = this.context ??= this.canvas.getContext("2d", {alpha: false});
+    const begin = performance.now(),
+      ratio = devicePixelRatio;
+    const context = (this.context ??= this.canvas.getContext("2d", {alpha: false}));
     context.setTransform(1, 0, 0, 1, 0, 0);
     context.fillStyle = "#15191c";
     context.fillRect(0, 0, this.canvas.width, this.canvas.height);
-    if (this.photo && this.width) this.paintTiles(context, this.k * ratio, this.tx * ratio, this.ty * ratio);
+    if (this.photo && this.width)
+      this.paintTiles(context, this.k * ratio, this.tx * ratio, this.ty * ratio);
     fetchTiles();
     this.paintMs = performance.now() - begin;
   }
@@ -236,14 +281,20 @@ export class Pane {
   /** All in device pixels. */
   paintTiles(context, k, tx, ty) {
     const {width, height, levels} = /** @type {any} */ (this.photo);
-    const level = clamp(Math.floor(-Math.log2(k) + 1e-6), 0, levels - 1), side = kTile * 2 ** level;
+    const level = clamp(Math.floor(-Math.log2(k) + 1e-6), 0, levels - 1),
+      side = kTile * 2 ** level;
     context.imageSmoothingEnabled = k < 1;
     context.save();
     context.beginPath();
-    context.rect(Math.round(tx), Math.round(ty), Math.round(k * width + tx) - Math.round(tx),
-      Math.round(k * height + ty) - Math.round(ty));
+    context.rect(
+      Math.round(tx),
+      Math.round(ty),
+      Math.round(k * width + tx) - Math.round(tx),
+      Math.round(k * height + ty) - Math.round(ty)
+    );
     context.clip();
-    const last = (extent, shift, size) => Math.min(Math.floor((extent - shift) / k / side), Math.ceil(size / side) - 1);
+    const last = (extent, shift, size) =>
+      Math.min(Math.floor((extent - shift) / k / side), Math.ceil(size / side) - 1);
     const first = shift => Math.max(0, Math.floor(-shift / k / side));
     wishTile(this.index, levels - 1, 0, 0); // the overview, which is shown until finer tiles are here
     for (let y = first(ty); y <= last(this.canvas.height, ty, height); ++y) {
@@ -256,15 +307,26 @@ export class Pane {
 
   /** A tile, or until it is here its part of a coarser one. */
   paintTile(context, {level, x, y}, size, tx, ty) {
-    const left = Math.round(tx + x * size), right = Math.round(tx + (x + 1) * size);
-    const top = Math.round(ty + y * size), bottom = Math.round(ty + (y + 1) * size);
+    const left = Math.round(tx + x * size),
+      right = Math.round(tx + (x + 1) * size);
+    const top = Math.round(ty + y * size),
+      bottom = Math.round(ty + (y + 1) * size);
     for (let up = 0; level + up < /** @type {any} */ (this.photo).levels; ++up) {
       const tile = tileIfHere(this.index, level + up, x >> up, y >> up);
       if (up === 0 && !tile) wishTile(this.index, level, x, y);
       if (!tile) continue;
       const part = kTile / 2 ** up;
-      context.drawImage(tile, (x - ((x >> up) << up)) * part, (y - ((y >> up) << up)) * part, part, part,
-        left, top, right - left, bottom - top);
+      context.drawImage(
+        tile,
+        (x - ((x >> up) << up)) * part,
+        (y - ((y >> up) << up)) * part,
+        part,
+        part,
+        left,
+        top,
+        right - left,
+        bottom - top
+      );
       return;
     }
   }
@@ -277,4 +339,3 @@ function noteOf(name, about) {
   if (!about.oriented) return about.why || t("notOriented");
   return t("orientedNote", {rms: about.rms_px === undefined ? "–" : about.rms_px.toFixed(2)});
 }
-
