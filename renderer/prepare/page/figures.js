@@ -15,12 +15,14 @@ const path = (line, isClosed = false) =>
  * @param {any} pane
  */
 export function drawFigures(pane) {
-  const {k, tx, ty, figures} = pane,
+  const {k, tx, ty} = pane.drawn,
+    figures = pane.figures,
     photo = pane.photo.name;
   const transform = `matrix(${k} 0 0 ${k} ${tx + k / 2} ${ty + k / 2})`;
   if (figures.placed !== transform) figures.setAttribute("transform", (figures.placed = transform));
-  if (figures.seen === pane.drawings && !ui.tool?.outline && figures.k === k) return;
-  figures.seen = pane.drawings;
+  const isSame = figures.seen === pane.changes && (figures.k === k || !figures.hasLabels);
+  if (isSame && !ui.tool?.outline) return;
+  figures.seen = pane.changes;
   const shapes = [
     ...polygons(photo),
     ...building(photo),
@@ -31,7 +33,8 @@ export function drawFigures(pane) {
     ...drawing(photo, pane)
   ];
   const signature = shapes.map(shape => `${shape.class}|${shape.d}`).join("\n");
-  if (figures.signature === signature && figures.k === k) return;
+  figures.hasLabels = shapes.some(shape => shape.label);
+  if (figures.signature === signature && (figures.k === k || !figures.hasLabels)) return;
   figures.signature = signature;
   figures.k = k;
   figures.replaceChildren(

@@ -30,7 +30,7 @@ export function drawMarks(pane) {
     if (!nodes.has(key)) pane.markLayer.append(nodes.set(key, make()).get(key));
     update(nodes.get(key));
   };
-  const {width, height} = pane; // a pan of half of them shows what was outside
+  const {width, height} = pane; // the layer is twice as large
   const isNear = at => at.x > -width && at.y > -height && at.x < 2 * width && at.y < 2 * height;
   for (const [point, about] of Object.entries(state.adjusted?.points ?? {})) {
     const image = about.images?.[photo];
@@ -40,7 +40,7 @@ export function drawMarks(pane) {
       draw(
         `?${point}`,
         () => makePrediction(point, photo),
-        made => updatePrediction(made, point, image, at, pane.k)
+        made => updatePrediction(made, point, image, at, pane)
       );
   }
   for (const one of rows("observations")) {
@@ -51,7 +51,7 @@ export function drawMarks(pane) {
       draw(
         one.point,
         () => makeMark(one.point, photo),
-        made => updateMark(made, one, at, pane.k)
+        made => updateMark(made, one, at, pane)
       );
   }
   const proposal = ui.point === null ? undefined : proposalFor(photo, ui.point);
@@ -108,24 +108,35 @@ const makeMark = (point, photo) =>
     svg("text", {x: 11, y: -7})
   );
 
-function updateMark(made, one, at, k) {
-  const about = adjustedMark(one.photo, one.point),
-    kind = kindOf(one.point),
-    isOff = one.state === "off";
-  const level = isOff ? "off" : grade(about?.w),
-    isCurrent = one.point === ui.point;
+function updateMark(made, one, at, {k, changes}) {
   put(made, at);
-  keep(made, "class", `mark ${kind} ${level} ${one.state ?? "on"}${isCurrent ? " current" : ""}`);
-  const shape = (kShapes[kind] ?? kShapes.tie) + (isOff ? kOff : "");
+  if (made.changes !== changes) describeMark(made, one);
+  made.changes = changes;
+  const {about, isOff, isCurrent, signs} = made.told;
   const arrow =
     about && ui.arrows && !isOff ? arrowPath(about.vx * ui.arrows * k, about.vy * ui.arrows * k) : "";
-  [arrow, arrow, shape, shape].forEach((d, i) => keep(made.childNodes[i], "d", d));
-  for (const i of [2, 3])
-    keep(made.childNodes[i], "transform", k < 1 && !isCurrent ? "scale(.7)" : "scale(1)");
-  const signs = (level === "bad" ? " !" : "") + (one.state === "dubious" ? " ?" : "");
+  const scale = k < 1 && !isCurrent ? "scale(.7)" : "scale(1)";
   const text = isCurrent || signs || ui.isNamed || k >= 6 ? one.point + signs : "";
-  if (made.lastChild.textContent !== text) made.lastChild.textContent = text;
+  const parts = made.childNodes;
+  if (made.arrow !== arrow) [parts[0], parts[1]].forEach(part => part.setAttribute("d", arrow));
+  if (made.scale !== scale) [parts[2], parts[3]].forEach(part => part.setAttribute("transform", scale));
+  if (made.text !== text) made.lastChild.textContent = text;
+  Object.assign(made, {arrow, scale, text});
+}
+
+/** What of a mark no zoom changes. */
+function describeMark(made, one) {
+  const about = adjustedMark(one.photo, one.point),
+    kind = kindOf(one.point),
+    isOff = one.state === "off",
+    isCurrent = one.point === ui.point;
+  const level = isOff ? "off" : grade(about?.w);
+  keep(made, "class", `mark ${kind} ${level} ${one.state ?? "on"}${isCurrent ? " current" : ""}`);
+  const shape = (kShapes[kind] ?? kShapes.tie) + (isOff ? kOff : "");
+  for (const i of [2, 3]) keep(made.childNodes[i], "d", shape);
   keep(made, "aria-label", markLabel(one, about, kind));
+  const signs = (level === "bad" ? " !" : "") + (one.state === "dubious" ? " ?" : "");
+  made.told = {about, isOff, isCurrent, signs};
 }
 
 function markLabel(one, about, kind) {
@@ -159,20 +170,20 @@ const makePrediction = (point, photo) =>
     svg("text", {x: 9, y: -5})
   );
 
-function updatePrediction(made, point, image, at, k) {
-  const isCurrent = point === ui.point;
+function updatePrediction(made, point, image, at, {k, changes}) {
+  const isCurrent = point === ui.point,
+    least = isCurrent ? 4 : 3;
   put(made, at);
-  keep(made, "class", `mark prediction${isCurrent ? " current" : ""}`);
   for (const i of [0, 1]) {
-    keep(made.childNodes[i], "rx", Math.max(image.major * k, isCurrent ? 4 : 3).toFixed(1));
-    keep(made.childNodes[i], "ry", Math.max(image.minor * k, isCurrent ? 4 : 3).toFixed(1));
-    keep(made.childNodes[i], "transform", `rotate(${((image.angle * 180) / Math.PI).toFixed(1)})`);
+    keep(made.childNodes[i], "rx", Math.max(image.major * k, least).toFixed(1));
+    keep(made.childNodes[i], "ry", Math.max(image.minor * k, least).toFixed(1));
   }
   const text = isCurrent || ui.isNamed || k >= 6 ? point : "";
   if (made.lastChild.textContent !== text) made.lastChild.textContent = text;
-  keep(
-    made,
-    "aria-label",
-    `${t("prediction")}, ${point}, x ${shown(image.x, 1)} y ${shown(image.y, 1)}`
-  );
+  if (made.changes === changes) return;
+  made.changes = changes;
+  keep(made, "class", `mark prediction${isCurrent ? " current" : ""}`);
+  const turn = `rotate(${((image.angle * 180) / Math.PI).toFixed(1)})`;
+  for (const i of [0, 1]) keep(made.childNodes[i], "transform", turn);
+  keep(made, "aria-label", `${t("prediction")}, ${point}, x ${shown(image.x, 1)} y ${shown(image.y, 1)}`);
 }

@@ -30,9 +30,9 @@ export class Pane {
     this.isDrawn = false;
     /** @type {Map<string, any>} */
     this.markNodes = new Map();
-    this.drawings = 0;
+    /** How often what is drawn has changed, but for its place. */
+    this.changes = 0;
     this.drawn = {k: 0, tx: 0, ty: 0};
-    this.shift = {x: 0, y: 0};
     /** @type {any} */
     this.context = null;
     this.build();
@@ -51,18 +51,14 @@ export class Pane {
       svg("path", {class: "casing", d: kCross}),
       svg("path", {d: kCross})
     );
-    this.overlay = svg(
-      "svg",
-      {class: "overlay", "aria-hidden": false},
-      this.figures,
-      this.markLayer,
-      this.cross
-    );
+    this.overlay = svg("svg", {class: "overlay", "aria-hidden": false}, this.figures, this.markLayer);
+    const crossLayer = svg("svg", {class: "overlay still"}, this.cross);
     this.stage = node(
       "div",
       {class: "stage", tabindex: 0, role: "application"},
       this.canvas,
-      this.overlay
+      this.overlay,
+      crossLayer
     );
     this.chooser = node("select", {tabindex: -1, "aria-label": t("photo")});
     this.chooser.addEventListener("change", () => {
@@ -110,7 +106,9 @@ export class Pane {
     this.canvas.width = Math.round(box.width * ratio);
     this.canvas.height = Math.round(box.height * ratio);
     this.isDrawn = false;
-    this.overlay.setAttribute("viewBox", `0 0 ${box.width} ${box.height}`);
+    // Half a pane more on each side, so that a pan only moves the layer.
+    const {width, height} = box;
+    this.overlay.setAttribute("viewBox", `${-width / 2} ${-height / 2} ${2 * width} ${2 * height}`);
     if (this.isFitted) this.fit();
     else this.setView(this.k, this.tx + dx, this.ty + dy);
     this.paint(); // at once: a resized canvas is empty
@@ -233,21 +231,19 @@ export class Pane {
     this.loupe.draw();
   }
 
-  /** Lines and marks: anew after a change or a zoom; a pan only shifts them. */
+  /** Lines and marks: anew after a change, placed anew after a zoom; a pan only moves their layer. */
   drawOverlay() {
     const dx = this.tx - this.drawn.tx,
       dy = this.ty - this.drawn.ty;
     const isFar = Math.abs(dx) > this.width / 2 || Math.abs(dy) > this.height / 2;
     if (!this.isDrawn || this.k !== this.drawn.k || isFar) {
+      if (!this.isDrawn) this.changes += 1;
       this.isDrawn = true;
-      this.drawings += 1;
       this.drawn = {k: this.k, tx: this.tx, ty: this.ty};
       drawMarks(this);
-      this.markLayer.setAttribute("transform", "translate(0 0)");
-    } else if (dx !== this.shift.x || dy !== this.shift.y) {
-      this.markLayer.setAttribute("transform", `translate(${dx} ${dy})`);
     }
-    this.shift = {x: this.tx - this.drawn.tx, y: this.ty - this.drawn.ty};
+    const shift = `translate(${this.tx - this.drawn.tx}px, ${this.ty - this.drawn.ty}px)`;
+    if (this.overlay.style.transform !== shift) this.overlay.style.transform = shift;
     drawFigures(this);
   }
 
