@@ -125,7 +125,7 @@ export function addKeys() {
     ],
     [
       "names",
-      "#",
+      "!",
       () => {
         ui.isNamed = !ui.isNamed;
       }

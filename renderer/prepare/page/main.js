@@ -46,7 +46,12 @@ async function begin() {
     await start();
   } catch (error) {
     byId("banners").replaceChildren(
-      node("p", {class: "banner fail", text: t("cannotLoad", {why: String(error.message ?? error)})})
+      node("p", {
+        class: "banner fail",
+        text: /^401/.test(error.message)
+          ? t("noToken")
+          : t("cannotLoad", {why: String(error.message ?? error)})
+      })
     );
     return;
   }

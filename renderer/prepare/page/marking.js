@@ -229,7 +229,10 @@ export function stepPhoto(step) {
   if (names.length === 0) return;
   const at = names.indexOf(activePane().photo?.name);
   const next = names[at < 0 ? 0 : (at + step + names.length) % names.length];
+  const before = activePane().photo,
+    other = ui.panes.find(pane => pane !== activePane() && pane.photo?.name === next);
   activePane().setPhoto(photoOf(next));
+  other?.setPhoto(before); // no photo stands twice
   live.send({focus: next});
   if (ui.point !== null) activePane().goTo(ui.point, true);
   emit("selection");

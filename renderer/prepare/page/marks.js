@@ -185,5 +185,9 @@ function updatePrediction(made, point, image, at, {k, changes}) {
   keep(made, "class", `mark prediction${isCurrent ? " current" : ""}`);
   const turn = `rotate(${((image.angle * 180) / Math.PI).toFixed(1)})`;
   for (const i of [0, 1]) keep(made.childNodes[i], "transform", turn);
-  keep(made, "aria-label", `${t("prediction")}, ${point}, x ${shown(image.x, 1)} y ${shown(image.y, 1)}`);
+  keep(
+    made,
+    "aria-label",
+    `${t("prediction")}, ${point}, x ${shown(image.x, 1)} y ${shown(image.y, 1)}`
+  );
 }

@@ -51,7 +51,7 @@ export const nextLayout = () => setLayout(ui.panes.length === 1 ? 2 : ui.panes.l
  */
 export function stepPane(step) {
   const next = ui.panes[ui.active + step];
-  if (!next) return false;
+  if (!next?.photo) return false;
   next.focus();
   live.send({focus: next.photo?.name});
   return true;

@@ -4,6 +4,7 @@
 import {button, byId, labelled, node} from "./dom.js";
 import {confirm, deleteMark, marking, takeName, toggleDubious, toggleOff} from "./marking.js";
 import {match, proposals, refine} from "./proposals.js";
+import {showRename} from "./renaming.js";
 import {say} from "./notices.js";
 import {parseNumber, parsePair, shown} from "./numbers.js";
 import {adjustedMark, indexed, kindOf, photoOf, prediction, state} from "./state.js";
@@ -122,6 +123,7 @@ export function buildMarkPanel(root) {
       on_("switch", "X", toggleOff),
       on_("doubt", "D", toggleDubious),
       on_("delete", "Del", deleteMark),
+      button(t("rename"), showRename),
       on_("refine", "F", () => refine(activePane())),
       on_("match", "G", () => match(activePane()))
     ),

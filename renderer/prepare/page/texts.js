@@ -2,6 +2,8 @@
 // Every text of the page: English, German (Swiss). Control point = Passpunkt, check point =
 // Kontrollpunkt, mark = Bildmessung, tie point = Verknüpfungspunkt, residual = Verbesserung.
 
+import {kKeyTexts} from "./key_texts.js";
+
 /** @type {Record<string, [string, string]>} */
 export const kTexts = {
   // Things
@@ -137,6 +139,16 @@ export const kTexts = {
   siteNote: [
     "Place and time say where the sun must have been.",
     "Ort und Zeit sagen, wo die Sonne stand."
+  ],
+  wheel: ["Wheel", "Rad"],
+  rename: ["Rename", "Umbenennen"],
+  newName: ["new name", "neuer Name"],
+  everywhere: ["everywhere", "überall"],
+  thisMark: ["this mark only", "nur diese Messung"],
+  opRenamePoint: ["rename {name} to {to}", "{name} in {to} umbenennen"],
+  noToken: [
+    "This address has no valid token: open the one that insitu-prepare printed.",
+    "Diese Adresse hat kein gültiges Token: jene öffnen, die insitu-prepare ausgab."
   ],
   // Sentences
   serverGone: [
@@ -328,61 +340,5 @@ export const kTexts = {
   stage_convert: ["convert", "umwandeln"],
   stage_render: ["render", "rechnen"],
   stage_montage: ["montage", "Montage"],
-  // Keys
-  key_nudge: [
-    "crosshair or mark 1 px (Shift 0.1, Ctrl 10)",
-    "Fadenkreuz oder Messung 1 px (Umschalt 0.1, Ctrl 10)"
-  ],
-  key_space: ["held: loupe; tapped: centre the point", "gehalten: Lupe; getippt: Punkt in die Mitte"],
-  key_tab: ["next photo pane (Shift: previous)", "nächstes Fotofeld (Umschalt: voriges)"],
-  key_back: ["take the last vertex back", "letzten Eckpunkt zurücknehmen"],
-  key_escape: ["cancel", "abbrechen"],
-  key_wheel: ["wheel or two fingers: zoom; drag: pan", "Rad oder zwei Finger: zoomen; ziehen: schieben"],
-  key_place: ["place or confirm, then on", "setzen oder bestätigen, dann weiter"],
-  key_placeStay: ["place or confirm, stay", "setzen oder bestätigen, bleiben"],
-  key_nextPoint: ["next point that needs rays", "nächster Punkt, der Strahlen braucht"],
-  key_previousPoint: ["previous such point", "voriger solcher Punkt"],
-  key_nextPhoto: ["next photo that sees the point", "nächstes Foto, das den Punkt sieht"],
-  key_previousPhoto: ["previous such photo", "voriges solches Foto"],
-  key_centreAll: ["centre the point in all panes", "Punkt überall in die Mitte"],
-  key_fit: ["whole photo", "ganzes Foto"],
-  key_zoom100: ["100 %", "100 %"],
-  key_zoom200: ["200 %", "200 %"],
-  key_zoomIn: ["zoom in", "vergrössern"],
-  key_zoomOut: ["zoom out", "verkleinern"],
-  key_refine: ["refine here", "hier verfeinern"],
-  key_match: ["propose on all photos", "auf allen Fotos vorschlagen"],
-  key_switch: ["mark off/on", "Messung aus/ein"],
-  key_delete: ["delete mark", "Messung löschen"],
-  key_dubious: ["mark dubious (σ × 3)", "Messung zweifelhaft (σ × 3)"],
-  key_arrows: ["residual arrows ×1, ×10, ×100, none", "Verbesserungspfeile ×1, ×10, ×100, keine"],
-  key_curves: ["epipolar curves", "Epipolarkurven"],
-  key_nextSuspect: ["next suspect", "nächste Auffälligkeit"],
-  key_goTo: ["go to x y", "gehe zu x y"],
-  key_goToToo: ["go to x y", "gehe zu x y"],
-  key_enlarge: ["this photo in the large pane", "dieses Foto ins grosse Feld"],
-  key_layout: ["one, two, four photos", "ein, zwei, vier Fotos"],
-  key_undo: ["undo", "zurücknehmen"],
-  key_redo: ["redo", "wiederholen"],
-  wheel: ["Wheel", "Rad"],
-  key_loupe: ["loupe shown or not", "Lupe zeigen oder nicht"],
-  key_names: ["names of all marks", "Namen aller Messungen"],
-  key_find: ["find or name a point, a photo", "Punkt oder Foto suchen, benennen"],
-  key_mode_control: ["mode 1", "Arbeitsgang 1"],
-  key_mode_polygons: ["mode 2", "Arbeitsgang 2"],
-  key_mode_sun: ["mode 3", "Arbeitsgang 3"],
-  key_mode_light: ["mode 4", "Arbeitsgang 4"],
-  key_drawPolygon: ["draw a polygon", "Polygon zeichnen"],
-  key_bestImage: ["its best image", "sein bestes Bild"],
-  key_material: ["its material", "sein Material"],
-  key_wireframe: ["polygons shown or not", "Polygone zeigen oder nicht"],
-  key_sunPair: ["sun pair", "Sonnenpaar"],
-  key_zenithPair: ["zenith pair", "Zenitpaar"],
-  key_edgeMark: ["edge mark", "Kantenmessung"],
-  key_horizon: ["horizon sample", "Horizontprobe"],
-  key_haze: ["haze sample", "Dunstprobe"],
-  key_daylight: ["daylight sample", "Tageslichtprobe"],
-  key_constraints: ["constraints", "Bedingungen"],
-  key_list: ["points by worst |w|", "Punkte nach grösstem |w|"],
-  key_help: ["this list", "diese Liste"]
+  ...kKeyTexts
 };
