@@ -66,7 +66,7 @@ function draw() {
   byId("list").replaceChildren(
     node(
       "table",
-      {},
+      {class: chosen.some(line => line.cells[line.cells.length - 1] !== "") ? "" : "bare"}, // no remarks
       node("thead", {}, node("tr", {}, ...head.map(text => node("th", {text})))),
       node("tbody", {}, ...chosen.map(tableLine))
     )
@@ -80,7 +80,7 @@ function tableLine(line) {
   const name = node("button", {type: "button", text: first, onclick: line.act ?? (() => {})});
   return node(
     "tr",
-    {class: line.class ?? "", title: line.note ?? "", data: {key: first}},
+    {class: line.class ?? "", title: line.note ?? "", data: {key: line.key ?? first}},
     node("td", {}, name),
     ...others.map(text => node("td", {text}))
   );
@@ -114,6 +114,7 @@ function pointList() {
     const off = point.marks.filter(one => one.state === "off").length;
     const doubts = point.marks.filter(one => one.state === "dubious").length;
     return {
+      key: point.name,
       cells: [
         `${kSigns[point.kind]} ${point.name}`,
         point.w === null ? "–" : `${shown(point.w, 1)}${level === "bad" ? " !" : ""}`,
