@@ -3,9 +3,17 @@
 
 /** What the address says behind #: TOKEN or token=TOKEN, window=report. */
 function readFragment() {
-  const parts = location.hash.slice(1).split("&").filter(part => part !== "");
-  const named = new Map(parts.map(part => part.includes("=")
-    ? /** @type {[string, string]} */ (part.split(/=(.*)/s).slice(0, 2)) : ["token", part]));
+  const parts = location.hash
+    .slice(1)
+    .split("&")
+    .filter(part => part !== "");
+  const named = new Map(
+    parts.map(part =>
+      part.includes("=")
+        ? /** @type {[string, string]} */ (part.split(/=(.*)/s).slice(0, 2))
+        : ["token", part]
+    )
+  );
   const token = named.get("token");
   if (token) {
     sessionStorage.setItem("token", decodeURIComponent(token));
@@ -28,15 +36,19 @@ export const isReport = fragment.get("window") === "report";
 const token = () => sessionStorage.getItem("token") ?? "";
 
 /** The address of the window with the lists alone. */
-export const reportAddress = () => `${location.pathname}#token=${encodeURIComponent(token())}&window=report`;
+export const reportAddress = () =>
+  `${location.pathname}#token=${encodeURIComponent(token())}&window=report`;
 
 /**
  * @param {string} path
  * @param {RequestInit} [options]
  */
 function request(path, options = {}) {
-  return fetch(path, {...options, cache: "no-store",
-    headers: {Authorization: `Bearer ${token()}`, ...options.headers}});
+  return fetch(path, {
+    ...options,
+    cache: "no-store",
+    headers: {Authorization: `Bearer ${token()}`, ...options.headers}
+  });
 }
 
 /**
@@ -67,8 +79,11 @@ export async function getBlob(path, signal) {
  * @returns {Promise<{status: number, body: any}>}
  */
 export async function post(path, body) {
-  const response = await request(path, {method: "POST", body: JSON.stringify(body),
-    headers: {"Content-Type": "application/json"}});
+  const response = await request(path, {
+    method: "POST",
+    body: JSON.stringify(body),
+    headers: {"Content-Type": "application/json"}
+  });
   const text = await response.text();
   try {
     return {status: response.status, body: text ? JSON.parse(text) : {}};
@@ -103,12 +118,15 @@ export function connectLive(received, changed) {
   /** @type {WebSocket|null} */
   let socket = null;
   let pause = 250;
-  if (!("WebSocket" in globalThis)) { // then the page looks for news itself
+  if (!("WebSocket" in globalThis)) {
+    // then the page looks for news itself
     setInterval(() => changed(true), 1500);
     return {send: () => {}};
   }
   const open = () => {
-    socket = new WebSocket(`${location.protocol === "https:" ? "wss" : "ws"}://${location.host}/api/live`);
+    socket = new WebSocket(
+      `${location.protocol === "https:" ? "wss" : "ws"}://${location.host}/api/live`
+    );
     socket.onopen = () => {
       pause = 250;
       socket?.send(JSON.stringify({token: token()}));
@@ -122,7 +140,9 @@ export function connectLive(received, changed) {
     };
   };
   open();
-  return {send: message => {
-    if (socket?.readyState === WebSocket.OPEN) socket.send(JSON.stringify(message));
-  }};
+  return {
+    send: message => {
+      if (socket?.readyState === WebSocket.OPEN) socket.send(JSON.stringify(message));
+    }
+  };
 }

@@ -16,7 +16,8 @@ function equip(made, attributes) {
     else if (name === "text") made.textContent = String(value);
     else if (name === "data") Object.assign(made.dataset, value);
     else if (name.startsWith("on")) made.addEventListener(name.slice(2), value);
-    else if (["value", "checked", "disabled", "hidden", "open", "selected"].includes(name)) made[name] = value;
+    else if (["value", "checked", "disabled", "hidden", "open", "selected"].includes(name))
+      made[name] = value;
     else made.setAttribute(name, value === true ? "" : String(value));
   }
 }
@@ -72,7 +73,8 @@ export const button = (text, action, attributes = {}) =>
  * @param {string} text
  * @param {Node} control
  */
-export const labelled = (text, control) => node("label", {class: "field"}, node("span", {text}), control);
+export const labelled = (text, control) =>
+  node("label", {class: "field"}, node("span", {text}), control);
 
 /**
  * A select of [value, text] pairs.
@@ -83,7 +85,8 @@ export const labelled = (text, control) => node("label", {class: "field"}, node(
  */
 export function select(options, value, chosen, attributes = {}) {
   const made = node("select", attributes);
-  for (const [key, text] of options) made.append(node("option", {value: key, text, selected: key === value}));
+  for (const [key, text] of options)
+    made.append(node("option", {value: key, text, selected: key === value}));
   made.addEventListener("change", () => chosen(made.value));
   return made;
 }
@@ -97,8 +100,17 @@ export function select(options, value, chosen, attributes = {}) {
  */
 export function dialog(title, content, closeText) {
   const previous = /** @type {any} */ (document.activeElement);
-  const made = node("dialog", {"aria-label": title}, node("h2", {text: title}), ...content,
-    node("p", {class: "buttons"}, button(closeText, () => made.close())));
+  const made = node(
+    "dialog",
+    {"aria-label": title},
+    node("h2", {text: title}),
+    ...content,
+    node(
+      "p",
+      {class: "buttons"},
+      button(closeText, () => made.close())
+    )
+  );
   made.addEventListener("close", () => {
     made.remove();
     previous?.focus?.();
@@ -116,6 +128,10 @@ export function dialog(title, content, closeText) {
  */
 export function table(head, rows, className = "") {
   const cells = (row, tag) => node("tr", {}, ...row.map(cell => node(tag, {}, cell)));
-  return node("table", {class: className}, node("thead", {}, cells(head, "th")),
-    node("tbody", {}, ...rows.map(row => cells(row, "td"))));
+  return node(
+    "table",
+    {class: className},
+    node("thead", {}, cells(head, "th")),
+    node("tbody", {}, ...rows.map(row => cells(row, "td")))
+  );
 }

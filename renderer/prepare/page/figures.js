@@ -15,23 +15,47 @@ const path = (line, isClosed = false) =>
  * @param {any} pane
  */
 export function drawFigures(pane) {
-  const {k, tx, ty, figures} = pane, photo = pane.photo.name;
+  const {k, tx, ty} = pane.drawn,
+    figures = pane.figures,
+    photo = pane.photo.name;
   const transform = `matrix(${k} 0 0 ${k} ${tx + k / 2} ${ty + k / 2})`;
-  if (figures.placed !== transform) figures.setAttribute("transform", figures.placed = transform);
-  if (figures.seen === pane.drawings && !ui.tool?.outline && figures.k === k) return;
-  figures.seen = pane.drawings;
-  const shapes = [...polygons(photo), ...building(photo), ...edges(photo), ...pairs(photo), ...curves(photo),
-    ...samples(photo), ...drawing(photo, pane)];
+  if (figures.placed !== transform) figures.setAttribute("transform", (figures.placed = transform));
+  const isSame = figures.seen === pane.changes && (figures.k === k || !figures.hasLabels);
+  if (isSame && !ui.tool?.outline) return;
+  figures.seen = pane.changes;
+  const shapes = [
+    ...polygons(photo),
+    ...building(photo),
+    ...edges(photo),
+    ...pairs(photo),
+    ...curves(photo),
+    ...samples(photo),
+    ...drawing(photo, pane)
+  ];
   const signature = shapes.map(shape => `${shape.class}|${shape.d}`).join("\n");
-  if (figures.signature === signature && figures.k === k) return;
+  figures.hasLabels = shapes.some(shape => shape.label);
+  if (figures.signature === signature && (figures.k === k || !figures.hasLabels)) return;
   figures.signature = signature;
   figures.k = k;
-  figures.replaceChildren(...shapes.flatMap(shape => shape.label ? [labelNode(shape, k)] : [
-    svg("path", {class: `casing ${shape.class}`, d: shape.d}), svg("path", {class: shape.class, d: shape.d, data: shape.data ?? {}})]));
+  figures.replaceChildren(
+    ...shapes.flatMap(shape =>
+      shape.label
+        ? [labelNode(shape, k)]
+        : [
+            svg("path", {class: `casing ${shape.class}`, d: shape.d}),
+            svg("path", {class: shape.class, d: shape.d, data: shape.data ?? {}})
+          ]
+    )
+  );
 }
 
 function labelNode(shape, k) {
-  const made = svg("text", {class: shape.class, text: shape.label, x: shape.at[0] * k, y: shape.at[1] * k});
+  const made = svg("text", {
+    class: shape.class,
+    text: shape.label,
+    x: shape.at[0] * k,
+    y: shape.at[1] * k
+  });
   made.setAttribute("transform", `scale(${1 / k})`);
   return made;
 }
@@ -42,12 +66,23 @@ function* polygons(photo) {
     const images = state.adjusted?.polygons?.[polygon.name]?.images?.[photo];
     const className = `polygon${polygon.name === ui.polygon ? " current" : ""}`;
     if (images) {
-      yield {class: className, d: images.map(line => path(line)).join(""), data: {polygon: polygon.name}};
+      yield {
+        class: className,
+        d: images.map(line => path(line)).join(""),
+        data: {polygon: polygon.name}
+      };
       continue;
     }
     const known = polygon.vertices.map(name => placeOf(photo, name)).filter(at => at);
     if (known.length === polygon.vertices.length && known.length > 2) {
-      yield {class: `${className} flat`, d: path(known.map(at => [at.x, at.y]), true), data: {polygon: polygon.name}};
+      yield {
+        class: `${className} flat`,
+        d: path(
+          known.map(at => [at.x, at.y]),
+          true
+        ),
+        data: {polygon: polygon.name}
+      };
     }
   }
 }
@@ -61,10 +96,13 @@ function* building(photo) {
 }
 
 function ellipse(x, y, major, minor, angle) {
-  const points = Array.from({length: 24}, (_, i) => i * Math.PI / 12).map(a => {
-    const u = major * Math.cos(a), v = minor * Math.sin(a);
-    return /** @type {[number, number]} */ ([x + u * Math.cos(angle) - v * Math.sin(angle),
-      y + u * Math.sin(angle) + v * Math.cos(angle)]);
+  const points = Array.from({length: 24}, (_, i) => (i * Math.PI) / 12).map(a => {
+    const u = major * Math.cos(a),
+      v = minor * Math.sin(a);
+    return /** @type {[number, number]} */ ([
+      x + u * Math.cos(angle) - v * Math.sin(angle),
+      y + u * Math.sin(angle) + v * Math.cos(angle)
+    ]);
   });
   return path(points, true);
 }
@@ -73,28 +111,56 @@ function* edges(photo) {
   for (const edge of rows("edges")) {
     if (edge.photo !== photo) continue;
     const isOff = edge.state === "off";
-    yield {class: `edge${isOff ? " off" : ""}`, d: `M${edge.x - 4} ${edge.y}H${edge.x + 4}M${edge.x} ${edge.y - 4}V${edge.y + 4}`};
-    const from = placeOf(photo, edge.from), to = placeOf(photo, edge.to);
-    if (from && to && !isOff) yield {class: "edge line", d: path([[from.x, from.y], [to.x, to.y]])};
+    yield {
+      class: `edge${isOff ? " off" : ""}`,
+      d: `M${edge.x - 4} ${edge.y}H${edge.x + 4}M${edge.x} ${edge.y - 4}V${edge.y + 4}`
+    };
+    const from = placeOf(photo, edge.from),
+      to = placeOf(photo, edge.to);
+    if (from && to && !isOff)
+      yield {
+        class: "edge line",
+        d: path([
+          [from.x, from.y],
+          [to.x, to.y]
+        ])
+      };
   }
 }
 
 function* pairs(photo) {
-  const ends = [...rows("sun").map(one => ["sun", one.object, one.shadow]),
-    ...rows("zenith").map(one => ["zenith", one.bottom, one.top])];
+  const ends = [
+    ...rows("sun").map(one => ["sun", one.object, one.shadow]),
+    ...rows("zenith").map(one => ["zenith", one.bottom, one.top])
+  ];
   if (ui.mode !== "sun") return;
   for (const [kind, a, b] of ends) {
-    const from = placeOf(photo, a), to = placeOf(photo, b);
-    if (from && to) yield {class: kind, d: path([[from.x, from.y], [to.x, to.y]])};
+    const from = placeOf(photo, a),
+      to = placeOf(photo, b);
+    if (from && to)
+      yield {
+        class: kind,
+        d: path([
+          [from.x, from.y],
+          [to.x, to.y]
+        ])
+      };
   }
 }
 
 function* samples(photo) {
   if (ui.mode !== "light") return;
-  for (const [kind, letter] of [["horizon", "H"], ["haze", "J"], ["daylight", "O"]]) {
+  for (const [kind, letter] of [
+    ["horizon", "H"],
+    ["haze", "J"],
+    ["daylight", "O"]
+  ]) {
     for (const one of rows(kind)) {
       if (one.photo !== photo) continue;
-      yield {class: `sample ${kind}`, d: `M${one.x - 3} ${one.y}H${one.x + 3}M${one.x} ${one.y - 3}V${one.y + 3}`};
+      yield {
+        class: `sample ${kind}`,
+        d: `M${one.x - 3} ${one.y}H${one.x + 3}M${one.x} ${one.y - 3}V${one.y + 3}`
+      };
       yield {class: `sample ${kind}`, label: letter, at: [one.x + 3, one.y - 3]};
     }
   }
@@ -104,8 +170,9 @@ function* samples(photo) {
 function* drawing(photo, pane) {
   const outline = ui.tool?.outline?.(photo) ?? [];
   if (outline.length === 0) return;
-  const end = /** @type {[number, number][]} */ (pane.hover ? [[pane.hover.x, pane.hover.y]] : pane.isMoved
-    ? [[pane.cursor.x, pane.cursor.y]] : []);
+  const end = /** @type {[number, number][]} */ (
+    pane.hover ? [[pane.hover.x, pane.hover.y]] : pane.isMoved ? [[pane.cursor.x, pane.cursor.y]] : []
+  );
   yield {class: "drawn", d: path([...outline, ...end], outline.length + end.length > 2)};
 }
 
@@ -120,7 +187,10 @@ function* curves(photo) {
     const name = `${photo}\n${one.photo}`;
     const key = `${one.point}\n${one.x}\n${one.y}\n${state.adjusted?.revision}`;
     if (known.get(name)?.key !== key) {
-      known.set(name, {key, curve: known.get(name)?.key.startsWith(`${one.point}\n`) ? known.get(name)?.curve ?? [] : []});
+      known.set(name, {
+        key,
+        curve: known.get(name)?.key.startsWith(`${one.point}\n`) ? (known.get(name)?.curve ?? []) : []
+      });
       fetchCurve(name, key, {photo: one.photo, x: one.x, y: one.y, other: photo});
     }
     const curve = known.get(name)?.curve ?? [];

@@ -27,12 +27,17 @@ export function listenTo(pane) {
     stage.setPointerCapture(event.pointerId);
     down.set(event.pointerId, at);
     const p = pane.toPhoto(at.x, at.y);
-    press = {...at, moved: down.size > 1, mark: event.pointerType !== "touch" && isDraggable(pane, p.x, p.y)};
+    press = {
+      ...at,
+      moved: down.size > 1,
+      mark: event.pointerType !== "touch" && isDraggable(pane, p.x, p.y)
+    };
     event.preventDefault();
   });
 
   stage.addEventListener("pointermove", event => {
-    const at = local(event), before = down.get(event.pointerId);
+    const at = local(event),
+      before = down.get(event.pointerId);
     if (event.pointerType !== "touch") {
       pane.hover = pane.toPhoto(at.x, at.y);
       redraw();
@@ -48,7 +53,9 @@ export function listenTo(pane) {
 
   const released = event => {
     if (!down.delete(event.pointerId) || !press) return;
-    const at = local(event), p = pane.toPhoto(at.x, at.y), ended = press;
+    const at = local(event),
+      p = pane.toPhoto(at.x, at.y),
+      ended = press;
     if (down.size > 0) return;
     press = null;
     if (event.type === "pointercancel") return;
@@ -63,11 +70,16 @@ export function listenTo(pane) {
     redraw();
   });
 
-  stage.addEventListener("wheel", event => {
-    const at = local(event), lines = event.deltaMode === 1 ? 33 : 1;
-    pane.zoomAt(pane.k * 2 ** (-event.deltaY * lines / 250), at.x, at.y);
-    event.preventDefault();
-  }, {passive: false});
+  stage.addEventListener(
+    "wheel",
+    event => {
+      const at = local(event),
+        lines = event.deltaMode === 1 ? 33 : 1;
+      pane.zoomAt(pane.k * 2 ** ((-event.deltaY * lines) / 250), at.x, at.y);
+      event.preventDefault();
+    },
+    {passive: false}
+  );
   stage.addEventListener("focusin", () => setActive(ui.panes.indexOf(pane)));
 }
 
@@ -75,7 +87,8 @@ function pan(pane, dx, dy) {
   pane.isFitted = false;
   // Unrounded sums, or slow drags would lag behind the hand.
   pane.rest = {x: (pane.rest?.x ?? 0) + dx, y: (pane.rest?.y ?? 0) + dy};
-  const tx = pane.tx, ty = pane.ty;
+  const tx = pane.tx,
+    ty = pane.ty;
   pane.setView(pane.k, tx + pane.rest.x, ty + pane.rest.y);
   pane.rest = {x: pane.rest.x - (pane.tx - tx), y: pane.rest.y - (pane.ty - ty)};
 }
@@ -84,7 +97,8 @@ function pan(pane, dx, dy) {
 function pinch(pane, down, id, at) {
   const before = down.get(id);
   const [, other] = /** @type {[number, any]} */ ([...down].find(([key]) => key !== id));
-  const scale = Math.hypot(at.x - other.x, at.y - other.y) / Math.hypot(before.x - other.x, before.y - other.y);
+  const scale =
+    Math.hypot(at.x - other.x, at.y - other.y) / Math.hypot(before.x - other.x, before.y - other.y);
   const middle = {x: (before.x + other.x) / 2, y: (before.y + other.y) / 2};
   if (Number.isFinite(scale) && scale > 0) pane.zoomAt(pane.k * scale, middle.x, middle.y);
   pan(pane, (at.x - before.x) / 2, (at.y - before.y) / 2);

@@ -2,9 +2,22 @@
 // Keys: what each does, which can be changed, and who gets them. Letters act only in a focused pane.
 
 import {byId} from "./dom.js";
-import {cancel, centreAll, centreIn, confirm, deleteMark, match, nextSuspect, nudge, refine, stepPhoto, stepPoint,
-  toggleDubious, toggleOff} from "./marking.js";
+import {
+  cancel,
+  centreAll,
+  centreIn,
+  confirm,
+  deleteMark,
+  nextSuspect,
+  nudge,
+  stepPhoto,
+  stepPoint,
+  toggleDubious,
+  toggleOff
+} from "./marking.js";
+import {match, refine} from "./proposals.js";
 import {kModes, redo, undo} from "./header.js";
+import {say} from "./notices.js";
 import {enlarge, nextLayout, stepPane} from "./panes.js";
 import {emit, redraw} from "./signals.js";
 import {activePane, setMode, setTool, ui} from "./ui.js";
@@ -48,9 +61,12 @@ export function resetKeys() {
  */
 export function keyText(event) {
   const key = event.key.length === 1 ? event.key.toUpperCase() : event.key;
-  const isLetter = /^[A-ZÄÖÜ]$/.test(key), isShift = event.shiftKey && (isLetter || event.key.length > 1);
-  return `${event.ctrlKey || event.metaKey ? "Ctrl+" : ""}${event.altKey ? "Alt+" : ""}${isShift ? "Shift+" : ""}` +
-    (key === " " ? "Space" : key);
+  const isLetter = /^[A-ZÄÖÜ]$/.test(key),
+    isShift = event.shiftKey && (isLetter || event.key.length > 1);
+  return (
+    `${event.ctrlKey || event.metaKey ? "Ctrl+" : ""}${event.altKey ? "Alt+" : ""}${isShift ? "Shift+" : ""}` +
+    (key === " " ? "Space" : key)
+  );
 }
 
 const kArrows = {ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1]};
@@ -70,27 +86,70 @@ const cycle = () => {
 /** Those of the notes, §4; other modules add theirs. */
 export function addKeys() {
   /** @type {[string, string, (event: KeyboardEvent) => any][]} */
-  const inPane = [["place", "Enter", () => confirm(activePane(), false)], ["placeStay", "Shift+Enter", () => confirm(activePane(), true)],
-    ["nextPoint", "N", () => stepPoint(1)], ["previousPoint", "P", () => stepPoint(-1)],
-    ["nextPhoto", "PageDown", () => stepPhoto(1)], ["previousPhoto", "PageUp", () => stepPhoto(-1)],
-    ["centreAll", "C", centreAll], ["fit", "0", () => activePane().fit()], ["zoom100", "1", scaled(1)], ["zoom200", "2", scaled(2)],
-    ["zoomIn", "+", zoom(2)], ["zoomOut", "-", zoom(0.5)], ["refine", "F", () => refine(activePane())],
-    ["match", "G", () => match(activePane())], ["switch", "X", toggleOff], ["delete", "Delete", deleteMark],
-    ["dubious", "D", toggleDubious], ["arrows", "R", cycle], ["curves", "E", () => {
-      ui.curves = !ui.curves;
-    }], ["nextSuspect", "U", nextSuspect], ["goTo", ".", () => focusField("go-to")], ["layout", ",", nextLayout], ["enlarge", "*", enlarge], ["loupe", "/", () => {
-      ui.isLoupe = !ui.isLoupe;
-    }], ["names", "#", () => {
-      ui.isNamed = !ui.isNamed;
-    }]];
+  const inPane = [
+    ["place", "Enter", () => confirm(activePane(), false)],
+    ["placeStay", "Shift+Enter", () => confirm(activePane(), true)],
+    ["nextPoint", "N", () => stepPoint(1)],
+    ["previousPoint", "P", () => stepPoint(-1)],
+    ["nextPhoto", "PageDown", () => stepPhoto(1)],
+    ["previousPhoto", "PageUp", () => stepPhoto(-1)],
+    ["centreAll", "C", centreAll],
+    ["fit", "0", () => activePane().fit()],
+    ["zoom100", "1", scaled(1)],
+    ["zoom200", "2", scaled(2)],
+    ["zoomIn", "+", zoom(2)],
+    ["zoomOut", "-", zoom(0.5)],
+    ["refine", "F", () => refine(activePane())],
+    ["match", "G", () => match(activePane())],
+    ["switch", "X", toggleOff],
+    ["delete", "Delete", deleteMark],
+    ["dubious", "D", toggleDubious],
+    ["arrows", "R", cycle],
+    [
+      "curves",
+      "E",
+      () => {
+        ui.curves = !ui.curves;
+      }
+    ],
+    ["nextSuspect", "U", nextSuspect],
+    ["goTo", ".", () => focusField("go-to")],
+    ["layout", ",", nextLayout],
+    ["enlarge", "*", enlarge],
+    [
+      "loupe",
+      "/",
+      () => {
+        ui.isLoupe = !ui.isLoupe;
+      }
+    ],
+    [
+      "names",
+      "!",
+      () => {
+        ui.isNamed = !ui.isNamed;
+      }
+    ]
+  ];
   for (const [id, key, run] of inPane) addAction({id, key, run});
   /** @type {[string, string, (event: KeyboardEvent) => any][]} */
-  const onPage = [["undo", "Ctrl+Z", undo], ["redo", "Ctrl+Y", redo], ["find", "Ctrl+F", () => focusField("point-name")],
-    ["goToToo", "Ctrl+G", () => focusField("go-to")], ...kModes.map(([mode, key]) =>
-      /** @type {[string, string, () => any]} */ ([`mode_${mode}`, `Alt+${key}`, () => {
-        setMode(mode);
-        activePane()?.focus();
-      }]))];
+  const onPage = [
+    ["undo", "Ctrl+Z", undo],
+    ["redo", "Ctrl+Y", redo],
+    ["find", "Ctrl+F", () => focusField("point-name")],
+    ["goToToo", "Ctrl+G", () => focusField("go-to")],
+    ...kModes.map(
+      ([mode, key]) =>
+        /** @type {[string, string, () => any]} */ ([
+          `mode_${mode}`,
+          `Alt+${key}`,
+          () => {
+            setMode(mode);
+            activePane()?.focus();
+          }
+        ])
+    )
+  ];
   for (const [id, key, run] of onPage) addAction({id, key, run, isPage: true});
 }
 
@@ -103,15 +162,22 @@ export function listenToKeys() {
     const isInPane = Boolean(target.closest?.(".stage"));
     if (isInPane && paneKey(event)) return event.preventDefault();
     if (event.key === "Escape" && !isField(target)) return escape();
-    const key = keyText(event), action = actions.find(one => keyFor(one.id) === key);
-    if (!action || (!action.isPage && !isInPane) || (isField(target) && !/^(Ctrl\+[FG]|Alt\+)/.test(key))) return;
+    const key = keyText(event),
+      action = actions.find(one => keyFor(one.id) === key);
+    if (
+      !action ||
+      (!action.isPage && !isInPane) ||
+      (isField(target) && !/^(Ctrl\+[FG]|Alt\+)/.test(key))
+    )
+      return;
     event.preventDefault();
     action.run(event);
     emit("view");
   });
   addEventListener("keyup", event => {
     if (event.key !== " " || !activePane()) return;
-    const loupe = activePane().loupe, isTap = performance.now() - spaceSince < 300;
+    const loupe = activePane().loupe,
+      isTap = performance.now() - spaceSince < 300;
     loupe.isHeld = false;
     if (isTap && /** @type {any} */ (event.target).closest?.(".stage")) centreIn(activePane());
     spaceSince = 0;
@@ -125,7 +191,8 @@ let spaceSince = 0;
  * @param {KeyboardEvent} event
  */
 function paneKey(event) {
-  const pane = activePane(), arrow = kArrows[event.key];
+  const pane = activePane(),
+    arrow = kArrows[event.key];
   if (arrow && !event.altKey) {
     const step = event.shiftKey ? 0.1 : event.ctrlKey ? 10 : 1;
     nudge(pane, step * arrow[0], step * arrow[1]);
@@ -147,6 +214,7 @@ function paneKey(event) {
 }
 
 function escape() {
+  say("");
   if (ui.tool) setTool(null);
   else cancel();
   emit("view");

@@ -5,13 +5,23 @@ import {button, byId, first, node} from "./dom.js";
 import {mark, raysOf, rows, state} from "./state.js";
 import {on} from "./signals.js";
 import {shown} from "./numbers.js";
-import {activePane, choosePoint, choosePolygon, grade, pointsByWorst, setMode, showPhoto, ui} from "./ui.js";
+import {
+  activePane,
+  choosePoint,
+  choosePolygon,
+  grade,
+  pointsByWorst,
+  setMode,
+  showPhoto,
+  ui
+} from "./ui.js";
 import {runStage} from "./stages.js";
 import {t} from "./words.js";
 
 const kSigns = {control: "▲", check: "■", vertex: "◆", tie: "●"};
 const kNames = ["points", "photos", "polygons", "pairs", "samples"];
-let shownList = "points", filter = "";
+let shownList = "points",
+  filter = "";
 
 /** @param {string} name */
 export function showList(name) {
@@ -21,8 +31,11 @@ export function showList(name) {
 }
 
 export function buildLists() {
-  const tabs = node("div", {class: "tabs", role: "tablist"}, ...kNames.map(name =>
-    button(t(name), () => showList(name), {role: "tab", "data-list": name})));
+  const tabs = node(
+    "div",
+    {class: "tabs", role: "tablist"},
+    ...kNames.map(name => button(t(name), () => showList(name), {role: "tab", "data-list": name}))
+  );
   const field = node("input", {type: "search", placeholder: t("filter"), "aria-label": t("filter")});
   field.addEventListener("input", () => {
     filter = field.value.trim().toLowerCase();
@@ -30,23 +43,34 @@ export function buildLists() {
   });
   byId("lists").replaceChildren(tabs, field, node("div", {id: "list", role: "tabpanel"}));
   on("draw", draw);
-  on("mode", () => showList({control: "points", polygons: "polygons", sun: "pairs", light: "samples"}[ui.mode]));
+  on("mode", () =>
+    showList({control: "points", polygons: "polygons", sun: "pairs", light: "samples"}[ui.mode])
+  );
 }
 
-let drawnTodo = "", drawnLists = "";
+let drawnTodo = "",
+  drawnLists = "";
 function draw() {
   drawTodo();
   for (const made of /** @type {any[]} */ ([...byId("lists").firstChild.children])) {
     made.setAttribute("aria-selected", String(made.dataset.list === shownList));
   }
   const {head, lines} = kLists[shownList]();
-  const chosen = lines.filter(line => filter === "" || line.cells.join(" ").toLowerCase().includes(filter));
+  const chosen = lines.filter(
+    line => filter === "" || line.cells.join(" ").toLowerCase().includes(filter)
+  );
   const signature = JSON.stringify([shownList, chosen.map(line => [line.cells, line.class, line.note])]);
   if (signature === drawnLists) return;
   drawnLists = signature;
   const focused = /** @type {any} */ (document.activeElement)?.closest?.("#list tr")?.dataset.key;
-  byId("list").replaceChildren(node("table", {}, node("thead", {}, node("tr", {}, ...head.map(text => node("th", {text})))),
-    node("tbody", {}, ...chosen.map(tableLine))));
+  byId("list").replaceChildren(
+    node(
+      "table",
+      {class: chosen.some(line => line.cells[line.cells.length - 1] !== "") ? "" : "bare"}, // no remarks
+      node("thead", {}, node("tr", {}, ...head.map(text => node("th", {text})))),
+      node("tbody", {}, ...chosen.map(tableLine))
+    )
+  );
   if (focused) first(`#list tr[data-key="${CSS.escape(focused)}"] button`)?.focus();
 }
 
@@ -54,8 +78,12 @@ function draw() {
 function tableLine(line) {
   const [first, ...others] = line.cells;
   const name = node("button", {type: "button", text: first, onclick: line.act ?? (() => {})});
-  return node("tr", {class: line.class ?? "", title: line.note ?? "", data: {key: first}},
-    node("td", {}, name), ...others.map(text => node("td", {text})));
+  return node(
+    "tr",
+    {class: line.class ?? "", title: line.note ?? "", data: {key: line.key ?? first}},
+    node("td", {}, name),
+    ...others.map(text => node("td", {text}))
+  );
 }
 
 const backToPane = () => activePane()?.focus();
@@ -72,22 +100,32 @@ function reasons(kind) {
 }
 
 function pointList() {
-  const leftOut = reasons("point"), found = new Map();
+  const leftOut = reasons("point"),
+    found = new Map();
   for (const one of state.adjusted?.diagnoses ?? []) if (one.point) found.set(one.point, one.text);
   for (const one of state.adjusted?.control ?? []) {
-    if (one.role === "check") found.set(one.name, `Δ ${one.difference.map(d => shown(1000 * d, 0)).join(" ")} mm`);
+    if (one.role === "check")
+      found.set(one.name, `Δ ${one.difference.map(d => shown(1000 * d, 0)).join(" ")} mm`);
   }
   const lines = pointsByWorst().map(point => {
-    const solved = state.adjusted?.points?.[point.name], level = grade(point.w);
+    const solved = state.adjusted?.points?.[point.name],
+      level = grade(point.w);
     const note = found.get(point.name) ?? leftOut.get(point.name) ?? "";
     const off = point.marks.filter(one => one.state === "off").length;
     const doubts = point.marks.filter(one => one.state === "dubious").length;
-    return {cells: [`${kSigns[point.kind]} ${point.name}`,
-      point.w === null ? "–" : `${shown(point.w, 1)}${level === "bad" ? " !" : ""}`,
-      `${raysOf(point.name)}${off ? ` +${off} ${t("off")}` : ""}${doubts ? ` (${doubts} ?)` : ""}`,
-      solved ? shown(1000 * Math.hypot(...solved.sigma), 0) : "–", note],
-    class: `${level}${point.name === ui.point ? " current" : ""}${note ? " noted" : ""}`, note,
-    act: act(() => choosePoint(point.name))};
+    return {
+      key: point.name,
+      cells: [
+        `${kSigns[point.kind]} ${point.name}`,
+        point.w === null ? "–" : `${shown(point.w, 1)}${level === "bad" ? " !" : ""}`,
+        `${raysOf(point.name)}${off ? ` +${off} ${t("off")}` : ""}${doubts ? ` (${doubts} ?)` : ""}`,
+        solved ? shown(1000 * Math.hypot(...solved.sigma), 0) : "–",
+        note
+      ],
+      class: `${level}${point.name === ui.point ? " current" : ""}${note ? " noted" : ""}`,
+      note,
+      act: act(() => choosePoint(point.name))
+    };
   });
   return {head: [t("point"), "|w|", t("raysHead"), "± mm", t("remark")], lines};
 }
@@ -95,11 +133,20 @@ function pointList() {
 function photoList() {
   const lines = state.photos.map(photo => {
     const about = state.adjusted?.photos?.[photo.name];
-    const marks = rows("observations").filter(one => one.photo === photo.name && one.state !== "off").length;
-    return {cells: [photo.name, String(marks), about?.oriented ? shown(about.rms_px, 2) : "–",
-      about?.oriented ? shown(about.sigma_mm, 0) : "–", about && !about.oriented ? about.why ?? "" : `${photo.width} × ${photo.height}`],
-    class: `${photo === activePane()?.photo ? "current" : ""}${about && !about.oriented ? " noted" : ""}`,
-    act: () => showPhoto(photo.name)};
+    const marks = rows("observations").filter(
+      one => one.photo === photo.name && one.state !== "off"
+    ).length;
+    return {
+      cells: [
+        photo.name,
+        String(marks),
+        about?.oriented ? shown(about.rms_px, 2) : "–",
+        about?.oriented ? shown(about.sigma_mm, 0) : "–",
+        about && !about.oriented ? (about.why ?? "") : `${photo.width} × ${photo.height}`
+      ],
+      class: `${photo === activePane()?.photo ? "current" : ""}${about && !about.oriented ? " noted" : ""}`,
+      act: () => showPhoto(photo.name)
+    };
   });
   return {head: [t("photo"), t("marks"), "RMS px", "± mm", t("remark")], lines};
 }
@@ -107,20 +154,40 @@ function photoList() {
 function polygonList() {
   const leftOut = reasons("polygon");
   const lines = rows("polygons").map(polygon => {
-    const about = state.adjusted?.polygons?.[polygon.name], note = leftOut.get(polygon.name) ?? "";
-    return {cells: [polygon.name, polygon.material, polygon.photo ?? "–", about ? shown(about.planarity_mm, 1) : "–", note],
-      class: `${polygon.name === ui.polygon ? "current" : ""}${note ? " noted" : ""}`, note, act: act(() => choosePolygon(polygon.name))};
+    const about = state.adjusted?.polygons?.[polygon.name],
+      note = leftOut.get(polygon.name) ?? "";
+    return {
+      cells: [
+        polygon.name,
+        polygon.material,
+        polygon.photo ?? "–",
+        about ? shown(about.planarity_mm, 1) : "–",
+        note
+      ],
+      class: `${polygon.name === ui.polygon ? "current" : ""}${note ? " noted" : ""}`,
+      note,
+      act: act(() => choosePolygon(polygon.name))
+    };
   });
   return {head: [t("polygon"), t("material"), t("photo"), t("flatMm"), t("remark")], lines};
 }
 
 function pairList() {
-  const line = (kind, a, b) => ({cells: [`${a} → ${b}`, t(kind), (state.adjusted?.left_out ?? []).find(one =>
-    one.kind === kind && (one.name === a || one.name === b || one.name === `${a} ${b}`))?.reason ?? ""],
-  act: act(() => choosePoint(a))});
-  const lines = [...rows("sun").map(one => line("sun", one.object, one.shadow)),
+  const line = (kind, a, b) => ({
+    cells: [
+      `${a} → ${b}`,
+      t(kind),
+      (state.adjusted?.left_out ?? []).find(
+        one => one.kind === kind && (one.name === a || one.name === b || one.name === `${a} ${b}`)
+      )?.reason ?? ""
+    ],
+    act: act(() => choosePoint(a))
+  });
+  const lines = [
+    ...rows("sun").map(one => line("sun", one.object, one.shadow)),
     ...rows("zenith").map(one => line("zenith", one.bottom, one.top)),
-    ...rows("edges").map(one => line("edge", one.from, one.to))];
+    ...rows("edges").map(one => line("edge", one.from, one.to))
+  ];
   return {head: [t("pair"), t("kind"), t("remark")], lines};
 }
 
@@ -129,30 +196,76 @@ function sampleList() {
   for (const [kind, all] of Object.entries(state.light?.samples ?? {})) {
     for (const one of all) residuals.set(`${kind} ${one.photo} ${one.x} ${one.y}`, one);
   }
-  const lines = ["horizon", "haze", "daylight"].flatMap(kind => rows(kind).map(one => {
-    const about = residuals.get(`${kind} ${one.photo} ${one.x} ${one.y}`);
-    const residual = about?.residual, size = Array.isArray(residual) ? Math.hypot(...residual) / Math.sqrt(residual.length) : residual;
-    return {cells: [`${t(kind)} ${one.photo} ${one.x} ${one.y}`, one.polygon ?? "", typeof size === "number" ? shown(size, 3) : "–",
-      about?.why ?? about?.reason ?? ""],
-    class: about?.why || about?.reason ? "noted" : "", act: () => {
-      showPhoto(one.photo);
-      activePane().moveCursor(one.x, one.y);
-      activePane().isMoved = false;
-    }};
-  }));
+  const lines = ["horizon", "haze", "daylight"].flatMap(kind =>
+    rows(kind).map(one => {
+      const about = residuals.get(`${kind} ${one.photo} ${one.x} ${one.y}`);
+      const residual = about?.residual,
+        size = Array.isArray(residual) ? Math.hypot(...residual) / Math.sqrt(residual.length) : residual;
+      return {
+        cells: [
+          `${t(kind)} ${one.photo} ${one.x} ${one.y}`,
+          one.polygon ?? "",
+          typeof size === "number" ? shown(size, 3) : "–",
+          about?.why ?? about?.reason ?? ""
+        ],
+        class: about?.why || about?.reason ? "noted" : "",
+        act: () => {
+          showPhoto(one.photo);
+          activePane().moveCursor(one.x, one.y);
+          activePane().isMoved = false;
+        }
+      };
+    })
+  );
   return {head: [t("sample"), t("polygon"), t("residual"), t("remark")], lines};
 }
 
-const kLists = {points: pointList, photos: photoList, polygons: polygonList, pairs: pairList, samples: sampleList};
+const kLists = {
+  points: pointList,
+  photos: photoList,
+  polygons: polygonList,
+  pairs: pairList,
+  samples: sampleList
+};
 
 function drawTodo() {
-  const signature = JSON.stringify(state.todo);
+  const findings = state.adjusted?.diagnoses ?? [];
+  const signature = JSON.stringify([state.todo, findings]);
   if (signature === drawnTodo) return;
   drawnTodo = signature;
-  byId("todo").replaceChildren(node("h2", {text: t("todo", {n: state.todo.length})}), node("ol", {},
-    ...state.todo.map(item => node("li", {title: item.why ?? ""}, button(item.text, () => goTo(item.where ?? {})),
-      item.why ? node("span", {class: "faint", text: item.why}) : null,
-      item.run ? button(t("run"), () => runStage(item.run), {class: "small"}) : null))));
+  byId("todo").replaceChildren(
+    node("h2", {text: t("todo", {n: state.todo.length})}),
+    node(
+      "ol",
+      {},
+      ...state.todo.map(item =>
+        node(
+          "li",
+          {title: item.why ?? ""},
+          button(item.text, () => goTo(item.where ?? {})),
+          item.why ? node("span", {class: "faint", text: item.why}) : null,
+          item.run ? button(t("run"), () => runStage(item.run), {class: "small"}) : null
+        )
+      )
+    ),
+    ...(findings.length > 0
+      ? [
+          node("h2", {text: t("findings", {n: findings.length})}),
+          node("ul", {}, ...findings.map(finding))
+        ]
+      : [])
+  );
+}
+
+/** What the diagnosis of the survey found; it leads to its point or photo. */
+function finding(one) {
+  const place = one.file ? `${one.file}${one.line ? `:${one.line}` : ""}` : "";
+  return node(
+    "li",
+    {class: one.kind === "fault" ? "fail" : "review"},
+    button(one.text, () => goTo({point: one.point, photo: one.photo})),
+    node("span", {class: "faint", text: place})
+  );
 }
 
 /** Where something is to be done. */
@@ -165,5 +278,10 @@ function goTo(where) {
 }
 
 /** All marks of the current point, for the control panel. */
-export const marksOfPoint = () => ui.point === null ? [] : state.photos.map(photo => ({photo: photo.name,
-  mark: mark(photo.name, /** @type {string} */ (ui.point))}));
+export const marksOfPoint = () =>
+  ui.point === null
+    ? []
+    : state.photos.map(photo => ({
+        photo: photo.name,
+        mark: mark(photo.name, /** @type {string} */ (ui.point))
+      }));

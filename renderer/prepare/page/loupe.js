@@ -7,7 +7,10 @@ import {rows} from "./state.js";
 import {redraw} from "./signals.js";
 import {activePane, gradeOf, placeOf, ui} from "./ui.js";
 
-const kScale = 8, kSide = 208, kRadius = 40; // CSS px, CSS px, px fetched about the place
+const kScale = 8,
+  kRadius = 40; // CSS px a pixel, px fetched about the place
+const kSides = {large: 208, small: 136},
+  kSmallPane = 340; // CSS px
 const kColours = {good: "#56B4E9", suspect: "#E69F00", bad: "#D55E00", unknown: "#ffffff"};
 
 export class Loupe {
@@ -15,7 +18,7 @@ export class Loupe {
   constructor(pane) {
     this.pane = pane;
     this.canvas = node("canvas", {class: "loupe", "aria-hidden": "true", hidden: true});
-    this.canvas.width = this.canvas.height = kSide * devicePixelRatio;
+    this.side = 0;
     pane.stage.append(this.canvas);
     /** @type {{key: string, x: number, y: number, image: ImageBitmap|null}|null} */
     this.patch = null;
@@ -24,13 +27,28 @@ export class Loupe {
   }
 
   draw() {
-    const pane = this.pane, place = pane.hover ?? pane.cursor;
-    const isShown = pane.photo && activePane() === pane && (ui.isLoupe || this.isHeld) && pane.isInFrame(place.x, place.y);
+    const pane = this.pane,
+      place = pane.hover ?? pane.cursor;
+    const isShown =
+      pane.photo &&
+      activePane() === pane &&
+      (ui.isLoupe || this.isHeld) &&
+      pane.isInFrame(place.x, place.y);
     if (this.canvas.hidden === Boolean(isShown)) this.canvas.hidden = !isShown;
     if (!isShown) return;
+    this.resize();
     this.putAside(pane.toScreen(place.x, place.y));
     this.need(place);
     this.paint(place);
+  }
+
+  /** Small panes have a small one. */
+  resize() {
+    const side = this.pane.height < kSmallPane ? kSides.small : kSides.large;
+    if (side === this.side) return;
+    this.side = side;
+    this.canvas.width = this.canvas.height = side * devicePixelRatio;
+    this.canvas.style.width = this.canvas.style.height = `${side}px`;
   }
 
   /** In the corner that the place is not in. */
@@ -40,13 +58,21 @@ export class Loupe {
 
   /** Fetches pixels when the place leaves the middle of those that are here. */
   need(place) {
-    const x = Math.round(place.x), y = Math.round(place.y), free = kRadius - Math.ceil(kSide / kScale / 2) - 1;
-    const has = this.patch?.key === this.pane.photo.name && Math.abs(this.patch.x - x) <= free && Math.abs(this.patch.y - y) <= free;
+    const x = Math.round(place.x),
+      y = Math.round(place.y),
+      free = kRadius - Math.ceil(kSides.large / kScale / 2) - 1;
+    const has =
+      this.patch?.key === this.pane.photo.name &&
+      Math.abs(this.patch.x - x) <= free &&
+      Math.abs(this.patch.y - y) <= free;
     if (has || this.timer) return;
-    const key = this.pane.photo.name, index = this.pane.index;
+    const key = this.pane.photo.name,
+      index = this.pane.index;
     this.timer = window.setTimeout(async () => {
       try {
-        const image = await createImageBitmap(await getBlob(`/api/patch?photo=${index}&x=${x}&y=${y}&r=${kRadius}`));
+        const image = await createImageBitmap(
+          await getBlob(`/api/patch?photo=${index}&x=${x}&y=${y}&r=${kRadius}`)
+        );
         this.patch?.image?.close();
         this.patch = {key, x, y, image};
       } catch {
@@ -58,20 +84,33 @@ export class Loupe {
   }
 
   paint(place) {
-    const context = this.canvas.getContext("2d"), ratio = devicePixelRatio;
+    const context = this.canvas.getContext("2d"),
+      ratio = devicePixelRatio;
     context.setTransform(ratio, 0, 0, ratio, 0, 0);
     context.imageSmoothingEnabled = false;
     context.fillStyle = "#000";
-    context.fillRect(0, 0, kSide, kSide);
-    const toX = x => (x - place.x) * kScale + kSide / 2, toY = y => (y - place.y) * kScale + kSide / 2;
+    context.fillRect(0, 0, this.side, this.side);
+    const toX = x => (x - place.x) * kScale + this.side / 2,
+      toY = y => (y - place.y) * kScale + this.side / 2;
     if (this.patch?.image && this.patch.key === this.pane.photo.name) {
       const side = (2 * kRadius + 1) * kScale;
-      context.drawImage(this.patch.image, toX(this.patch.x - kRadius - 0.5), toY(this.patch.y - kRadius - 0.5), side, side);
+      context.drawImage(
+        this.patch.image,
+        toX(this.patch.x - kRadius - 0.5),
+        toY(this.patch.y - kRadius - 0.5),
+        side,
+        side
+      );
     }
     this.paintMarks(context, toX, toY);
-    const middle = kSide / 2;
+    const middle = this.side / 2;
     stroke(context, "#fff", () => {
-      for (const [dx, dy] of [[1, 0], [-1, 0], [0, 1], [0, -1]]) {
+      for (const [dx, dy] of [
+        [1, 0],
+        [-1, 0],
+        [0, 1],
+        [0, -1]
+      ]) {
         context.moveTo(middle + 5 * dx, middle + 5 * dy);
         context.lineTo(middle + 40 * dx, middle + 40 * dy);
       }
@@ -82,15 +121,23 @@ export class Loupe {
     const photo = this.pane.photo.name;
     for (const one of rows("observations")) {
       if (one.photo !== photo) continue;
-      const x = toX(one.x), y = toY(one.y);
-      if (x < 0 || y < 0 || x > kSide || y > kSide) continue;
+      const x = toX(one.x),
+        y = toY(one.y);
+      if (x < 0 || y < 0 || x > this.side || y > this.side) continue;
       stroke(context, kColours[gradeOf(photo, one.point)], () => context.arc(x, y, 6, 0, 2 * Math.PI));
     }
     for (const polygon of rows("polygons")) {
       const corners = polygon.vertices.map(name => placeOf(photo, name));
       if (!ui.wireframe || corners.some(at => !at)) continue;
-      stroke(context, "#ffffffb0", () => corners.forEach((at, i) =>
-        i === 0 ? context.moveTo(toX(at.x), toY(at.y)) : context.lineTo(toX(at.x), toY(at.y))), true);
+      stroke(
+        context,
+        "#ffffffb0",
+        () =>
+          corners.forEach((at, i) =>
+            i === 0 ? context.moveTo(toX(at.x), toY(at.y)) : context.lineTo(toX(at.x), toY(at.y))
+          ),
+        true
+      );
     }
   }
 }

@@ -28,10 +28,14 @@ function addPageKeys() {
   addDirectionKeys();
   addLightKeys();
   addConstraintKeys();
-  addAction({id: "list", key: "L", run: () => {
-    showList("points");
-    first("#list tbody button")?.focus();
-  }});
+  addAction({
+    id: "list",
+    key: "L",
+    run: () => {
+      showList("points");
+      first("#list tbody button")?.focus();
+    }
+  });
   addAction({id: "help", key: "?", run: showHelp, isPage: true});
 }
 
@@ -41,12 +45,25 @@ async function begin() {
   try {
     await start();
   } catch (error) {
-    byId("banners").replaceChildren(node("p", {class: "banner fail", text: t("cannotLoad", {why: String(error.message ?? error)})}));
+    byId("banners").replaceChildren(
+      node("p", {
+        class: "banner fail",
+        text: /^401/.test(error.message)
+          ? t("noToken")
+          : t("cannotLoad", {why: String(error.message ?? error)})
+      })
+    );
     return;
   }
   addPageKeys();
-  buildHeader([["controlTable", showControlTable], ["constraints", showConstraints], ["measure", showMeasure],
-    ["stages", showStages], ["sketches", showSketches], ["help", showHelp]]);
+  buildHeader([
+    ["controlTable", showControlTable],
+    ["constraints", showConstraints],
+    ["measure", showMeasure],
+    ["stages", showStages],
+    ["sketches", showSketches],
+    ["help", showHelp]
+  ]);
   buildLists();
   followRuns();
   if (!isReport) {

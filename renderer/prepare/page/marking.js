@@ -1,14 +1,26 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Marks of the current point: placed, confirmed, moved, switched, deleted, proposed.
 
-import {ask} from "./api.js";
 import {byId} from "./dom.js";
-import {edit, freeName, indexed, isReadOnly, live, mark, nameFault, photoOf, prediction, raysOf, rows, state}
-  from "./state.js";
+import {
+  edit,
+  freeName,
+  indexed,
+  isReadOnly,
+  live,
+  mark,
+  nameFault,
+  photoOf,
+  prediction,
+  raysOf,
+  rows,
+  state
+} from "./state.js";
 import {emit} from "./signals.js";
 import {stored} from "./numbers.js";
 import {activePane, choosePoint, photosOf, placeOf, showPhoto, ui} from "./ui.js";
 import {say} from "./notices.js";
+import {proposalFor, proposals} from "./proposals.js";
 import {t} from "./words.js";
 
 const kReach = 10; // CSS px within which a click means the mark
@@ -16,9 +28,6 @@ const kDubious = 3;
 
 /** The σ [px] of marks by hand. */
 export const marking = {sigma: Number(localStorage.getItem("insitu-sigma")) || 0.5};
-
-/** Proposals of the point they are for, by photo. */
-export const proposals = {point: "", /** @type {Map<string, any>} */ byPhoto: new Map()};
 
 /** A mark that arrows or a drag are moving and that is not yet told to the server. */
 export const moving = {photo: "", point: "", x: 0, y: 0, timer: 0};
@@ -31,8 +40,9 @@ export function settle() {
   moving.point = "";
   if (!old) return;
   rest(photo);
-  edit(t("opMove", {point, photo}), [{table: "observations", before: old,
-    after: {...old, x: stored(x), y: stored(y)}}]);
+  edit(t("opMove", {point, photo}), [
+    {table: "observations", before: old, after: {...old, x: stored(x), y: stored(y)}}
+  ]);
 }
 
 function move(photo, point, x, y, delay) {
@@ -44,7 +54,8 @@ function move(photo, point, x, y, delay) {
 
 /** The name of the mark nearest to a place, if within reach. */
 function markAt(pane, x, y) {
-  let best = null, least = kReach / pane.k;
+  let best = null,
+    least = kReach / pane.k;
   for (const one of rows("observations")) {
     if (one.photo !== pane.photo.name) continue;
     const distance = Math.hypot(one.x - x, one.y - y);
@@ -55,7 +66,11 @@ function markAt(pane, x, y) {
 
 /** Whether a drag that begins here moves the current point's mark. */
 export const isDraggable = (pane, x, y) =>
-  ui.point !== null && !ui.tool && pane.photo !== null && markAt(pane, x, y) === ui.point && !isReadOnly("observations");
+  ui.point !== null &&
+  !ui.tool &&
+  pane.photo !== null &&
+  markAt(pane, x, y) === ui.point &&
+  !isReadOnly("observations");
 
 /**
  * @param {any} pane
@@ -96,15 +111,20 @@ export function confirm(pane, isShift) {
   if (ui.tool) return useTool(pane);
   if (ui.point === null) return askForPoint();
   settle();
-  const photo = pane.photo.name, point = ui.point, old = mark(photo, point), proposal = proposalFor(photo, point);
+  const photo = pane.photo.name,
+    point = ui.point,
+    old = mark(photo, point),
+    proposal = proposalFor(photo, point);
   if (!old && !pane.isMoved && !proposal && !prediction(photo, point)) return say(t("moveFirst"));
-  if (!old || pane.isMoved || proposal) place(photo, point, pane.cursor.x, pane.cursor.y, pane.isMoved ? null : proposal);
+  if (!old || pane.isMoved || proposal)
+    place(photo, point, pane.cursor.x, pane.cursor.y, pane.isMoved ? null : proposal);
   if (!isShift) advance(photo, point);
 }
 
 /** The tool gets the place, snapped to a point that is there; untouched crosshair: it is finished. */
 function useTool(pane) {
-  const tool = /** @type {import("./ui.js").Tool} */ (ui.tool), {x, y} = pane.cursor;
+  const tool = /** @type {import("./ui.js").Tool} */ (ui.tool),
+    {x, y} = pane.cursor;
   if (!pane.isMoved) return tool.finish?.();
   pane.isMoved = false;
   const name = tool.pickPoint ? markAt(pane, x, y) : null;
@@ -117,12 +137,14 @@ function useTool(pane) {
 /** Inserts or moves a mark. */
 export function place(photo, point, x, y, proposal = null) {
   const size = photoOf(photo);
-  if (!size || x < -0.5 || y < -0.5 || x > size.width - 0.5 || y > size.height - 0.5) return say(t("offFrame"));
+  if (!size || x < -0.5 || y < -0.5 || x > size.width - 0.5 || y > size.height - 0.5)
+    return say(t("offFrame"));
   const fault = nameFault(point);
   if (fault) return say(t(fault));
   if (isReadOnly("observations")) return say(t("readOnlyTable"));
-  edit(mark(photo, point) ? t("opMove", {point, photo}) : t("opMark", {point, photo}),
-    [markEdit(photo, point, x, y, proposal)]);
+  edit(mark(photo, point) ? t("opMove", {point, photo}) : t("opMark", {point, photo}), [
+    markEdit(photo, point, x, y, proposal)
+  ]);
   proposals.byPhoto.delete(photo);
   rest(photo);
   say("");
@@ -149,15 +171,19 @@ export function markEdit(photo, point, x, y, proposal = null) {
 
 /** To the point's next photo without a mark, then to the next point. */
 function advance(photo, point) {
-  const names = photosOf(point), at = names.indexOf(photo);
-  const next = [...names.slice(at + 1), ...names.slice(0, Math.max(at, 0))].find(name => !mark(name, point));
+  const names = photosOf(point),
+    at = names.indexOf(photo);
+  const next = [...names.slice(at + 1), ...names.slice(0, Math.max(at, 0))].find(
+    name => !mark(name, point)
+  );
   if (next) return showPhoto(next);
   if (stepPoint(1)) showFirstWish();
 }
 
 /** The current point on the first photo that lacks it, if the active one has it. */
 function showFirstWish() {
-  const point = ui.point, photo = activePane().photo?.name;
+  const point = ui.point,
+    photo = activePane().photo?.name;
   if (point === null || !mark(photo, point)) return;
   const next = photosOf(point).find(name => !mark(name, point));
   if (next) showPhoto(next);
@@ -166,8 +192,10 @@ function showFirstWish() {
 /** Names that need rays, in the files' order. */
 function wanting() {
   const names = [...indexed().points.keys()];
-  return names.filter(name => raysOf(name) < 2 || photosOf(name).some(photo => !mark(photo, name) &&
-    prediction(photo, name)));
+  return names.filter(
+    name =>
+      raysOf(name) < 2 || photosOf(name).some(photo => !mark(photo, name) && prediction(photo, name))
+  );
 }
 
 /**
@@ -176,10 +204,12 @@ function wanting() {
  */
 export function stepPoint(step) {
   settle();
-  const needed = new Set(wanting()), names = [...indexed().points.keys()];
+  const needed = new Set(wanting()),
+    names = [...indexed().points.keys()];
   const from = names.indexOf(ui.point ?? "");
   for (let i = 1; i <= names.length; ++i) {
-    const name = names[(from + step * i + (from < 0 && step < 0 ? 1 : 0) + names.length * 2) % names.length];
+    const name =
+      names[(from + step * i + (from < 0 && step < 0 ? 1 : 0) + names.length * 2) % names.length];
     if (needed.has(name) && name !== ui.point) {
       choosePoint(name);
       return true;
@@ -199,7 +229,10 @@ export function stepPhoto(step) {
   if (names.length === 0) return;
   const at = names.indexOf(activePane().photo?.name);
   const next = names[at < 0 ? 0 : (at + step + names.length) % names.length];
+  const before = activePane().photo,
+    other = ui.panes.find(pane => pane !== activePane() && pane.photo?.name === next);
   activePane().setPhoto(photoOf(next));
+  other?.setPhoto(before); // no photo stands twice
   live.send({focus: next});
   if (ui.point !== null) activePane().goTo(ui.point, true);
   emit("selection");
@@ -207,7 +240,8 @@ export function stepPhoto(step) {
 
 /** The point with the next smaller |w|. */
 export function nextSuspect() {
-  const marks = [...(state.adjusted?.marks ?? [])].filter(one => one.w !== null)
+  const marks = [...(state.adjusted?.marks ?? [])]
+    .filter(one => one.w !== null)
     .sort((a, b) => Math.abs(b.w) - Math.abs(a.w));
   if (marks.length === 0) return;
   const at = marks.findIndex(one => one.point === ui.point && one.photo === activePane().photo?.name);
@@ -219,7 +253,9 @@ export function nextSuspect() {
 /** The crosshair by arrows; a mark under it comes along. */
 export function nudge(pane, dx, dy) {
   if (!pane?.photo) return;
-  const photo = pane.photo.name, point = ui.point, {x, y} = pane.cursor;
+  const photo = pane.photo.name,
+    point = ui.point,
+    {x, y} = pane.cursor;
   const old = point !== null && !ui.tool ? mark(photo, point) : null;
   const at = moving.point === point && moving.photo === photo ? moving : old;
   const isOn = old && at && Math.hypot(at.x - x, at.y - y) < 1e-3 && !isReadOnly("observations");
@@ -233,63 +269,24 @@ export function nudge(pane, dx, dy) {
  */
 function changeMark(change, label) {
   settle();
-  const photo = activePane()?.photo?.name, old = ui.point !== null && mark(photo, ui.point);
+  const photo = activePane()?.photo?.name,
+    old = ui.point !== null && mark(photo, ui.point);
   if (!old) return say(t("noMark"));
   if (isReadOnly("observations")) return say(t("readOnlyTable"));
   edit(t(label, {point: ui.point, photo}), [{table: "observations", before: old, after: change(old)}]);
 }
 export const deleteMark = () => changeMark(() => null, "opDelete");
-export const toggleOff = () => changeMark(old => ({...old, state: old.state === "off" ? "on" : "off"}), "opSwitch");
+export const toggleOff = () =>
+  changeMark(old => ({...old, state: old.state === "off" ? "on" : "off"}), "opSwitch");
 /** Dubious: σ is three times as large; and back. */
-export const toggleDubious = () => changeMark(old => old.state === "dubious"
-  ? {...old, state: "on", sigma: old.sigma / kDubious}
-  : {...old, state: "dubious", sigma: old.sigma * kDubious}, "opDubious");
-
-export const proposalFor = (photo, point) => proposals.point === point ? proposals.byPhoto.get(photo) : undefined;
-
-/** Takes proposals of the current point and shows the first. */
-function propose(photo, point, proposal) {
-  if (proposals.point !== point) {
-    proposals.point = point;
-    proposals.byPhoto.clear();
-  }
-  proposals.byPhoto.set(photo, proposal);
-  for (const pane of ui.panes) {
-    if (pane.photo?.name !== photo) continue;
-    pane.cursor = {x: proposal.x, y: proposal.y};
-    pane.isMoved = false;
-    pane.reveal();
-  }
-  emit("view");
-}
-
-/** Asks where the corner at the crosshair is; Enter takes it. */
-export async function refine(pane) {
-  if (!pane?.photo || ui.point === null) return say(t("noPoint"));
-  settle();
-  const photo = pane.photo.name, point = ui.point;
-  const answer = await ask("/api/refine", {photo, x: pane.cursor.x, y: pane.cursor.y});
-  if (answer.error) return say(t("notRefined", {why: answer.error}));
-  propose(photo, point, answer);
-  say(t("refined", {shift: Number(answer.shift ?? 0).toFixed(2), sigma: Number(answer.sigma).toFixed(2)}));
-}
-
-/** Asks for the point on all photos that lack it: matches, or corners at the predictions. */
-export async function match(pane) {
-  if (!pane?.photo || ui.point === null) return say(t("noPoint"));
-  const point = ui.point, photo = pane.photo.name;
-  const answer = await ask("/api/match", {photo, point});
-  for (const one of answer.proposals ?? []) propose(one.photo, point, {...one, method: "match"});
-  if (answer.error) {
-    for (const name of photosOf(point).filter(other => !mark(other, point) && prediction(other, point))) {
-      const corner = await ask("/api/refine", {photo: name, ...placeOf(name, point)});
-      if (!corner.error) propose(name, point, corner);
-    }
-  }
-  const found = proposals.point === point ? proposals.byPhoto.size : 0;
-  say(t("matched", {n: found}));
-  if (found > 0 && !proposals.byPhoto.has(photo)) showPhoto([...proposals.byPhoto.keys()][0]);
-}
+export const toggleDubious = () =>
+  changeMark(
+    old =>
+      old.state === "dubious"
+        ? {...old, state: "on", sigma: old.sigma / kDubious}
+        : {...old, state: "dubious", sigma: old.sigma * kDubious},
+    "opDubious"
+  );
 
 /** Brings the field for a point's name, with a free one in it. */
 export function askForPoint() {
@@ -304,7 +301,9 @@ export function askForPoint() {
 export function takeName(name) {
   const fault = nameFault(name);
   if (fault) return say(t(fault));
-  const pane = activePane(), isNew = !indexed().points.has(name), wasMoved = pane.isMoved && ui.point === null;
+  const pane = activePane(),
+    isNew = !indexed().points.has(name),
+    wasMoved = pane.isMoved && ui.point === null;
   if (isNew && ui.tool) {
     if (!ui.tool.place || !pane.isMoved) return say(t("noSuchPoint", {name}));
     pane.isMoved = false;
@@ -342,4 +341,3 @@ export function cancel() {
   else if (ui.point !== null) ui.point = null;
   emit("selection");
 }
-

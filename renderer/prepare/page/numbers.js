@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Numbers as people write them, there and back.
 
+import {language} from "./words.js";
+
 const formats = new Map();
 
 /**
@@ -11,7 +13,8 @@ const formats = new Map();
  */
 export function parseNumber(text) {
   const trimmed = text.trim().replace(/\u2212/g, "-");
-  if (!/^[+-]?(\d+|\d{1,3}(['’\u0020\u00a0\u202f]\d{3})+)?([.,]\d*)?([eE][+-]?\d+)?$/.test(trimmed)) return null;
+  if (!/^[+-]?(\d+|\d{1,3}(['’\u0020\u00a0\u202f]\d{3})+)?([.,]\d*)?([eE][+-]?\d+)?$/.test(trimmed))
+    return null;
   const value = Number(trimmed.replace(/['’\u0020\u00a0\u202f]/g, "").replace(",", "."));
   return /\d/.test(trimmed) && Number.isFinite(value) ? value : null;
 }
@@ -23,7 +26,10 @@ export function parseNumber(text) {
  */
 export function parsePair(text) {
   for (const separator of [";", "\t", /,\s+/, /\s+/, ","]) {
-    const parts = text.trim().split(separator).filter(part => part !== "");
+    const parts = text
+      .trim()
+      .split(separator)
+      .filter(part => part !== "");
     if (parts.length !== 2) continue;
     const [x, y] = parts.map(parseNumber);
     if (x !== null && y !== null) return [x, y];
@@ -39,8 +45,16 @@ export function parsePair(text) {
 export function shown(value, digits) {
   if (typeof value !== "number" || !Number.isFinite(value)) return "–";
   if (!formats.has(digits)) {
-    formats.set(digits, new Intl.NumberFormat(navigator.language,
-      {minimumFractionDigits: digits, maximumFractionDigits: digits}));
+    const place =
+      language !== "de" || navigator.language.startsWith("de") ? navigator.language : "de-CH";
+    formats.set(
+      digits,
+      new Intl.NumberFormat(place, {
+        minimumFractionDigits: digits,
+        maximumFractionDigits: digits,
+        useGrouping: place.startsWith("de")
+      })
+    ); // a comma between thousands is one before decimals elsewhere
   }
   const text = formats.get(digits).format(value);
   return /[1-9]/.test(text) ? text.replace("-", "\u2212") : text.replace(/^[-\u2212]/, "");

@@ -10,9 +10,14 @@ import {post} from "./api.js";
 const kPrefix = "insitu-operation:";
 /** @type {Operation[]} */
 const waiting = [];
-let isSending = false, site = "", timer = 0;
-let handlers = {confirmed: (_operation, _revision) => {}, refused: (_operation, _status, _body) => {},
-  changed: () => {}};
+let isSending = false,
+  site = "",
+  timer = 0;
+let handlers = {
+  confirmed: (_operation, _revision) => {},
+  refused: (_operation, _status, _body) => {},
+  changed: () => {}
+};
 
 /** Operations that the server has not confirmed. */
 export const unconfirmed = () => waiting;
@@ -22,8 +27,10 @@ export let failures = 0;
 export let storeFault = "";
 
 /** A text that no other operation has. */
-export const newId = () => [...crypto.getRandomValues(new Uint8Array(12))]
-  .map(byte => byte.toString(16).padStart(2, "0")).join("");
+export const newId = () =>
+  [...crypto.getRandomValues(new Uint8Array(12))]
+    .map(byte => byte.toString(16).padStart(2, "0"))
+    .join("");
 
 const keep = operation => {
   try {
@@ -42,10 +49,12 @@ const keep = operation => {
 export function openOutbox(siteFolder, called) {
   site = siteFolder;
   handlers = called;
-  const kept = Object.keys(localStorage).filter(key => key.startsWith(kPrefix))
+  const kept = Object.keys(localStorage)
+    .filter(key => key.startsWith(kPrefix))
     .map(key => JSON.parse(localStorage.getItem(key) ?? "{}"))
     .filter(one => one.site === site && !waiting.some(o => o.id === one.operation.id))
-    .sort((a, b) => a.at - b.at).map(one => one.operation);
+    .sort((a, b) => a.at - b.at)
+    .map(one => one.operation);
   waiting.push(...kept);
   if (waiting.length > 0) sendNow();
   return kept;
@@ -78,7 +87,8 @@ async function send(operation) {
     handlers.confirmed(operation, body.revision);
     return true;
   }
-  if (status === 400 || status === 409) { // wrong for ever: a person decides
+  if (status === 400 || status === 409) {
+    // wrong for ever: a person decides
     forget(operation);
     handlers.refused(operation, status, body);
     return true;
@@ -94,7 +104,7 @@ export async function sendNow() {
   clearTimeout(timer);
   try {
     while (waiting.length > 0) {
-      if (!await send(waiting[0])) throw new Error(storeFault);
+      if (!(await send(waiting[0]))) throw new Error(storeFault);
       failures = 0;
     }
     failures = 0;

@@ -30,9 +30,9 @@ export class Pane {
     this.isDrawn = false;
     /** @type {Map<string, any>} */
     this.markNodes = new Map();
-    this.drawings = 0;
+    /** How often what is drawn has changed, but for its place. */
+    this.changes = 0;
     this.drawn = {k: 0, tx: 0, ty: 0};
-    this.shift = {x: 0, y: 0};
     /** @type {any} */
     this.context = null;
     this.build();
@@ -45,10 +45,21 @@ export class Pane {
     this.canvas = node("canvas");
     this.figures = svg("g", {class: "figures"});
     this.markLayer = svg("g", {class: "marks"});
-    this.cross = svg("g", {class: "crosshair"}, svg("path", {class: "casing", d: kCross}),
-      svg("path", {d: kCross}));
-    this.overlay = svg("svg", {class: "overlay", "aria-hidden": false}, this.figures, this.markLayer, this.cross);
-    this.stage = node("div", {class: "stage", tabindex: 0, role: "application"}, this.canvas, this.overlay);
+    this.cross = svg(
+      "g",
+      {class: "crosshair"},
+      svg("path", {class: "casing", d: kCross}),
+      svg("path", {d: kCross})
+    );
+    this.overlay = svg("svg", {class: "overlay", "aria-hidden": false}, this.figures, this.markLayer);
+    const crossLayer = svg("svg", {class: "overlay still"}, this.cross);
+    this.stage = node(
+      "div",
+      {class: "stage", tabindex: 0, role: "application"},
+      this.canvas,
+      this.overlay,
+      crossLayer
+    );
     this.chooser = node("select", {tabindex: -1, "aria-label": t("photo")});
     this.chooser.addEventListener("change", () => {
       this.setPhoto(photoOf(this.chooser.value) ?? null);
@@ -56,8 +67,12 @@ export class Pane {
       this.focus();
     });
     this.note = node("span", {class: "note"});
-    this.root = node("section", {class: "pane"},
-      node("header", {}, this.chooser, this.note), this.stage);
+    this.root = node(
+      "section",
+      {class: "pane"},
+      node("header", {}, this.chooser, this.note),
+      this.stage
+    );
   }
 
   /** @param {import("./state.js").Photo|null} photo */
@@ -81,15 +96,19 @@ export class Pane {
   }
 
   resize() {
-    const box = this.stage.getBoundingClientRect(), ratio = devicePixelRatio;
+    const box = this.stage.getBoundingClientRect(),
+      ratio = devicePixelRatio;
     if (box.width === 0) return;
-    const dx = (box.width - (this.width ?? box.width)) / 2, dy = (box.height - (this.height ?? box.height)) / 2;
+    const dx = (box.width - (this.width ?? box.width)) / 2,
+      dy = (box.height - (this.height ?? box.height)) / 2;
     this.width = box.width;
     this.height = box.height;
     this.canvas.width = Math.round(box.width * ratio);
     this.canvas.height = Math.round(box.height * ratio);
     this.isDrawn = false;
-    this.overlay.setAttribute("viewBox", `0 0 ${box.width} ${box.height}`);
+    // Half a pane more on each side, so that a pan only moves the layer.
+    const {width, height} = box;
+    this.overlay.setAttribute("viewBox", `${-width / 2} ${-height / 2} ${2 * width} ${2 * height}`);
     if (this.isFitted) this.fit();
     else this.setView(this.k, this.tx + dx, this.ty + dy);
     this.paint(); // at once: a resized canvas is empty
@@ -97,7 +116,8 @@ export class Pane {
 
   /** The view: t on whole device pixels, so that at whole k every pixel is a sharp square. */
   setView(k, tx, ty) {
-    const ratio = devicePixelRatio, snap = value => Math.round(value * ratio) / ratio;
+    const ratio = devicePixelRatio,
+      snap = value => Math.round(value * ratio) / ratio;
     this.k = clamp(k, this.fitScale() / 4, 64);
     this.tx = snap(tx);
     this.ty = snap(ty);
@@ -134,7 +154,11 @@ export class Pane {
   /** Pixel (x, y) to the middle of the pane. */
   centre(x, y) {
     this.isFitted = false;
-    this.setView(this.k, (this.width ?? 0) / 2 - this.k * (x + 0.5), (this.height ?? 0) / 2 - this.k * (y + 0.5));
+    this.setView(
+      this.k,
+      (this.width ?? 0) / 2 - this.k * (x + 0.5),
+      (this.height ?? 0) / 2 - this.k * (y + 0.5)
+    );
   }
 
   toScreen(x, y) {
@@ -146,7 +170,13 @@ export class Pane {
   }
 
   isInFrame(x, y) {
-    return this.photo !== null && x >= -0.5 && y >= -0.5 && x <= this.photo.width - 0.5 && y <= this.photo.height - 0.5;
+    return (
+      this.photo !== null &&
+      x >= -0.5 &&
+      y >= -0.5 &&
+      x <= this.photo.width - 0.5 &&
+      y <= this.photo.height - 0.5
+    );
   }
 
   /** The crosshair to a point, if its place is known; the view along, if asked. */
@@ -170,7 +200,10 @@ export class Pane {
   /** The crosshair to a pixel, kept on the photo. */
   moveCursor(x, y) {
     if (!this.photo) return;
-    this.cursor = {x: clamp(x, -0.5, this.photo.width - 0.5), y: clamp(y, -0.5, this.photo.height - 0.5)};
+    this.cursor = {
+      x: clamp(x, -0.5, this.photo.width - 0.5),
+      y: clamp(y, -0.5, this.photo.height - 0.5)
+    };
     this.isMoved = true;
     this.reveal();
     redraw();
@@ -178,8 +211,13 @@ export class Pane {
 
   /** Pans if the crosshair is out of sight. */
   reveal() {
-    const at = this.toScreen(this.cursor.x, this.cursor.y), edge = 24;
-    if (!this.width || (at.x >= edge && at.y >= edge && at.x <= this.width - edge && at.y <= this.height - edge)) return;
+    const at = this.toScreen(this.cursor.x, this.cursor.y),
+      edge = 24;
+    if (
+      !this.width ||
+      (at.x >= edge && at.y >= edge && at.x <= this.width - edge && at.y <= this.height - edge)
+    )
+      return;
     if (!this.isFitted) this.centre(this.cursor.x, this.cursor.y);
   }
 
@@ -193,20 +231,19 @@ export class Pane {
     this.loupe.draw();
   }
 
-  /** Lines and marks: anew after a change or a zoom; a pan only shifts them. */
+  /** Lines and marks: anew after a change, placed anew after a zoom; a pan only moves their layer. */
   drawOverlay() {
-    const dx = this.tx - this.drawn.tx, dy = this.ty - this.drawn.ty;
+    const dx = this.tx - this.drawn.tx,
+      dy = this.ty - this.drawn.ty;
     const isFar = Math.abs(dx) > this.width / 2 || Math.abs(dy) > this.height / 2;
     if (!this.isDrawn || this.k !== this.drawn.k || isFar) {
+      if (!this.isDrawn) this.changes += 1;
       this.isDrawn = true;
-      this.drawings += 1;
       this.drawn = {k: this.k, tx: this.tx, ty: this.ty};
       drawMarks(this);
-      this.markLayer.setAttribute("transform", "translate(0 0)");
-    } else if (dx !== this.shift.x || dy !== this.shift.y) {
-      this.markLayer.setAttribute("transform", `translate(${dx} ${dy})`);
     }
-    this.shift = {x: this.tx - this.drawn.tx, y: this.ty - this.drawn.ty};
+    const shift = `translate(${this.tx - this.drawn.tx}px, ${this.ty - this.drawn.ty}px)`;
+    if (this.overlay.style.transform !== shift) this.overlay.style.transform = shift;
     drawFigures(this);
   }
 
@@ -218,17 +255,21 @@ export class Pane {
     }
     this.chooser.value = this.photo?.name ?? "";
     const about = state.adjusted?.photos?.[this.photo?.name ?? ""];
-    this.note.textContent = !this.photo ? "" : noteOf(this.photo.name, about) +
-      `  ${Math.round(100 * this.k * devicePixelRatio)} %`;
+    this.note.textContent = !this.photo
+      ? ""
+      : noteOf(this.photo.name, about) +
+        `  ${Math.round(100 * this.k * devicePixelRatio)} %${ui.arrows ? `  v × ${ui.arrows}` : ""}`;
   }
 
   paint() {
-    const begin = performance.now(), ratio = devicePixelRatio;
-    const context = this.context ??= this.canvas.getContext("2d", {alpha: false});
+    const begin = performance.now(),
+      ratio = devicePixelRatio;
+    const context = (this.context ??= this.canvas.getContext("2d", {alpha: false}));
     context.setTransform(1, 0, 0, 1, 0, 0);
     context.fillStyle = "#15191c";
     context.fillRect(0, 0, this.canvas.width, this.canvas.height);
-    if (this.photo && this.width) this.paintTiles(context, this.k * ratio, this.tx * ratio, this.ty * ratio);
+    if (this.photo && this.width)
+      this.paintTiles(context, this.k * ratio, this.tx * ratio, this.ty * ratio);
     fetchTiles();
     this.paintMs = performance.now() - begin;
   }
@@ -236,14 +277,20 @@ export class Pane {
   /** All in device pixels. */
   paintTiles(context, k, tx, ty) {
     const {width, height, levels} = /** @type {any} */ (this.photo);
-    const level = clamp(Math.floor(-Math.log2(k) + 1e-6), 0, levels - 1), side = kTile * 2 ** level;
+    const level = clamp(Math.floor(-Math.log2(k) + 1e-6), 0, levels - 1),
+      side = kTile * 2 ** level;
     context.imageSmoothingEnabled = k < 1;
     context.save();
     context.beginPath();
-    context.rect(Math.round(tx), Math.round(ty), Math.round(k * width + tx) - Math.round(tx),
-      Math.round(k * height + ty) - Math.round(ty));
+    context.rect(
+      Math.round(tx),
+      Math.round(ty),
+      Math.round(k * width + tx) - Math.round(tx),
+      Math.round(k * height + ty) - Math.round(ty)
+    );
     context.clip();
-    const last = (extent, shift, size) => Math.min(Math.floor((extent - shift) / k / side), Math.ceil(size / side) - 1);
+    const last = (extent, shift, size) =>
+      Math.min(Math.floor((extent - shift) / k / side), Math.ceil(size / side) - 1);
     const first = shift => Math.max(0, Math.floor(-shift / k / side));
     wishTile(this.index, levels - 1, 0, 0); // the overview, which is shown until finer tiles are here
     for (let y = first(ty); y <= last(this.canvas.height, ty, height); ++y) {
@@ -256,15 +303,26 @@ export class Pane {
 
   /** A tile, or until it is here its part of a coarser one. */
   paintTile(context, {level, x, y}, size, tx, ty) {
-    const left = Math.round(tx + x * size), right = Math.round(tx + (x + 1) * size);
-    const top = Math.round(ty + y * size), bottom = Math.round(ty + (y + 1) * size);
+    const left = Math.round(tx + x * size),
+      right = Math.round(tx + (x + 1) * size);
+    const top = Math.round(ty + y * size),
+      bottom = Math.round(ty + (y + 1) * size);
     for (let up = 0; level + up < /** @type {any} */ (this.photo).levels; ++up) {
       const tile = tileIfHere(this.index, level + up, x >> up, y >> up);
       if (up === 0 && !tile) wishTile(this.index, level, x, y);
       if (!tile) continue;
       const part = kTile / 2 ** up;
-      context.drawImage(tile, (x - ((x >> up) << up)) * part, (y - ((y >> up) << up)) * part, part, part,
-        left, top, right - left, bottom - top);
+      context.drawImage(
+        tile,
+        (x - ((x >> up) << up)) * part,
+        (y - ((y >> up) << up)) * part,
+        part,
+        part,
+        left,
+        top,
+        right - left,
+        bottom - top
+      );
       return;
     }
   }
@@ -277,4 +335,3 @@ function noteOf(name, about) {
   if (!about.oriented) return about.why || t("notOriented");
   return t("orientedNote", {rms: about.rms_px === undefined ? "–" : about.rms_px.toFixed(2)});
 }
-

@@ -10,10 +10,15 @@ import {photosOf, ui} from "./ui.js";
 
 export function buildPanes() {
   onTiles(redraw);
-  setLayout(Number(localStorage.getItem("insitu-layout")) || Math.min(state.photos.length > 2 ? 4 : state.photos.length || 1, 4));
-  on("draw", () => ui.panes.forEach(pane => {
-    pane.isDrawn = false;
-  }));
+  setLayout(
+    Number(localStorage.getItem("insitu-layout")) ||
+      Math.min(state.photos.length > 2 ? 4 : state.photos.length || 1, 4)
+  );
+  on("draw", () =>
+    ui.panes.forEach(pane => {
+      pane.isDrawn = false;
+    })
+  );
   on("frame", () => ui.panes.forEach(pane => pane.draw()));
   on("selection", follow);
   on("tables adjusted", () => ui.panes.forEach(pane => pane.stay()));
@@ -46,7 +51,7 @@ export const nextLayout = () => setLayout(ui.panes.length === 1 ? 2 : ui.panes.l
  */
 export function stepPane(step) {
   const next = ui.panes[ui.active + step];
-  if (!next) return false;
+  if (!next?.photo) return false;
   next.focus();
   live.send({focus: next.photo?.name});
   return true;
@@ -54,7 +59,9 @@ export function stepPane(step) {
 
 /** The active photo and that of the large pane change places. */
 export function enlarge() {
-  const [large] = ui.panes, pane = ui.panes[ui.active], photo = pane.photo;
+  const [large] = ui.panes,
+    pane = ui.panes[ui.active],
+    photo = pane.photo;
   if (pane === large || !photo) return;
   const before = large.photo;
   large.setPhoto(photo);
@@ -68,7 +75,9 @@ function follow() {
   const point = ui.point;
   if (point === null || point === followed || state.photos.length <= ui.panes.length) return;
   followed = point;
-  const names = photosOf(point).sort((a, b) => Number(Boolean(mark(a, point))) - Number(Boolean(mark(b, point))));
+  const names = photosOf(point).sort(
+    (a, b) => Number(Boolean(mark(a, point))) - Number(Boolean(mark(b, point)))
+  );
   const active = ui.panes[ui.active];
   const wanted = names.filter(name => name !== active.photo?.name).slice(0, ui.panes.length - 1);
   const idle = ui.panes.filter(pane => pane !== active && !wanted.includes(pane.photo?.name));

@@ -23,7 +23,8 @@ export function pointTool(what) {
   /** @type {string[]} */
   const names = [];
   const made = new Set(); // points that this tool has marked
-  let photo = /** @type {string|null} */ (null), isDone = false;
+  let photo = /** @type {string|null} */ (null),
+    isDone = false;
   const end = () => {
     isDone = true;
     setTool(null);
@@ -32,11 +33,13 @@ export function pointTool(what) {
   /** @type {import("./ui.js").Tool} */
   const tool = {
     name: what.name,
-    hint: () => `${t(what.wanted[Math.min(names.length, what.wanted.length - 1)], {n: names.length + 1})}` +
+    hint: () =>
+      `${t(what.wanted[Math.min(names.length, what.wanted.length - 1)], {n: names.length + 1})}` +
       (names.length > 0 ? ` (${names.join(", ")})` : ""),
     pickPoint: name => {
       if (!what.count && name === names[0] && names.length > 2) return end();
-      if (names[names.length - 1] === name || (!what.count && names.includes(name))) return say(t("twice", {name}));
+      if (names[names.length - 1] === name || (!what.count && names.includes(name)))
+        return say(t("twice", {name}));
       names.push(name);
       photo ??= ui.panes[ui.active]?.photo?.name ?? null;
       say(tool.hint());
@@ -57,8 +60,16 @@ export function pointTool(what) {
     cancelled: () => {
       if (!isDone) what.cancelled?.();
     },
-    outline: on => what.count === 1 ? [] : names.map(name => placeOf(on, name)).filter(at => at !== null)
-      .map(at => /** @type {[number, number]} */ ([/** @type {any} */ (at).x, /** @type {any} */ (at).y])),
+    outline: on =>
+      what.count === 1
+        ? []
+        : names
+            .map(name => placeOf(on, name))
+            .filter(at => at !== null)
+            .map(
+              at =>
+                /** @type {[number, number]} */ ([/** @type {any} */ (at).x, /** @type {any} */ (at).y])
+            )
   };
   if (!what.onlyKnown) {
     tool.place = (on, x, y, given) => {
@@ -78,6 +89,9 @@ export function pointTool(what) {
 function takeBack(name) {
   for (const pane of ui.panes) {
     const old = pane.photo && mark(pane.photo.name, name);
-    if (old) return edit(t("opDelete", {point: name, photo: old.photo}), [{table: "observations", before: old, after: null}]);
+    if (old)
+      return edit(t("opDelete", {point: name, photo: old.photo}), [
+        {table: "observations", before: old, after: null}
+      ]);
   }
 }

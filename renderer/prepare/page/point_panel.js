@@ -2,7 +2,9 @@
 // The panel of the current point: its name, where the crosshair goes, what can be done with its mark.
 
 import {button, byId, labelled, node} from "./dom.js";
-import {confirm, deleteMark, marking, match, proposals, refine, takeName, toggleDubious, toggleOff} from "./marking.js";
+import {confirm, deleteMark, marking, takeName, toggleDubious, toggleOff} from "./marking.js";
+import {match, proposals, refine} from "./proposals.js";
+import {showRename} from "./renaming.js";
 import {say} from "./notices.js";
 import {parseNumber, parsePair, shown} from "./numbers.js";
 import {adjustedMark, indexed, kindOf, photoOf, prediction, state} from "./state.js";
@@ -13,10 +15,22 @@ import {t} from "./words.js";
 
 /** What keyboard users type: a name, a place. */
 export function buildPointPanel(root) {
-  const name = node("input", {id: "point-name", type: "text", list: "names", autocomplete: "off", spellcheck: "false",
-    "aria-keyshortcuts": "Control+F"});
-  const place = node("input", {id: "go-to", type: "text", inputmode: "decimal", autocomplete: "off", placeholder: "x y",
-    "aria-keyshortcuts": "Control+G"});
+  const name = node("input", {
+    id: "point-name",
+    type: "text",
+    list: "names",
+    autocomplete: "off",
+    spellcheck: "false",
+    "aria-keyshortcuts": "Control+F"
+  });
+  const place = node("input", {
+    id: "go-to",
+    type: "text",
+    inputmode: "decimal",
+    autocomplete: "off",
+    placeholder: "x y",
+    "aria-keyshortcuts": "Control+G"
+  });
   name.addEventListener("keydown", event => {
     if (event.key === "Enter") found(name.value.trim());
     if (event.key === "Escape") backFrom(name);
@@ -25,9 +39,16 @@ export function buildPointPanel(root) {
     if (event.key === "Enter") goToPlace(place);
     if (event.key === "Escape") backFrom(place);
   });
-  root.replaceChildren(node("div", {class: "row", id: "point-row"}, labelled(t("point"), name), labelled(t("goTo"), place),
-    node("span", {class: "sigma"}, labelled(t("sigmaNew"), sigmaField()))),
-    node("datalist", {id: "names"}));
+  root.replaceChildren(
+    node(
+      "div",
+      {class: "row", id: "point-row"},
+      labelled(t("point"), name),
+      labelled(t("goTo"), place),
+      node("span", {class: "sigma"}, labelled(t("sigmaNew"), sigmaField()))
+    ),
+    node("datalist", {id: "names"})
+  );
   on("tables site", fillNames);
   on("selection", () => {
     if (document.activeElement !== name) name.value = ui.point ?? "";
@@ -36,7 +57,7 @@ export function buildPointPanel(root) {
 }
 
 function backFrom(field) {
-  field.value = field.id === "point-name" ? ui.point ?? "" : "";
+  field.value = field.id === "point-name" ? (ui.point ?? "") : "";
   activePane().focus();
 }
 
@@ -61,7 +82,12 @@ function fillNames() {
 
 /** The σ that new marks get. */
 function sigmaField() {
-  const sigma = node("input", {id: "sigma-px", type: "text", inputmode: "decimal", value: String(marking.sigma)});
+  const sigma = node("input", {
+    id: "sigma-px",
+    type: "text",
+    inputmode: "decimal",
+    value: String(marking.sigma)
+  });
   sigma.addEventListener("change", () => {
     const value = parseNumber(sigma.value);
     if (value === null || !(value > 0)) {
@@ -76,33 +102,77 @@ function sigmaField() {
 }
 
 export function buildMarkPanel(root) {
-  const on_ = (text, key, action) => button(t(text), () => {
-    action();
-    activePane().focus();
-  }, {title: `${t(text)} (${key})`});
-  root.replaceChildren(node("div", {class: "buttons"},
-    button(t("confirm"), () => confirm(activePane(), false), {class: "main", id: "confirm", title: "Enter"}),
-    on_("switch", "X", toggleOff), on_("doubt", "D", toggleDubious), on_("delete", "Del", deleteMark),
-    on_("refine", "F", () => refine(activePane())), on_("match", "G", () => match(activePane()))),
-  node("div", {id: "marks-of-point"}));
+  const on_ = (text, key, action) =>
+    button(
+      t(text),
+      () => {
+        action();
+        activePane().focus();
+      },
+      {title: `${t(text)} (${key})`}
+    );
+  root.replaceChildren(
+    node(
+      "div",
+      {class: "buttons"},
+      button(t("confirm"), () => confirm(activePane(), false), {
+        class: "main",
+        id: "confirm",
+        title: "Enter"
+      }),
+      on_("switch", "X", toggleOff),
+      on_("doubt", "D", toggleDubious),
+      on_("delete", "Del", deleteMark),
+      button(t("rename"), showRename),
+      on_("refine", "F", () => refine(activePane())),
+      on_("match", "G", () => match(activePane()))
+    ),
+    node("div", {id: "marks-of-point"})
+  );
 }
 
 let drawn = "";
 /** The point's photos with what is known of each. */
 export function updateMarkPanel() {
   const lines = marksOfPoint().map(({photo, mark}) => {
-    const about = mark && adjustedMark(photo, mark.point), expected = !mark && prediction(photo, ui.point ?? "");
+    const about = mark && adjustedMark(photo, mark.point),
+      expected = !mark && prediction(photo, ui.point ?? "");
     const proposed = proposals.point === ui.point && proposals.byPhoto.has(photo);
-    return {photo, state: mark ? mark.state ?? "on" : "", text: proposed ? t("proposed") : mark
-      ? about?.w === null ? t("cannotCheck") : about ? `w ${shown(about.w, 1)}, r ${shown(about.r, 2)}` : t("on")
-      : expected ? t("predictedWithin", {px: shown(expected.major, 1)}) : "–", level: mark ? grade(about?.w) : ""};
+    return {
+      photo,
+      state: mark ? (mark.state ?? "on") : "",
+      text: proposed
+        ? t("proposed")
+        : mark
+          ? about?.w === null
+            ? t("cannotCheck")
+            : about
+              ? `w ${shown(about.w, 1)}, r ${shown(about.r, 2)}`
+              : t("on")
+          : expected
+            ? t("predictedWithin", {px: shown(expected.major, 1)})
+            : "–",
+      level: mark ? grade(about?.w) : ""
+    };
   });
   const signature = JSON.stringify([ui.point, lines, ui.point && kindOf(ui.point)]);
   const root = document.getElementById("marks-of-point");
   if (!root || (drawn === signature && root.childElementCount > 0)) return;
   drawn = signature;
-  if (ui.point === null) return root.replaceChildren(node("p", {class: "faint", text: t("noPointHint")}));
-  root.replaceChildren(node("p", {}, node("strong", {text: ui.point}), ` ${t(kindOf(ui.point))}`),
-    ...lines.map(line => node("p", {class: `mark-line ${line.level} ${line.state}`}, button(line.photo, () => showPhoto(line.photo)),
-      node("span", {text: line.text + (line.state === "off" || line.state === "dubious" ? `, ${t(line.state)}` : "")}))));
+  if (ui.point === null)
+    return root.replaceChildren(node("p", {class: "faint", text: t("noPointHint")}));
+  root.replaceChildren(
+    node("p", {}, node("strong", {text: ui.point}), ` ${t(kindOf(ui.point))}`),
+    ...lines.map(line =>
+      node(
+        "p",
+        {class: `mark-line ${line.level} ${line.state}`},
+        button(line.photo, () => showPhoto(line.photo)),
+        node("span", {
+          text:
+            line.text + (line.state === "off" || line.state === "dubious" ? `, ${t(line.state)}` : "")
+        })
+      )
+    )
+  );
 }

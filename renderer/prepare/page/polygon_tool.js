@@ -12,8 +12,10 @@ import {emit} from "./signals.js";
 import {activePane, placeOf, setMode, setTool, ui} from "./ui.js";
 import {t} from "./words.js";
 
-const current = () => ui.polygon === null ? undefined : row("polygons", ui.polygon);
-const materials = () => [...new Set([...rows("materials").map(one => one.name), ...rows("polygons").map(one => one.material)])];
+const current = () => (ui.polygon === null ? undefined : row("polygons", ui.polygon));
+const materials = () => [
+  ...new Set([...rows("materials").map(one => one.name), ...rows("polygons").map(one => one.material)])
+];
 let lastMaterial = "";
 
 /**
@@ -34,13 +36,20 @@ export function turned(names, photo) {
 export function drawPolygon() {
   if (isReadOnly("polygons")) return say(t("readOnlyTable"));
   setMode("polygons");
-  setTool(pointTool({name: "drawPolygon", wanted: ["vertexFirst", "vertexNext", "vertexNext", "vertexOrEnter"], done: finish}));
+  setTool(
+    pointTool({
+      name: "drawPolygon",
+      wanted: ["vertexFirst", "vertexNext", "vertexNext", "vertexOrEnter"],
+      done: finish
+    })
+  );
   say(t("vertexFirst"));
 }
 
 /** Inserts the polygon drawn; its photo is the one it was drawn on until a better one is asked for. */
 function finish(names, photo) {
-  const name = freeName("polygon_"), material = current()?.material ?? (lastMaterial || materials()[0]) ?? "unknown";
+  const name = freeName("polygon_"),
+    material = current()?.material ?? (lastMaterial || materials()[0]) ?? "unknown";
   const after = {name, vertices: turned(names, photo), photo, material, mask: null};
   edit(t("opPolygon", {name}), [{table: "polygons", before: null, after}]);
   ui.polygon = name;
@@ -66,7 +75,9 @@ export async function bestPhoto() {
   const best = answer.photos?.[0];
   if (!best) return say(t("noBestPhoto", {why: answer.error ?? ""}));
   change({photo: best.photo}, "opImage");
-  say(t("bestPhoto", {photo: best.photo, angle: shown(best.angle_deg, 0), mm: shown(best.mm_per_px, 1)}));
+  say(
+    t("bestPhoto", {photo: best.photo, angle: shown(best.angle_deg, 0), mm: shown(best.mm_per_px, 1)})
+  );
 }
 
 function deletePolygon() {
@@ -79,61 +90,129 @@ function deletePolygon() {
 
 /** Renames it everywhere: samples and constraints name polygons too. */
 function rename(name) {
-  const old = current(), fault = nameFault(name);
+  const old = current(),
+    fault = nameFault(name);
   if (!old || name === old.name) return;
   if (fault || row("polygons", name)) return say(t(fault || "taken", {name}));
   /** @type {import("./outbox.js").Edit[]} */
   const edits = [{table: "polygons", before: old, after: {...old, name}}];
   for (const table of ["horizon", "haze", "daylight"]) {
-    for (const one of rows(table)) if (one.polygon === old.name) edits.push({table, before: one, after: {...one, polygon: name}});
+    for (const one of rows(table))
+      if (one.polygon === old.name) edits.push({table, before: one, after: {...one, polygon: name}});
   }
   for (const one of rows("constraints")) {
     if (!one.polygons?.includes(old.name)) continue;
-    edits.push({table: "constraints", before: one,
-      after: {...one, polygons: one.polygons.map(other => other === old.name ? name : other)}});
+    edits.push({
+      table: "constraints",
+      before: one,
+      after: {...one, polygons: one.polygons.map(other => (other === old.name ? name : other))}
+    });
   }
   edit(t("opRename", {name: old.name, to: name}), edits);
   ui.polygon = name;
 }
 
+/** The current polygon's material, and that of those drawn next. */
+function takeMaterial(name) {
+  if (name === "") return;
+  lastMaterial = name;
+  if (current()) change({material: name}, "opMaterial");
+  emit("view");
+}
+
 export function buildPolygonPanel(root) {
-  const name = node("input", {id: "polygon-name", type: "text", autocomplete: "off", spellcheck: "false"});
+  const name = node("input", {
+    id: "polygon-name",
+    type: "text",
+    autocomplete: "off",
+    spellcheck: "false"
+  });
   name.addEventListener("change", () => rename(name.value.trim()));
+  const material = node("input", {
+    id: "material",
+    type: "text",
+    list: "material-names",
+    autocomplete: "off",
+    spellcheck: "false"
+  });
+  material.addEventListener("change", () => takeMaterial(material.value.trim()));
   const then = action => async () => {
     await action();
     activePane().focus();
     emit("view");
   };
-  root.append(node("div", {class: "buttons"}, button(t("drawPolygon"), then(drawPolygon), {class: "main", title: "B"}),
-    button(t("bestImage"), then(bestPhoto), {title: "I"}),
-    button(t("flip"), then(() => change({vertices: [...current()?.vertices ?? []].reverse()}, "opFlip"))),
-    button(t("delete"), then(deletePolygon))),
-  node("div", {class: "row"}, labelled(t("polygon"), name), labelled(t("image"), node("span", {id: "polygon-photo"}))),
-  node("div", {class: "row"}, labelled(t("material"), node("span", {id: "polygon-material"})), node("span", {id: "swatch"})),
-  node("p", {id: "polygon-about", class: "faint"}));
+  root.append(
+    node(
+      "div",
+      {class: "buttons"},
+      button(t("drawPolygon"), then(drawPolygon), {class: "main", title: "B"}),
+      button(t("bestImage"), then(bestPhoto), {title: "I"}),
+      button(
+        t("flip"),
+        then(() => change({vertices: [...(current()?.vertices ?? [])].reverse()}, "opFlip"))
+      ),
+      button(t("delete"), then(deletePolygon))
+    ),
+    node(
+      "div",
+      {class: "row"},
+      labelled(t("polygon"), name),
+      labelled(t("image"), node("span", {id: "polygon-photo"}))
+    ),
+    node(
+      "div",
+      {class: "row"},
+      labelled(t("material"), material),
+      node("datalist", {id: "material-names"}),
+      node("span", {id: "swatch"})
+    ),
+    node("p", {id: "polygon-about", class: "faint"})
+  );
   drawn = "";
 }
 
 let drawn = "";
 export function updatePolygonPanel() {
-  const polygon = current(), about = polygon && state.adjusted?.polygons?.[polygon.name];
-  const signature = JSON.stringify([polygon, about?.planarity_mm, about?.area_m2, about?.off_vertical_deg, materials()]);
+  const polygon = current(),
+    about = polygon && state.adjusted?.polygons?.[polygon.name];
+  const signature = JSON.stringify([
+    polygon,
+    about?.planarity_mm,
+    about?.area_m2,
+    about?.off_vertical_deg,
+    materials()
+  ]);
   if (drawn === signature || !byId("polygon-photo")) return;
   drawn = signature;
   byId("polygon-name").value = polygon?.name ?? "";
   byId("polygon-name").disabled = !polygon;
-  byId("polygon-photo").replaceChildren(select([["", "–"], ...state.photos.map(photo => /** @type {[string, string]} */ ([photo.name, photo.name]))],
-    polygon?.photo ?? "", value => change({photo: value || null}, "opImage"), {disabled: !polygon, "aria-label": t("image")}));
-  byId("polygon-material").replaceChildren(select(materials().map(one => /** @type {[string, string]} */ ([one, one])), polygon?.material ?? lastMaterial,
-    value => {
-      lastMaterial = value;
-      if (polygon) change({material: value}, "opMaterial");
-    }, {id: "material", "aria-label": t("material")}));
+  byId("polygon-photo").replaceChildren(
+    select(
+      [
+        ["", "–"],
+        ...state.photos.map(photo => /** @type {[string, string]} */ ([photo.name, photo.name]))
+      ],
+      polygon?.photo ?? "",
+      value => change({photo: value || null}, "opImage"),
+      {disabled: !polygon, "aria-label": t("image")}
+    )
+  );
+  byId("material").value = polygon?.material ?? lastMaterial;
+  byId("material-names").replaceChildren(...materials().map(value => node("option", {value})));
   showSwatch(polygon?.material ?? lastMaterial);
-  const leftOut = (state.adjusted?.left_out ?? []).find(one => one.kind === "polygon" && one.name === polygon?.name);
-  byId("polygon-about").textContent = !polygon ? t("noPolygonHint") : `${polygon.vertices.join(" ")}\n` + (about
-    ? t("polygonAbout", {flat: shown(about.planarity_mm, 1), area: shown(about.area_m2, 2), off: shown(about.off_vertical_deg, 2)})
-    : leftOut?.reason ?? "");
+  const leftOut = (state.adjusted?.left_out ?? []).find(
+    one => one.kind === "polygon" && one.name === polygon?.name
+  );
+  byId("polygon-about").textContent = !polygon
+    ? t("noPolygonHint")
+    : `${polygon.vertices.join(" ")}\n` +
+      (about
+        ? t("polygonAbout", {
+            flat: shown(about.planarity_mm, 1),
+            area: shown(about.area_m2, 2),
+            off: shown(about.off_vertical_deg, 2)
+          })
+        : (leftOut?.reason ?? ""));
 }
 
 /** @type {Map<string, string>} */
@@ -148,7 +227,8 @@ async function showSwatch(material) {
 }
 async function colourOf(material) {
   const diffuse = row("materials", material)?.diffuse;
-  const encode = value => Math.round(255 * (value <= 0.0031308 ? 12.92 * value : 1.055 * value ** (1 / 2.4) - 0.055));
+  const encode = value =>
+    Math.round(255 * (value <= 0.0031308 ? 12.92 * value : 1.055 * value ** (1 / 2.4) - 0.055));
   if (Array.isArray(diffuse) && diffuse.length === 3) return `rgb(${diffuse.map(encode).join()})`;
   for (const polygon of rows("polygons").filter(one => one.material === material && one.photo)) {
     const seen = polygon.vertices.map(name => placeOf(polygon.photo, name)).filter(at => at);
@@ -168,16 +248,21 @@ async function colourOf(material) {
 
 /** To the list of materials. */
 function toMaterial() {
-  const all = materials(), field = byId("material");
-  if (!current() || !field || all.length === 0) return say(t("noPolygon"));
+  const field = byId("material");
+  if (!field) return say(t("noPolygon"));
   field.focus();
+  field.select();
 }
 
 export function addPolygonKeys() {
   addAction({id: "drawPolygon", key: "B", run: drawPolygon});
   addAction({id: "bestImage", key: "I", run: bestPhoto});
   addAction({id: "material", key: "T", run: toMaterial});
-  addAction({id: "wireframe", key: "'", run: () => {
-    ui.wireframe = !ui.wireframe;
-  }});
+  addAction({
+    id: "wireframe",
+    key: "'",
+    run: () => {
+      ui.wireframe = !ui.wireframe;
+    }
+  });
 }

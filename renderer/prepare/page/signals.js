@@ -5,7 +5,8 @@
 
 /** @type {Map<string, ((detail?: any) => void)[]>} */
 const listeners = new Map();
-let isScheduled = false, hasChanged = false;
+let isScheduled = false,
+  hasChanged = false;
 
 /**
  * @param {string} names separated by blanks

@@ -7,11 +7,25 @@ import {on} from "./signals.js";
 import {say} from "./notices.js";
 import {t} from "./words.js";
 
-export const kStages = ["calibrate", "tie-points", "reconstruct", "undistort", "light", "convert", "render", "montage"];
+export const kStages = [
+  "calibrate",
+  "tie-points",
+  "reconstruct",
+  "undistort",
+  "light",
+  "convert",
+  "render",
+  "montage"
+];
 const kMostLines = 2000;
 
 /** What the newest run has said. */
-const run = {stage: "", status: "", progress: /** @type {number|null} */ (null), lines: /** @type {string[]} */ ([])};
+const run = {
+  stage: "",
+  status: "",
+  progress: /** @type {number|null} */ (null),
+  lines: /** @type {string[]} */ ([])
+};
 
 /** @param {string} stage */
 export async function runStage(stage) {
@@ -24,14 +38,35 @@ export async function runStage(stage) {
 
 export function showStages() {
   if (byId("stage-log")) return draw();
-  const stop = button(t("stop"), async () => {
-    const answer = await ask("/api/stop", {});
-    if (answer.error) say(answer.error);
-  }, {id: "stage-stop"});
-  dialog(t("stages"), [node("div", {class: "buttons"}, ...kStages.map(stage =>
-    button(t(`stage_${stage}`), () => runStage(stage), {"data-stage": stage})), stop),
-  node("p", {}, node("output", {id: "stage-status", "aria-live": "polite"}), node("progress", {id: "stage-progress", max: "1"})),
-  node("pre", {id: "stage-log", tabindex: "0"})], t("close"));
+  const stop = button(
+    t("stop"),
+    async () => {
+      const answer = await ask("/api/stop", {});
+      if (answer.error) say(answer.error);
+    },
+    {id: "stage-stop"}
+  );
+  dialog(
+    t("stages"),
+    [
+      node(
+        "div",
+        {class: "buttons"},
+        ...kStages.map(stage =>
+          button(t(`stage_${stage}`), () => runStage(stage), {"data-stage": stage})
+        ),
+        stop
+      ),
+      node(
+        "p",
+        {},
+        node("output", {id: "stage-status", "aria-live": "polite"}),
+        node("progress", {id: "stage-progress", max: "1"})
+      ),
+      node("pre", {id: "stage-log", tabindex: "0"})
+    ],
+    t("close")
+  );
   draw();
 }
 
@@ -47,7 +82,8 @@ function draw() {
 }
 
 /** A share: a number from 0 to 1, or {done, total}. */
-const share = progress => typeof progress === "number" ? progress : progress?.total ? progress.done / progress.total : null;
+const share = progress =>
+  typeof progress === "number" ? progress : progress?.total ? progress.done / progress.total : null;
 
 export function followRuns() {
   on("run", message => {
@@ -55,8 +91,12 @@ export function followRuns() {
     if (message.line !== undefined) run.lines = [...run.lines.slice(1 - kMostLines), message.line];
     if (message.progress !== undefined) run.progress = share(message.progress);
     if (message.status !== undefined) {
-      run.status = message.status === 0 ? t("done") : typeof message.status === "number" ? t("failed", {status: message.status})
-        : String(message.status);
+      run.status =
+        message.status === 0
+          ? t("done")
+          : typeof message.status === "number"
+            ? t("failed", {status: message.status})
+            : String(message.status);
       run.progress = null;
       say(`${t(`stage_${run.stage}`)}: ${run.status}`);
     }

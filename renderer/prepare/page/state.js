@@ -11,10 +11,21 @@ import {emit} from "./signals.js";
 
 /** The fields by which a row is known; none: the whole row; empty: the table's only row. */
 export const kKeys = {
-  control_points: ["name"], observations: ["photo", "point"], edges: ["photo", "from", "to", "x", "y"],
-  camera_positions: ["photo"], polygons: ["name"], sun: ["shadow", "object"], zenith: ["bottom", "top"],
-  constraints: null, horizon: ["photo", "x", "y"], haze: ["photo", "x", "y"], daylight: ["photo", "x", "y"],
-  light: [], materials: ["name"], drafts: ["id"], site: [],
+  control_points: ["name"],
+  observations: ["photo", "point"],
+  edges: ["photo", "from", "to", "x", "y"],
+  camera_positions: ["photo"],
+  polygons: ["name"],
+  sun: ["shadow", "object"],
+  zenith: ["bottom", "top"],
+  constraints: null,
+  horizon: ["photo", "x", "y"],
+  haze: ["photo", "x", "y"],
+  daylight: ["photo", "x", "y"],
+  light: [],
+  materials: ["name"],
+  drafts: ["id"],
+  site: []
 };
 
 /**
@@ -25,8 +36,13 @@ export const kKeys = {
 function meaning(value) {
   if (Array.isArray(value)) return `[${value.map(meaning).join()}]`;
   if (value === null || typeof value !== "object") return JSON.stringify(value ?? null);
-  return `{${Object.keys(value).sort().filter(key => value[key] !== undefined && value[key] !== "" &&
-    !(key === "state" && value[key] === "on")).map(key => `${key}:${meaning(value[key])}`).join()}}`;
+  return `{${Object.keys(value)
+    .sort()
+    .filter(
+      key => value[key] !== undefined && value[key] !== "" && !(key === "state" && value[key] === "on")
+    )
+    .map(key => `${key}:${meaning(value[key])}`)
+    .join()}}`;
 }
 /**
  * @param {Row|null|undefined} a
@@ -46,7 +62,13 @@ export function keyOf(table, row) {
 /** @type {Record<string, Map<string, Row>>} */
 let confirmed = {};
 export const state = {
-  name: "", version: "", siteFolder: "", revision: 0, saved: 0, notSaved: "", isConnected: false,
+  name: "",
+  version: "",
+  siteFolder: "",
+  revision: 0,
+  saved: 0,
+  notSaved: "",
+  isConnected: false,
   isLoaded: false,
   /** @type {Photo[]} */ photos: [],
   /** @type {Record<string, Map<string, Row>>} */ tables: {},
@@ -57,7 +79,7 @@ export const state = {
   /** @type {any} */ light: null,
   /** @type {any} */ building: null,
   /** @type {{file?: string, line?: number, text: string}[]} */ faults: [],
-  /** @type {{operation: any, conflicts: any[], error?: string}[]} */ refused: [],
+  /** @type {{operation: any, conflicts: any[], error?: string}[]} */ refused: []
 };
 /** The live connection. */
 export let live = {send: (/** @type {any} */ _message) => {}};
@@ -93,7 +115,7 @@ export const isReadOnly = table => state.readOnly.some(one => one.table === tabl
  */
 function applyEdits(tables, edits) {
   for (const {table, before, after} of edits) {
-    const rowsByKey = tables[table] ??= new Map();
+    const rowsByKey = (tables[table] ??= new Map());
     const oldKey = before && keyOf(table, before);
     if (after && oldKey === keyOf(table, after)) rowsByKey.set(oldKey, after);
     else {
@@ -105,7 +127,9 @@ function applyEdits(tables, edits) {
 
 /** Tables as confirmed and what waits over them. */
 function rebuild() {
-  state.tables = Object.fromEntries(Object.entries(confirmed).map(([table, all]) => [table, new Map(all)]));
+  state.tables = Object.fromEntries(
+    Object.entries(confirmed).map(([table, all]) => [table, new Map(all)])
+  );
   for (const operation of unconfirmed()) applyEdits(state.tables, operation.edits);
   index = null;
   emit("tables");
@@ -120,8 +144,11 @@ function direction(edits) {
     const at = edit.before ?? edit.after;
     return isSame(confirmed[edit.table]?.get(keyOf(edit.table, edit[side] ?? at)) ?? null, edit[side]);
   };
-  const isDone = edits.every(edit => stands(edit, "after")) && !edits.every(edit => stands(edit, "before"));
-  return isDone ? edits.map(edit => ({...edit, before: edit.after, after: edit.before})).reverse() : edits;
+  const isDone =
+    edits.every(edit => stands(edit, "after")) && !edits.every(edit => stands(edit, "before"));
+  return isDone
+    ? edits.map(edit => ({...edit, before: edit.after, after: edit.before})).reverse()
+    : edits;
 }
 
 const seen = new Set(); // ids of edits that `confirmed` holds
@@ -179,19 +206,34 @@ const takers = {
   outside: message => {
     state.faults = [...state.faults.slice(-20), message];
     emit("faults");
-  },
+  }
 };
 
 /** Everything from the server; what waits here stays on top. */
 async function load() {
   const site = await getJson("/api/site");
-  confirmed = Object.fromEntries(Object.keys(kKeys).map(table => [table,
-    new Map((site.tables[table] ?? []).map(one => [keyOf(table, one), one]))]));
+  confirmed = Object.fromEntries(
+    Object.keys(kKeys).map(table => [
+      table,
+      new Map((site.tables[table] ?? []).map(one => [keyOf(table, one), one]))
+    ])
+  );
   seen.clear();
-  Object.assign(state, {name: site.name, version: site.version, siteFolder: site.site_folder,
-    photos: site.photos, readOnly: site.read_only ?? [], history: site.history, saved: site.saved,
-    revision: site.revision, todo: site.todo ?? [], light: site.light, adjusted: site.adjusted,
-    building: site.building ?? state.building, isLoaded: true});
+  Object.assign(state, {
+    name: site.name,
+    version: site.version,
+    siteFolder: site.site_folder,
+    photos: site.photos,
+    readOnly: site.read_only ?? [],
+    history: site.history,
+    saved: site.saved,
+    revision: site.revision,
+    todo: site.todo ?? [],
+    light: site.light,
+    adjusted: site.adjusted,
+    building: site.building ?? state.building,
+    isLoaded: true
+  });
   base = site.revision;
   rebuild();
   for (const signal of ["site", "history", "todo", "adjusted", "light", "saved"]) emit(signal);
@@ -202,30 +244,37 @@ export async function start() {
   await load();
   openOutbox(state.siteFolder, {
     confirmed: (operation, revision) => {
-      if (!seen.has(operation.id)) applyEdits(confirmed, operation.edits);
+      if (!seen.has(operation.id) && !(revision <= base)) applyEdits(confirmed, operation.edits);
       seen.add(operation.id);
       state.revision = Math.max(state.revision, revision ?? 0);
       rebuild();
       emit("saved");
     },
     refused: (operation, status, body) => {
-      state.refused.push({operation, conflicts: status === 409 ? body.conflicts ?? [] : [], error: body.error});
+      state.refused.push({
+        operation,
+        conflicts: status === 409 ? (body.conflicts ?? []) : [],
+        error: body.error
+      });
       for (const {table, before, current} of body.conflicts ?? []) {
         applyEdits(confirmed, [{table, before: before ?? current, after: current}]);
       }
       rebuild();
       emit("refused");
     },
-    changed: () => emit("saved"),
+    changed: () => emit("saved")
   });
   rebuild();
   let isFirst = true;
-  live = connectLive(message => takers[message.type]?.(message), isOpen => {
-    state.isConnected = isOpen;
-    if (isOpen && !isFirst) load().catch(() => {});
-    isFirst = false;
-    emit("connection");
-  });
+  live = connectLive(
+    message => takers[message.type]?.(message),
+    isOpen => {
+      state.isConnected = isOpen;
+      if (isOpen && !isFirst) load().catch(() => {});
+      isFirst = false;
+      emit("connection");
+    }
+  );
 }
 
 /**
@@ -236,8 +285,11 @@ export async function start() {
 export function edit(label, edits) {
   const changes = edits.filter(one => !isSame(one.before, one.after));
   if (changes.length === 0) return;
-  const operation = {id: newId(), label,
-    edits: changes.map(one => ({table: one.table, before: one.before ?? null, after: one.after ?? null}))};
+  const operation = {
+    id: newId(),
+    label,
+    edits: changes.map(one => ({table: one.table, before: one.before ?? null, after: one.after ?? null}))
+  };
   applyEdits(state.tables, operation.edits);
   index = null;
   enqueue(operation);
@@ -247,7 +299,7 @@ export function edit(label, edits) {
 // Derived: made when asked for after a change.
 /** @type {ReturnType<typeof makeIndex>|null} */
 let index = null;
-export const indexed = () => index ??= makeIndex();
+export const indexed = () => (index ??= makeIndex());
 
 /** Marks and statistics by point, roles, who names a point. */
 function makeIndex() {
@@ -293,7 +345,8 @@ export const kindOf = point => indexed().points.get(point)?.kind ?? "tie";
  * Marks of a point that count.
  * @param {string} point
  */
-export const raysOf = point => (indexed().points.get(point)?.marks ?? []).filter(one => one.state !== "off").length;
+export const raysOf = point =>
+  (indexed().points.get(point)?.marks ?? []).filter(one => one.state !== "off").length;
 
 /**
  * A name that nothing has: the stem and the next number.
@@ -307,4 +360,4 @@ export function freeName(stem) {
  * Why a name cannot be in the files, or "".
  * @param {string} name
  */
-export const nameFault = name => /^$|^\s|\s$|^#|,|["\n\r\t]/.test(name) ? "badName" : "";
+export const nameFault = name => (/^$|^\s|\s$|^#|,|["\n\r\t]/.test(name) ? "badName" : "");

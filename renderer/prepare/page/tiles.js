@@ -4,7 +4,8 @@
 import {getBlob} from "./api.js";
 
 export const kTile = 512;
-const kMostKept = 400, kMostAtOnce = 6;
+const kMostKept = 256,
+  kMostAtOnce = 6;
 
 /** @type {Map<string, ImageBitmap>} by use, the latest last */
 const kept = new Map();

@@ -2,20 +2,27 @@
 // The panel beside the panes: what is always there, and the mode's own part.
 
 import {button, byId, node} from "./dom.js";
+import {confirm} from "./marking.js";
 import {on} from "./signals.js";
 import {buildMarkPanel, buildPointPanel, updateMarkPanel} from "./point_panel.js";
 import {buildPolygonPanel, updatePolygonPanel} from "./polygon_tool.js";
 import {buildDirectionPanel, updateDirectionPanel} from "./directions.js";
 import {buildLightPanel, updateLightPanel} from "./light_panel.js";
-import {setTool, ui} from "./ui.js";
+import {activePane, setTool, ui} from "./ui.js";
 import {t} from "./words.js";
 
 /** @type {Record<string, [(root: any) => void, () => void]>} */
-const kParts = {control: [buildMarkPanel, updateMarkPanel], polygons: [buildPolygonPanel, updatePolygonPanel],
-  sun: [buildDirectionPanel, updateDirectionPanel], light: [buildLightPanel, updateLightPanel]};
+const kParts = {
+  control: [buildMarkPanel, updateMarkPanel],
+  polygons: [buildPolygonPanel, updatePolygonPanel],
+  sun: [buildDirectionPanel, updateDirectionPanel],
+  light: [buildLightPanel, updateLightPanel]
+};
 
 export function buildToolPanel() {
-  const always = node("div"), hint = node("p", {class: "hint", hidden: true}), part = node("div", {id: "mode-part"});
+  const always = node("div"),
+    hint = node("p", {class: "hint", hidden: true}),
+    part = node("div", {id: "mode-part"});
   byId("tool").replaceChildren(always, hint, part);
   buildPointPanel(always);
   const build = () => {
@@ -30,7 +37,15 @@ export function buildToolPanel() {
     if (hint.dataset.text === text) return;
     hint.dataset.text = text;
     hint.hidden = text === "";
-    hint.replaceChildren(node("span", {text}), button(t("cancel"), () => setTool(null)));
+    hint.replaceChildren(
+      node("span", {text}),
+      node(
+        "span",
+        {class: "buttons"},
+        button(t("confirm"), () => confirm(activePane(), false), {class: "main"}),
+        button(t("cancel"), () => setTool(null))
+      )
+    );
   });
   build();
 }

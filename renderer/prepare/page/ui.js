@@ -26,7 +26,12 @@ export const ui = {
   /** @type {any[]} */ panes: [],
   active: 0,
   /** @type {Tool|null} */ tool: null,
-  arrows: 10, curves: true, predictions: true, wireframe: true, isLoupe: true, isNamed: false,
+  arrows: 10,
+  curves: true,
+  predictions: true,
+  wireframe: true,
+  isLoupe: true,
+  isNamed: false
 };
 
 /** The window with the lists alone tells those with panes what was chosen in it. */
@@ -112,14 +117,20 @@ export function choosePolygon(name) {
  */
 export function photosOf(point) {
   const isKnown = state.adjusted?.points?.[point] !== undefined;
-  return state.photos.map(photo => photo.name).filter(name => mark(name, point) ||
-    (isKnown && state.adjusted.photos?.[name]?.oriented ? prediction(name, point) : true));
+  return state.photos
+    .map(photo => photo.name)
+    .filter(
+      name =>
+        mark(name, point) ||
+        (isKnown && state.adjusted.photos?.[name]?.oriented ? prediction(name, point) : true)
+    );
 }
 
 /** Names of the points: worst first. */
 export function pointsByWorst() {
-  return [...indexed().points.values()].sort((a, b) => (b.w ?? -1) - (a.w ?? -1) ||
-    a.name.localeCompare(b.name, undefined, {numeric: true}));
+  return [...indexed().points.values()].sort(
+    (a, b) => (b.w ?? -1) - (a.w ?? -1) || a.name.localeCompare(b.name, undefined, {numeric: true})
+  );
 }
 
 /**

@@ -4,8 +4,12 @@
 import {kTexts} from "./texts.js";
 
 /** @type {[string, string][]} */
-export const kLanguages = [["en", "EN"], ["de", "DE"]];
-export const language = localStorage.getItem("insitu-language") ?? (navigator.language.startsWith("de") ? "de" : "en");
+export const kLanguages = [
+  ["en", "EN"],
+  ["de", "DE"]
+];
+export const language =
+  localStorage.getItem("insitu-language") ?? (navigator.language.startsWith("de") ? "de" : "en");
 
 /**
  * Texts are built once: the page begins anew.
@@ -23,5 +27,7 @@ export function setLanguage(chosen) {
 export function t(key, values = {}) {
   const texts = kTexts[key];
   if (!texts) return key;
-  return texts[language === "de" ? 1 : 0].replace(/\{(\w+)\}/g, (whole, name) => values[name] === undefined ? whole : String(values[name]));
+  return texts[language === "de" ? 1 : 0].replace(/\{(\w+)\}/g, (whole, name) =>
+    values[name] === undefined ? whole : String(values[name])
+  );
 }
