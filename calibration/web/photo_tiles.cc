@@ -64,14 +64,14 @@ struct PhotoTiles::Parts {
   }
 
   void RequirePixel(int photo, int x, int y) {
-    const PhotoSize size = SizeOf(photo);
+    const PyramidSize size = SizeOf(photo);
     if (x >= 0 && y >= 0 && x < size.width && y < size.height) return;
     throw InputError(PathOf(photo), "has no pixel (" + std::to_string(x) + ", " +
                                         std::to_string(y) + "), it is " +
                                         SizeText(size.width, size.height));
   }
 
-  PhotoSize SizeOf(int photo) {
+  PyramidSize SizeOf(int photo) {
     const std::filesystem::path& path = PathOf(photo);
     {
       const std::lock_guard lock(mutex);
@@ -79,13 +79,13 @@ struct PhotoTiles::Parts {
     }
     const Eigen::Vector2i size = ReadPhotographSize(path);
     const std::lock_guard lock(mutex);
-    sizes[photo] = PhotoSizeOf(size.x(), size.y());
+    sizes[photo] = PyramidSizeOf(size.x(), size.y());
     return *sizes[photo];
   }
 
   // A photograph changed meanwhile, or its header lies: its tiles would be others than announced.
   std::shared_ptr<PhotoPyramid> Decoded(int photo, cv::Mat image, int level) {
-    const PhotoSize size = SizeOf(photo);
+    const PyramidSize size = SizeOf(photo);
     const int step = 1 << level;
     if (image.cols != (size.width + step - 1) / step ||
         image.rows != (size.height + step - 1) / step) {
@@ -114,11 +114,11 @@ struct PhotoTiles::Parts {
   const std::vector<std::filesystem::path> photos;
   PhotoCache cache;
   std::mutex mutex;  // for the next one
-  std::vector<std::optional<PhotoSize>> sizes;
+  std::vector<std::optional<PyramidSize>> sizes;
 };
 
-PhotoSize PhotoSizeOf(int width, int height) {
-  PhotoSize size{width, height, 1};
+PyramidSize PyramidSizeOf(int width, int height) {
+  PyramidSize size{width, height, 1};
   while (TileCount(std::max(width, height), size.levels - 1) > 1) ++size.levels;
   return size;
 }
@@ -130,10 +130,10 @@ PhotoTiles::~PhotoTiles() = default;
 
 int PhotoTiles::count() const { return static_cast<int>(parts_->photos.size()); }
 
-PhotoSize PhotoTiles::SizeOf(int photo) { return parts_->SizeOf(photo); }
+PyramidSize PhotoTiles::SizeOf(int photo) { return parts_->SizeOf(photo); }
 
 std::string PhotoTiles::Tile(int photo, int level, int x, int y) {
-  const PhotoSize size = parts_->SizeOf(photo);
+  const PyramidSize size = parts_->SizeOf(photo);
   if (level < 0 || level >= size.levels || x < 0 || y < 0 || x >= TileCount(size.width, level) ||
       y >= TileCount(size.height, level)) {
     throw InputError(parts_->PathOf(photo), "has no tile (" + std::to_string(x) + ", " +

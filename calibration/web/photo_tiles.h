@@ -15,11 +15,11 @@ inline constexpr int kTileSize = 512;  // [px]
 
 // Level 0 is the photograph; level l is it halved l times, sizes rounded up; the last one fits into
 // one tile.
-struct PhotoSize {
+struct PyramidSize {
   int width = 0, height = 0, levels = 0;
 };
 
-PhotoSize PhotoSizeOf(int width, int height);
+PyramidSize PyramidSizeOf(int width, int height);
 
 struct PixelValue {
   Eigen::Vector3d linear;   // Rec. 709
@@ -37,7 +37,7 @@ class PhotoTiles {
   ~PhotoTiles();
 
   int count() const;
-  PhotoSize SizeOf(int photo);  // from the header alone
+  PyramidSize SizeOf(int photo);  // from the header alone
 
   // JPEG of kTileSize squared; beyond the photograph its edge is repeated.
   std::string Tile(int photo, int level, int x, int y);

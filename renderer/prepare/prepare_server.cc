@@ -113,7 +113,7 @@ class PrepareService {
       Json::Value photo;
       photo["name"] = paths_[i].stem().string();
       try {
-        const PhotoSize size = tiles_.SizeOf(i);
+        const PyramidSize size = tiles_.SizeOf(i);
         photo["width"] = size.width;
         photo["height"] = size.height;
         photo["levels"] = size.levels;

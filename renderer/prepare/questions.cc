@@ -19,7 +19,7 @@ namespace {
 constexpr double kInDegrees = 180 / std::numbers::pi;
 constexpr double kSurveyedSigma = 0.01;  // [m], of pasted points that state none
 
-InputError Unknown(const std::string& what) { return {"question", what}; }
+InputError NotKnown(const std::string& what) { return {"question", what}; }
 
 std::vector<std::string> NamesIn(const Json::Value& list) {
   std::vector<std::string> names;
@@ -31,17 +31,17 @@ const PosedCamera& CameraOf(const LiveState& live, const std::string& photo) {
   for (const PosedCamera& camera : live.result.cameras) {
     if (camera.photo == photo) return camera;
   }
-  throw Unknown("photo " + photo + " is not oriented yet");
+  throw NotKnown("photo " + photo + " is not oriented yet");
 }
 
 Eigen::Vector3d PositionOf(const LiveState& live, const std::string& point) {
   const Json::Value& xyz = live.result.message["points"][point]["xyz"];
-  if (xyz.size() != 3) throw Unknown("point " + point + " is not determined yet");
+  if (xyz.size() != 3) throw NotKnown("point " + point + " is not determined yet");
   return {xyz[0].asDouble(), xyz[1].asDouble(), xyz[2].asDouble()};
 }
 
 void RequireKnown(const std::optional<DerivedQuantity>& quantity) {
-  if (!quantity) throw Unknown("not all of these points are adjusted, or two are in one place");
+  if (!quantity) throw NotKnown("not all of these points are adjusted, or two are in one place");
 }
 
 }  // namespace
@@ -63,7 +63,7 @@ Json::Value EpipolarAnswer(const LiveState& live, const Json::Value& question) {
 
 Json::Value MeasureAnswer(const LiveState& live, const Json::Value& question) {
   const std::vector<std::string> points = NamesIn(question["points"]);
-  if (!live.result.solved) throw Unknown("nothing is adjusted yet");
+  if (!live.result.solved) throw NotKnown("nothing is adjusted yet");
   Json::Value answer;
   if (points.size() == 2) {
     const auto distance = AdjustedDistance(*live.result.solved, points[0], points[1]);
@@ -80,7 +80,7 @@ Json::Value MeasureAnswer(const LiveState& live, const Json::Value& question) {
     answer["angle_deg"] = angle->value * kInDegrees;
     answer["sigma_deg"] = angle->sigma * kInDegrees;
   } else {
-    throw Unknown("expected two points, or three for an angle");
+    throw NotKnown("expected two points, or three for an angle");
   }
   return answer;
 }
@@ -90,7 +90,7 @@ Json::Value BestPhotoAnswer(const LiveState& live, const Json::Value& question) 
   for (const std::string& name : NamesIn(question["vertices"])) {
     vertices.push_back(PositionOf(live, name));
   }
-  if (vertices.size() < 3) throw Unknown("expected three vertices or more");
+  if (vertices.size() < 3) throw NotKnown("expected three vertices or more");
   Json::Value answer;
   answer["photos"] = Json::Value(Json::arrayValue);
   for (const PhotoOfPolygon& photo : RankPhotosOf(live.result.cameras, vertices)) {

@@ -41,7 +41,7 @@ void Time(const char* what, const std::function<void()>& work) {
 
 void Measure(const fs::path& path) {
   PhotoTiles tiles({path});
-  const PhotoSize size = tiles.SizeOf(0);
+  const PyramidSize size = tiles.SizeOf(0);
   std::printf("%s: %dx%d px, %.1f MB\n", path.filename().c_str(), size.width, size.height,
               static_cast<double>(fs::file_size(path)) / 1e6);
   Time("first tile, whole photograph", [&] { tiles.Tile(0, size.levels - 1, 0, 0); });

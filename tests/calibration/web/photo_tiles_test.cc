@@ -42,14 +42,14 @@ class PhotoTilesTest : public testing::Test {
   const ScratchFolder folder_;
 };
 
-TEST(PhotoSizeOf, CountsLevelsUntilOneTileHoldsIt) {
-  EXPECT_EQ(PhotoSizeOf(1, 1).levels, 1);
-  EXPECT_EQ(PhotoSizeOf(512, 512).levels, 1);
-  EXPECT_EQ(PhotoSizeOf(513, 20).levels, 2);
-  EXPECT_EQ(PhotoSizeOf(20, 1024).levels, 2);
-  EXPECT_EQ(PhotoSizeOf(1025, 1025).levels, 3);
-  EXPECT_EQ(PhotoSizeOf(6000, 4000).levels, 5);
-  EXPECT_EQ(PhotoSizeOf(11600, 8700).levels, 6);
+TEST(PyramidSizeOf, CountsLevelsUntilOneTileHoldsIt) {
+  EXPECT_EQ(PyramidSizeOf(1, 1).levels, 1);
+  EXPECT_EQ(PyramidSizeOf(512, 512).levels, 1);
+  EXPECT_EQ(PyramidSizeOf(513, 20).levels, 2);
+  EXPECT_EQ(PyramidSizeOf(20, 1024).levels, 2);
+  EXPECT_EQ(PyramidSizeOf(1025, 1025).levels, 3);
+  EXPECT_EQ(PyramidSizeOf(6000, 4000).levels, 5);
+  EXPECT_EQ(PyramidSizeOf(11600, 8700).levels, 6);
 }
 
 TEST_F(PhotoTilesTest, TilesShowThePixelsOfTheirLevel) {
