@@ -56,7 +56,8 @@ void MergeTable(const EditedTable& table, const SurveyText& base_text, const Sur
     const Json::Value &was = base.At(key), &our = ours.At(key), &their = theirs.At(key);
     if (IsSameRow(table, our, their)) continue;
     if (IsSameRow(table, was, their)) {
-      merged.text->Edit(table, Json::Value(their), our, Json::Value());
+      merged.ours.push_back({table.name, their, our});
+      merged.text->Edit(table, merged.ours.back().before, our, Json::Value());
       continue;
     }
     merged.outside.push_back({table.name, our, their});
