@@ -42,7 +42,7 @@ bool Improve(const std::vector<Eigen::Vector2d>& from, const std::vector<Eigen::
     const Eigen::Vector3d mapped = *map * from[i].homogeneous();
     const Eigen::Vector2d position = mapped.hnormalized();
     rest.segment<2>(2 * i) = to[i] - position;
-    for (const int axis : {0, 1}) {
+    for (const Eigen::Index axis : {0, 1}) {
       const auto row = static_cast<Eigen::Index>(2 * i + axis);
       design.block<1, 3>(row, 3 * axis) = from[i].homogeneous().transpose() / mapped.z();
       if (count > 6) {

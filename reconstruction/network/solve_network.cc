@@ -114,7 +114,7 @@ NetworkSolution SolveNetwork(Network* network) {
     MoveToStart(solution.columns, start, network, &solution.datum);
     linear = problem.Linearize();
   }
-  solution.jacobian = std::move(linear.jacobian);
+  solution.jacobian.swap(linear.jacobian);
   solution.sigmas = Eigen::Map<const Eigen::VectorXd>(
       problem.sigmas().data(), static_cast<Eigen::Index>(problem.sigmas().size()));
   solution.residuals = linear.residuals.cwiseProduct(solution.sigmas);

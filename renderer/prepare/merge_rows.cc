@@ -25,7 +25,10 @@ struct KeyedRows {
 
 KeyedRows ByKey(const EditedTable& table, const SurveyText& text) {
   KeyedRows keyed;
-  for (const Json::Value* row : text.Rows(table)) {
+  const std::vector<const Json::Value*> rows = text.Rows(table);
+  keyed.rows.reserve(rows.size());
+  keyed.order.reserve(rows.size());
+  for (const Json::Value* row : rows) {
     const std::string once = KeyOfRow(table, *row);
     std::string key = once;
     for (int again = 1; keyed.rows.contains(key); ++again) key = once + std::to_string(again);
@@ -56,7 +59,8 @@ void MergeTable(const EditedTable& table, const SurveyText& base_text, const Sur
     const Json::Value &was = base.At(key), &our = ours.At(key), &their = theirs.At(key);
     if (IsSameRow(table, our, their)) continue;
     if (IsSameRow(table, was, their)) {
-      merged.text->Edit(table, Json::Value(their), our, Json::Value());
+      merged.ours.push_back({table.name, their, our});
+      merged.text->Edit(table, merged.ours.back().before, our, Json::Value());
       continue;
     }
     merged.outside.push_back({table.name, our, their});
@@ -81,8 +85,10 @@ bool AreFarApart(const EditedTable& table, const Json::Value& ours, const Json::
 MergedText MergeText(const std::vector<EditedTable>& tables, const std::filesystem::path& path,
                      const std::string& base, const SurveyText& ours, const std::string& theirs) {
   MergedText merged{MakeSurveyText(tables, path, theirs)};
-  const auto base_text = MakeSurveyText(tables, path, base);
-  for (const EditedTable& table : tables) MergeTable(table, *base_text, ours, merged);
+  const bool has_changes = ours.text() != base;
+  const auto base_text = has_changes ? MakeSurveyText(tables, path, base) : nullptr;
+  const SurveyText& was = has_changes ? *base_text : ours;
+  for (const EditedTable& table : tables) MergeTable(table, was, ours, merged);
   return merged;
 }
 

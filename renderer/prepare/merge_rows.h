@@ -14,9 +14,10 @@ namespace insitu {
 
 struct MergedText {
   std::unique_ptr<SurveyText> text = {};  // theirs, with our changes in it
+  std::vector<RowEdit> ours = {};         // those changes
   std::vector<RowEdit> outside = {};      // what differs from ours
-  std::vector<RowConflict> conflicts =
-      {};  // rows both changed: before, `current` theirs, `after` ours
+  // Rows both changed: `before` of both, `current` theirs, `after` ours.
+  std::vector<RowConflict> conflicts = {};
 };
 
 // `base` is what both began with. Where both changed a row, theirs stands. Throws InputError at the

@@ -100,11 +100,13 @@ class SiteEdit {
 
   void Open(SiteFile& file);
   void ReadFirst(SiteFile& file, const std::string& on_disk);
-  void Replay(SiteFile& file, int revision);
+  void Replay(SiteFile& file, const FileMark& mark);
+  void ReplayEdit(SiteFile& file, const RowEdit& edit, const Json::Value& trace);
   void TakeIn(SiteFile& file, const std::string& on_disk, OutsideChanges* changes);
-  bool MergeIn(SiteFile& file, const std::string& on_disk, OutsideChanges* changes);
-  void Remember(const SiteFile& file, const std::string& text);
-  void RememberOnDisk(const SiteFile& file);
+  void MergeIn(SiteFile& file, const std::string& on_disk, OutsideChanges* changes);
+  void Remember(const SiteFile& file, const std::string& text,
+                const std::vector<RowEdit>& pending = {});
+  void RememberOnDisk(const SiteFile& file, const std::vector<RowEdit>& pending = {});
   void SaveFile(SiteFile& file, SaveReport* report);
   SiteFile& FileOf(const EditedTable& table);
   const SiteFile& FileOf(const EditedTable& table) const;

@@ -25,6 +25,13 @@ const FileMark* MarkOf(const std::vector<FileMark>& marks, const std::string& ha
   return mark == marks.rend() ? nullptr : &*mark;
 }
 
+// Up to which revision a file with that mark holds everything.
+int SavedAt(const std::vector<FileMark>& marks, const FileMark& mark) {
+  const FileMark* saved = &mark;
+  while (saved != marks.data() && !saved->pending.empty()) --saved;
+  return saved->pending.empty() ? saved->revision : 0;
+}
+
 Operation OutsideOperation(const SiteFile& file, int revision, std::vector<RowEdit> edits) {
   const std::string number = std::to_string(revision + 1);
   return {"outside " + number, "Changed in " + file.name + " by another program", std::move(edits)};
@@ -46,16 +53,10 @@ SiteEdit::SiteEdit(SitePaths site, std::vector<std::string> photos)
   if (history_.remark()) found_.remarks.push_back(*history_.remark());
   RemoveLeftovers(site_.survey());
   RemoveLeftovers(PrepareFolder(site_));
-  const int before = revision();
+  saved_revision_ = revision();
   for (SiteFile& file : files_) Open(file);
   history_.ForgetDone();
-  saved_revision_ = is_saved() ? revision() : std::min(before, revision());
-  for (const SiteFile& file : files_) {
-    const auto& marks = history_.MarksOf(file.name);
-    if (file.is_changed && !marks.empty()) {
-      saved_revision_ = std::min(saved_revision_, marks.back().revision);
-    }
-  }
+  if (is_saved()) saved_revision_ = revision();
 }
 
 // The file's content as its tables, without what the journal has on top.
@@ -89,26 +90,32 @@ void SiteEdit::Open(SiteFile& file) {
   const bool has_copy = !is_ours && of_copy;
   ReadFirst(file, has_copy ? copy : on_disk);
   if (file.fault) return;
-  if (!marks.empty()) Replay(file, has_copy ? of_copy->revision : marks.back().revision);
+  if (!marks.empty()) {
+    const FileMark& mark = has_copy ? *of_copy : marks.back();
+    Replay(file, mark);
+    if (file.is_changed) saved_revision_ = std::min(saved_revision_, SavedAt(marks, mark));
+  }
   if (on_disk != file.on_disk) TakeIn(file, on_disk, &found_);
   if (!file.is_changed && !file.fault) RememberOnDisk(file);
 }
 
-void SiteEdit::Replay(SiteFile& file, int revision) {
-  const auto text_of = [&](const EditedTable&) -> SurveyText& { return *file.now; };
+void SiteEdit::Replay(SiteFile& file, const FileMark& mark) {
+  for (const RowEdit& edit : mark.pending) ReplayEdit(file, edit, Json::Value());
   for (const DoneEdits& done : history_.done()) {
-    if (done.revision <= revision) continue;
+    if (done.revision <= mark.revision) continue;
     for (size_t i = 0; i < done.edits.size(); ++i) {
-      const EditedTable& table = *FindEditedTable(done.edits[i].table);
-      if (table.file != file.name) continue;
-      file.is_changed = true;
-      const std::vector<Json::Value> trace = {i < done.traces.size() ? done.traces[i]
-                                                                     : Json::Value()};
-      AppendTo(found_.conflicts,
-               ApplyEdits({done.edits[i]}, text_of, EqualRows::kAllowed, trace).conflicts);
+      const bool has_trace = i < done.traces.size();
+      ReplayEdit(file, done.edits[i], has_trace ? done.traces[i] : Json::Value());
     }
   }
   if (file.is_changed) file.is_changed = file.now->text() != file.on_disk;
+}
+
+void SiteEdit::ReplayEdit(SiteFile& file, const RowEdit& edit, const Json::Value& trace) {
+  if (FindEditedTable(edit.table)->file != file.name) return;
+  const auto text_of = [&](const EditedTable&) -> SurveyText& { return *file.now; };
+  AppendTo(found_.conflicts, ApplyEdits({edit}, text_of, EqualRows::kAllowed, {trace}).conflicts);
+  file.is_changed = true;
 }
 
 void SiteEdit::TakeIn(SiteFile& file, const std::string& on_disk, OutsideChanges* changes) {
@@ -122,21 +129,20 @@ void SiteEdit::TakeIn(SiteFile& file, const std::string& on_disk, OutsideChanges
     ReadFirst(file, on_disk);
     if (!file.was_read) return;
     changes->reread.push_back(file.name);
-  } else if (!MergeIn(file, on_disk, changes)) {
-    return;
+    file.fault.reset();
+    RememberOnDisk(file);
+  } else {
+    MergeIn(file, on_disk, changes);
   }
-  file.fault.reset();
-  file.is_changed = file.now->text() != on_disk;
 }
 
-// False: the content cannot be understood.
-bool SiteEdit::MergeIn(SiteFile& file, const std::string& on_disk, OutsideChanges* changes) {
+void SiteEdit::MergeIn(SiteFile& file, const std::string& on_disk, OutsideChanges* changes) {
   MergedText merged;
   try {
     merged = MergeText(file.tables, file.path, file.on_disk, *file.now, on_disk);
   } catch (const InputError& error) {
     file.fault = FaultOf(file, error);
-    return false;
+    return;
   }
   if (!merged.outside.empty()) {
     const Operation operation = OutsideOperation(file, revision(), merged.outside);
@@ -146,21 +152,28 @@ bool SiteEdit::MergeIn(SiteFile& file, const std::string& on_disk, OutsideChange
   AppendTo(changes->conflicts, merged.conflicts);
   file.now = std::move(merged.text);
   file.on_disk = on_disk;
-  return true;
+  file.fault.reset();
+  file.is_changed = file.now->text() != on_disk;
+  RememberOnDisk(file, merged.ours);
 }
 
 // So that the next start knows what this content was.
-void SiteEdit::RememberOnDisk(const SiteFile& file) {
-  Remember(file, file.on_disk);
-  if (const auto other = ReplaceFile(file.copy, file.on_disk, ReadIfThere(file.copy))) {
+void SiteEdit::RememberOnDisk(const SiteFile& file, const std::vector<RowEdit>& pending) {
+  Remember(file, file.on_disk, pending);
+  const std::string copy = ReadIfThere(file.copy);
+  if (copy == file.on_disk) return;
+  if (ReplaceFile(file.copy, file.on_disk, copy)) {
     throw InputError(file.copy, "is written by another program");
   }
 }
 
-void SiteEdit::Remember(const SiteFile& file, const std::string& text) {
+void SiteEdit::Remember(const SiteFile& file, const std::string& text,
+                        const std::vector<RowEdit>& pending) {
   const std::vector<FileMark>& marks = history_.MarksOf(file.name);
   const std::string hash = HashOf(text);
-  if (marks.empty() || marks.back().hash != hash) history_.AddMark(file.name, hash);
+  const bool is_known = !marks.empty() && marks.back().hash == hash &&
+                        marks.back().pending.empty() && pending.empty();
+  if (!is_known) history_.AddMark(file.name, hash, pending);
 }
 
 OutsideChanges SiteEdit::Refresh() {
@@ -170,7 +183,6 @@ OutsideChanges SiteEdit::Refresh() {
       const auto on_disk = ReadIfWritten(file);
       if (!on_disk) continue;
       TakeIn(file, *on_disk, &changes);
-      if (!file.is_changed && !file.fault) RememberOnDisk(file);
     } catch (const std::exception& error) {
       changes.remarks.emplace_back(error.what());
     }

@@ -72,7 +72,9 @@ const std::vector<FileMark>& SiteHistory::MarksOf(const std::string& file) const
 void SiteHistory::Do(const Json::Value& entry, bool is_reading) {
   const std::string kind = RowText(entry, "kind"), id = RowText(entry, "id");
   if (kind == "file") {
-    marks_[RowText(entry, "file")].push_back({RowText(entry, "hash"), revision_});
+    FileMark mark{RowText(entry, "hash"), revision_};
+    if (entry.isMember("pending")) mark.pending = OperationFromJson(entry["pending"]).edits;
+    marks_[RowText(entry, "file")].push_back(std::move(mark));
     return;
   }
   if (kind == "drop") {
@@ -146,10 +148,12 @@ void SiteHistory::DropRedo() {
   Append(std::move(entry));
 }
 
-void SiteHistory::AddMark(const std::string& file, const std::string& hash) {
+void SiteHistory::AddMark(const std::string& file, const std::string& hash,
+                          const std::vector<RowEdit>& pending) {
   Json::Value entry = Entry("file");
   entry["file"] = file;
   entry["hash"] = hash;
+  if (!pending.empty()) entry["pending"] = ToJson(Operation{"pending", "", pending});
   Append(std::move(entry));
 }
 

@@ -30,10 +30,11 @@ struct DoneEdits {
 };
 
 // A file was, or was about to be, written or read with this content, which holds everything up to
-// the revision.
+// the revision but for `pending`: edits of ours that were still to be made in it.
 struct FileMark {
   std::string hash;
   int revision = 0;
+  std::vector<RowEdit> pending = {};
 };
 
 class SiteHistory {
@@ -62,7 +63,8 @@ class SiteHistory {
   void AddRedo(const std::string& id, std::vector<Json::Value> traces);  // of ToRedo()
   void DropUndo();  // ToUndo() cannot be undone any more
   void DropRedo();
-  void AddMark(const std::string& file, const std::string& hash);
+  void AddMark(const std::string& file, const std::string& hash,
+               const std::vector<RowEdit>& pending = {});
 
  private:
   void Do(const Json::Value& entry, bool is_reading);

@@ -3,6 +3,7 @@
 // undone to the byte.
 #include <gtest/gtest.h>
 
+#include <map>
 #include <random>
 #include <string>
 #include <vector>
@@ -143,6 +144,46 @@ TEST_F(RandomEdits, AllUndoneIsTheSameFileAndAllRedoneTheSameEdit) {
   }
   edit_->Save();
   EXPECT_EQ(Contents(), after);
+}
+
+// Two people at one file, of which each edits points of their own: nobody's work is lost, whenever
+// the one is killed.
+TEST_F(RandomEdits, OfTwoPeopleAreBothKept) {
+  Open();
+  const EditedTable& table = *FindEditedTable("observations");
+  std::map<std::string, Json::Value> expected;
+  for (const Json::Value& row : edit_->Rows("observations")) expected[KeyOfRow(table, row)] = row;
+  for (int i = 0; i < 400; ++i) {
+    const int what = Below(10);
+    Json::Value row = RandomRow("observations");
+    if (what >= 4) row["point"] = "their " + row["point"].asString();
+    const std::string key = KeyOfRow(table, row);
+    const Json::Value before = expected.contains(key) ? expected[key] : Json::Value();
+    const Json::Value after = Below(3) || before.isNull() ? row : Json::Value();
+    if (what < 4) {
+      ASSERT_TRUE(edit_->Apply({Id(), "", {{"observations", before, after}}}).is_done());
+    } else if (what < 6) {
+      const auto text = MakeSurveyText({table}, "theirs", Marks());
+      text->Edit(table, before, after, Json::Value());
+      folder_.Write("survey/observations.csv", text->text());
+    } else if (what == 6) {
+      ASSERT_TRUE(edit_->Save().is_saved());
+    } else if (what == 7) {
+      EXPECT_TRUE(edit_->Refresh().conflicts.empty());
+    } else if (what == 8) {
+      Reopen();
+      EXPECT_TRUE(edit_->found().conflicts.empty());
+    }
+    if (what < 6) expected[key] = after;
+    if (what < 6 && after.isNull()) expected.erase(key);
+  }
+  ASSERT_TRUE(edit_->Save().is_saved());
+  const auto rows = edit_->Rows("observations");
+  EXPECT_EQ(rows.size(), expected.size());
+  for (const Json::Value& row : rows) {
+    EXPECT_TRUE(IsSameRow(table, row, expected[KeyOfRow(table, row)])) << row.toStyledString();
+  }
+  EXPECT_EQ(MakeSurveyText({table}, "ours", Marks())->Rows(table).size(), rows.size());
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include <filesystem>
 
 #include "tests/renderer/prepare/edited_site.h"
+#include "tests/shared_data.h"
 
 namespace insitu {
 namespace {
@@ -345,6 +346,36 @@ TEST_F(SiteEditTest, MergesAColleaguesSurvey) {
   EXPECT_EQ(report.remarks.size(), 2u);  // photo C, the broken file
   EXPECT_EQ(edit_->Rows("observations").size(), 4u);
   EXPECT_TRUE(edit_->Undo("2").is_done());
+}
+
+// Each row of a real survey taken out, put back and changed: not a byte differs.
+TEST_F(SiteEditTest, EveryRowOfTheGalleryComesBackToTheByte) {
+  INSITU_SHARED_DATA_OR_SKIP(gallery, "gallery");
+  fs::remove_all(site_.survey());
+  fs::copy(gallery / "survey", site_.survey(), fs::copy_options::recursive);
+  fs::copy(gallery / "site.json", site_.root);
+  for (const auto& entry : fs::recursive_directory_iterator(site_.root)) {
+    fs::permissions(entry, fs::perms::owner_write, fs::perm_options::add);
+  }
+  const auto before = Contents();
+  edit_ = std::make_unique<SiteEdit>(
+      site_, std::vector<std::string>{"IMG_2101", "IMG_2102", "IMG_2103", "IMG_2104"});
+  EXPECT_THAT(edit_->read_only(), IsEmpty());
+  int count = 0;
+  for (const EditedTable& table : EditedTables()) {
+    const auto rows = edit_->Rows(table.name);
+    for (size_t i = 0; i < rows.size(); i += 1 + rows.size() / 20) {
+      const std::string id = std::to_string(++count);
+      EXPECT_TRUE(Apply(id, table.name, rows[i], none_).is_done());
+      EXPECT_TRUE(Apply(id + " back", table.name, none_, rows[i]).is_done())
+          << OneLineJson(rows[i]);
+    }
+  }
+  EXPECT_GT(count, 100);
+  EXPECT_TRUE(edit_->Save().is_saved());
+  for (int i = 0; i < 2 * count; ++i) EXPECT_TRUE(edit_->Undo("u" + std::to_string(i)).is_done());
+  EXPECT_TRUE(edit_->Save().is_saved());
+  EXPECT_EQ(Contents(), before);
 }
 
 // Not asserted: other programs run beside this.
