@@ -144,18 +144,22 @@ class PartFinder {
     PlaceByTiePoints(growth);
     part_.placed_by_points.clear();
     std::set<size_t> ambiguous;
+    bool is_control = true;
     std::set<size_t> open = growth->TakeChangedPhotos();
-    for (bool is_control = true; !open.empty() || !ambiguous.empty(); is_control = false) {
+    do {
       for (const size_t photo : open) Place(photo, is_control, &ambiguous, growth);
       growth->FindPoints();
       open = growth->TakeChangedPhotos();
-      const bool is_stuck = open.empty() || is_control;
-      if (!is_stuck || ambiguous.empty()) continue;
-      for (const size_t photo : std::exchange(ambiguous, {})) Place(photo, is_control, {}, growth);
-      growth->FindPoints();
-      open.merge(growth->TakeChangedPhotos());
-      std::erase_if(open, [&](size_t photo) { return growth->IsPosed(photo); });
-    }
+      if (is_control || open.empty()) {
+        for (const size_t photo : std::exchange(ambiguous, {})) {
+          Place(photo, is_control, nullptr, growth);
+        }
+        growth->FindPoints();
+        open.merge(growth->TakeChangedPhotos());
+        std::erase_if(open, [&](size_t photo) { return growth->IsPosed(photo); });
+      }
+      is_control = false;
+    } while (!open.empty() || !ambiguous.empty());
   }
 
   // Without `ambiguous` the most upright of several poses is taken.

@@ -234,7 +234,21 @@ void NetworkProblem::AddConstraints() {
 
 void NetworkProblem::AddAngle(int index) {
   const AngleObservation& angle = network_.angles[index];
+  std::vector<double*> blocks;
   AngleCost cost;
+  const auto add = [&](double* block) {  // Ceres wants a shared corner but once
+    const auto place = std::find(blocks.begin(), blocks.end(), block);
+    cost.places.push_back(static_cast<int>(place - blocks.begin()));
+    if (place == blocks.end()) blocks.push_back(block);
+  };
+  for (const UnitReference* reference : {&angle.first, &angle.second}) {
+    if (const auto* edge = std::get_if<EdgeUnit>(reference)) {
+      add(values_.Point(edge->from));
+      add(values_.Point(edge->to));
+    } else {
+      add(values_.Unit(*reference));
+    }
+  }
   cost.is_edge_first = std::holds_alternative<EdgeUnit>(angle.first);
   cost.is_edge_second = std::holds_alternative<EdgeUnit>(angle.second);
   cost.is_parallel = angle.is_parallel;
@@ -243,15 +257,6 @@ void NetworkProblem::AddAngle(int index) {
   cost.sigma = angle.sigma;
   auto function =
       std::make_unique<ceres::DynamicAutoDiffCostFunction<AngleCost>>(new AngleCost(cost));
-  std::vector<double*> blocks;
-  for (const UnitReference* reference : {&angle.first, &angle.second}) {
-    if (const auto* edge = std::get_if<EdgeUnit>(reference)) {
-      blocks.push_back(values_.Point(edge->from));
-      blocks.push_back(values_.Point(edge->to));
-    } else {
-      blocks.push_back(values_.Unit(*reference));
-    }
-  }
   for (size_t i = 0; i < blocks.size(); ++i) function->AddParameterBlock(3);
   const int components = angle.is_parallel ? 2 : 1;
   function->SetNumResiduals(components);

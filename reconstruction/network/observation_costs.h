@@ -152,8 +152,9 @@ struct HeightCost {
 
 // Angle between two unit vectors a and b [rad]: parallel, the parts of b across a along two fixed
 // axes; perpendicular, their product; over sigma. A vector is one unknown, or the edge between two
-// points, which are then two.
+// points, which are then two; two edges may share a point.
 struct AngleCost {
+  std::vector<int> places;  // of the vectors' unknowns, one after the other, among the blocks
   bool is_edge_first = false, is_edge_second = false;
   bool is_parallel = false;
   Eigen::Matrix<double, 2, 3> axes;  // rows: unit, orthogonal to the start of a
@@ -165,9 +166,9 @@ struct AngleCost {
     using Vector3 = Eigen::Matrix<T, 3, 1>;
     int next = 0;
     const auto unit = [&](bool is_edge) -> Vector3 {
-      const Vector3 first = Eigen::Map<const Vector3>(blocks[next++]);
+      const Vector3 first = Eigen::Map<const Vector3>(blocks[places[next++]]);
       if (!is_edge) return first;
-      return (Eigen::Map<const Vector3>(blocks[next++]) - first).normalized();
+      return (Eigen::Map<const Vector3>(blocks[places[next++]]) - first).normalized();
     };
     const Vector3 a = unit(is_edge_first), b = unit(is_edge_second);
     if (is_parallel) {

@@ -275,5 +275,16 @@ TEST(Adjust, FlagsAGrossErrorAtItsObservation) {
   EXPECT_LT(adjustment.chi_square_p, 1e-6);
 }
 
+// Camera positions, edges and constraints of each kind; the right angle is at a corner, which both
+// of its edges share.
+TEST(Adjust, TakesEdgesAndConstraints) {
+  const SyntheticNetwork network = MakeSyntheticNetwork({.has_extras = true});
+  const Adjustment adjustment = AdjustNetwork(network, network.survey);
+  EXPECT_LT(adjustment.sigma0, 1e-4);
+  for (const AdjustedPoint& point : adjustment.points) {
+    EXPECT_LT((point.position - network.points.at(point.name)).norm(), 1e-5) << point.name;
+  }
+}
+
 }  // namespace
 }  // namespace insitu

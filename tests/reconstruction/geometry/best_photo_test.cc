@@ -25,7 +25,7 @@ PosedCamera At(const Vector3d& center, double focal = 1000) {
 const std::vector<Vector3d> kWall = {{-1, 0, -1}, {1, 0, -1}, {1, 0, 1}, {-1, 0, 1}};
 
 TEST(RankPhotosOf, PrefersNearAndSquare) {
-  const std::vector<PosedCamera> cameras = {At({0, -20, 0}),  At({0, -10, 0}), At({10, -10, 0}),
+  const std::vector<PosedCamera> cameras = {At({0, -19, 0}),  At({0, -10, 0}), At({10, -10, 0}),
                                             At({9.9, -1, 0}), At({0, 10, 0}),  At({0, -1.5, 0})};
   const auto ranking = RankPhotosOf(cameras, kWall);
   ASSERT_EQ(ranking.size(), 4u);  // not from behind, nor so near that it leaves the frame

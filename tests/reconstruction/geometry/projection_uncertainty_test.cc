@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdlib>
 #include <random>
 
 #include "reconstruction/adjustment/adjusted_unknowns.h"
@@ -84,6 +85,37 @@ TEST(ProjectWithUncertainty, HoldsTheTrueImageInNinetyFivePercent) {
     }
   }
   EXPECT_NEAR(inside / static_cast<double>(count), 0.95, 0.03);
+}
+
+// J C J^T of point and camera together, J by differences.
+TEST(ProjectWithUncertainty, CountsThePointAndWhatItSharesWithTheCamera) {
+  const Camera camera("LENSMODEL_OPENCV8",
+                      {1500, 1502, 899.5, 601.5, -0.12, 0.03, 5e-4, -3e-4, 0, 0, 0, 0}, 1800, 1200);
+  const Eigen::Quaterniond rotation(
+      Eigen::AngleAxisd(0.3, Eigen::Vector3d(1, -2, 0.5).normalized()));
+  const Eigen::Vector3d center(2, -1, 0.5);
+  const PosedCamera posed{"P", camera, {rotation, -(rotation * center)}};
+  const Eigen::Vector3d world = center + rotation.conjugate() * Eigen::Vector3d(1.5, -0.8, 9);
+  const auto pixel = [&](const Eigen::VectorXd& step) {
+    const Eigen::Vector3d turn = step.segment<3>(3);
+    const double angle = turn.norm();
+    const Eigen::Vector3d axis = angle > 0 ? Eigen::Vector3d(turn / angle) : turn;
+    const Eigen::Quaterniond turned = Eigen::Quaterniond(Eigen::AngleAxisd(angle, axis)) * rotation;
+    return *camera.Project(turned * (world + step.head<3>() - center - step.tail<3>()));
+  };
+  Eigen::MatrixXd jacobian(2, 9);
+  for (int i = 0; i < 9; ++i) {
+    const Eigen::VectorXd step = 1e-6 * Eigen::VectorXd::Unit(9, i);
+    jacobian.col(i) = (pixel(step) - pixel(-step)) / 2e-6;
+  }
+  std::srand(7);
+  const Eigen::MatrixXd root = 1e-3 * Eigen::MatrixXd::Random(9, 9);
+  const Eigen::MatrixXd joint = root * root.transpose();
+  const PointUncertainty point{joint.topLeftCorner<3, 3>(), joint.topRightCorner(3, 6)};
+  const auto image = ProjectWithUncertainty(posed, joint.bottomRightCorner(6, 6), world, point);
+  ASSERT_TRUE(image);
+  const Eigen::Matrix2d expected = jacobian * joint * jacobian.transpose();
+  EXPECT_LT((image->covariance_px - expected).norm(), 1e-6 * expected.norm());
 }
 
 }  // namespace
