@@ -183,7 +183,8 @@ void ReportFile(const SurveyFile& file, std::vector<std::string>* report) {
   add(file.centers.size(), "camera position");
   add(file.marks.size(), "mark");
   report->push_back(name + ": " + file.format + ", " + counts);
-  for (const std::string& remark : file.remarks) report->push_back(name + ": " + remark);
+  const std::string prefix = name + ": ";
+  for (const std::string& remark : file.remarks) report->push_back(prefix + remark);
 }
 
 std::string DigitsOf(const Eigen::Vector3d& v) {

@@ -26,15 +26,20 @@ std::optional<std::string> ReadMask(const JsonNode& polygon) {
   return mask->Text();
 }
 
+InputError UnknownKey(const JsonNode& member, const std::string& what,
+                      const std::vector<std::string>& keys) {
+  std::string expected;
+  for (const std::string& known : keys) expected += (expected.empty() ? "" : ", ") + known;
+  return member.Error("is not a key of " + what + ", expected " + expected);
+}
+
 // A key that is misspelt would be left out without a word. Every object may hold a comment.
 void RequireKnownKeys(const JsonNode& node, const std::string& what,
                       std::vector<std::string> keys) {
   keys.push_back("comment");
   for (const auto& [key, member] : node.Members()) {
     if (std::find(keys.begin(), keys.end(), key) != keys.end()) continue;
-    std::string expected;
-    for (const std::string& known : keys) expected += (expected.empty() ? "" : ", ") + known;
-    throw member.Error("is not a key of " + what + ", expected " + expected);
+    throw UnknownKey(member, what, keys);
   }
 }
 
