@@ -2,8 +2,11 @@
 // A survey's network, solved from its start values: what all figures of an adjustment come from.
 #pragma once
 
+#include <string>
+#include <utility>
 #include <vector>
 
+#include "calibration/files/error.h"
 #include "reconstruction/adjustment/adjustment_options.h"
 #include "reconstruction/adjustment/photo_lens.h"
 #include "reconstruction/adjustment/start_values.h"
@@ -18,8 +21,18 @@ struct SolvedSurvey {
   NetworkSolution solution;
 };
 
-// Throws InputError, at the survey line concerned: what MakeSurveyNetwork refuses, a rank defect,
-// a point behind its camera.
+// A rank defect, a point behind its camera, with what is to be left out to go on.
+struct UnsolvableSurvey : InputError {
+  UnsolvableSurvey(const InputError& error, std::vector<std::string> points_in,
+                   std::string photo_in = "")
+      : InputError(error), points(std::move(points_in)), photo(std::move(photo_in)) {}
+
+  std::vector<std::string> points;  // the survey's points among what is not determined
+  std::string photo;  // of the mark that has no value, which is of points[0]; or empty
+};
+
+// Throws InputError, at the survey line concerned: what MakeSurveyNetwork refuses, and
+// UnsolvableSurvey.
 SolvedSurvey SolveSurvey(const Survey& survey, const StartValues& start,
                          const std::vector<PhotoLens>& lenses, const AdjustmentOptions& options);
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <iterator>
 #include <set>
 #include <utility>
 
@@ -12,8 +13,8 @@
 #include "reconstruction/adjustment/adjusted_observations.h"
 #include "reconstruction/adjustment/adjusted_scene.h"
 #include "reconstruction/adjustment/adjusted_unknowns.h"
-#include "reconstruction/live/determined_part.h"
 #include "reconstruction/diagnosis/survey_diagnosis.h"
+#include "reconstruction/live/determined_part.h"
 #include "renderer/prepare/live_polygons.h"
 #include "renderer/prepare/live_predictions.h"
 #include "renderer/prepare/live_sun.h"
@@ -158,10 +159,10 @@ class Solver {
     message["sigma0"] = 1.0;
     message["converged"] = true;
     TakePhotos();
-    part_ = FindDeterminedPart(survey_, names_, cameras_, input_.last_poses, input_.options);
+    SolvePart();
     TellLeftOut();
     TellDiagnoses();
-    if (!part_.photos.empty()) Adjust();
+    if (result_.solved) TellSolution();
     const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
     message["seconds"] = taken.count();
     return std::move(result_);
@@ -197,7 +198,72 @@ class Solver {
     photo["why"] = reason;
   }
 
+  // What start values seemed to determine and the adjustment does not, as a point that only a
+  // plane seen edge-on holds, is left out too, so that the rest is told.
+  void SolvePart() {
+    constexpr int kMostTrials = 8;
+    for (int trial = 1;; ++trial) {
+      part_ = FindDeterminedPart(survey_, names_, cameras_, input_.last_poses, input_.options);
+      if (part_.photos.empty()) return;
+      std::vector<PhotoLens> lenses;
+      for (const size_t index : part_.indices) lenses.push_back(lenses_[index]);
+      try {
+        result_.solved = std::make_shared<SolvedSurvey>(
+            SolveSurvey(part_.survey, part_.start, lenses, input_.options));
+        return;
+      } catch (const UnsolvableSurvey& error) {
+        if (trial < kMostTrials && (EraseMarksOf(error) || ErasePolygonsOf(error))) continue;
+        TellFailure(error);
+        return;
+      } catch (const InputError& error) {
+        TellFailure(error);
+        return;
+      }
+    }
+  }
+
+  // Whether there were any.
+  bool EraseMarksOf(const UnsolvableSurvey& error) {
+    const std::set<std::string> points(error.points.begin(), error.points.end());
+    const bool is_behind = !error.photo.empty();
+    return std::erase_if(survey_.observations, [&](const ImageObservation& mark) {
+             if (!points.contains(mark.point)) return false;
+             if (is_behind && mark.photo != error.photo) return false;
+             unsolvable_.push_back({LeftOut::Kind::kObservation, mark.point, mark.photo,
+                                    is_behind ? "its point would lie behind the photo"
+                                              : "the marks do not determine its point: one more "
+                                                "photograph, from another side",
+                                    mark.place, is_behind});
+             return true;
+           }) > 0;
+  }
+
+  // Of points that planes alone were to hold.
+  bool ErasePolygonsOf(const UnsolvableSurvey& error) {
+    return std::erase_if(survey_.polygons, [&](const PolygonOutline& polygon) {
+             const auto held = std::find_first_of(polygon.vertices.begin(), polygon.vertices.end(),
+                                                  error.points.begin(), error.points.end());
+             if (held == polygon.vertices.end()) return false;
+             unsolvable_.push_back(
+                 {LeftOut::Kind::kPolygon, polygon.name, "",
+                  "the planes through its vertex " + *held + " do not determine it: mark it",
+                  polygon.place});
+             return true;
+           }) > 0;
+  }
+
+  void TellFailure(const InputError& error) {
+    const auto [text, place] = Parted(error);
+    result_.message["failed"] = text;
+    result_.message["diagnoses"].append(DiagnosisTeller(input_.survey).Tell("misfit", text, place));
+    for (const std::string& photo : part_.photos) {
+      result_.message["photos"][photo]["oriented"] = false;
+      result_.message["photos"][photo]["why"] = "the adjustment fails";
+    }
+  }
+
   void TellLeftOut() {
+    std::move(unsolvable_.begin(), unsolvable_.end(), std::back_inserter(part_.left_out));
     for (const LeftOut& what : part_.left_out) {
       if (what.kind == LeftOut::Kind::kPhoto) {
         LeaveOutPhoto(what.name, what.reason, what.place);
@@ -230,23 +296,7 @@ class Solver {
     }
   }
 
-  void Adjust() {
-    std::vector<PhotoLens> lenses;
-    for (const size_t index : part_.indices) lenses.push_back(lenses_[index]);
-    try {
-      result_.solved = std::make_shared<SolvedSurvey>(
-          SolveSurvey(part_.survey, part_.start, lenses, input_.options));
-    } catch (const InputError& error) {
-      const auto [text, place] = Parted(error);
-      result_.message["failed"] = text;
-      result_.message["diagnoses"].append(
-          DiagnosisTeller(input_.survey).Tell("misfit", text, place));
-      for (const std::string& photo : part_.photos) {
-        result_.message["photos"][photo]["oriented"] = false;
-        result_.message["photos"][photo]["why"] = "the adjustment fails";
-      }
-      return;
-    }
+  void TellSolution() {
     TellStatistics();
     TellPhotos();
     TellPoints();
@@ -303,6 +353,7 @@ class Solver {
   std::vector<Camera> cameras_;
   std::vector<PhotoLens> lenses_;
   DeterminedPart part_;
+  std::vector<LeftOut> unsolvable_;  // marks that SolvePart left out
 };
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <random>
 
 #include "reconstruction/adjustment/adjust.h"
 #include "reconstruction/geometry/projection_uncertainty.h"
@@ -193,6 +194,30 @@ TEST(LiveSolution, HoldsTheSunAgainstTheAlmanac) {
             sun["ephemeris"]["difference_deg"].asDouble() + 1e-9);
   input.site->julian_day.reset();
   EXPECT_TRUE(LiveSolution(input)["sun"]["ephemeris"].isNull());
+}
+
+// Whatever has been marked so far, in whatever order, with slips: always a message.
+TEST(LiveSolution, TakesAnyUnfinishedSurvey) {
+  const SyntheticNetwork network = MakeSyntheticNetwork({.has_extras = true});
+  std::mt19937 generator(1);
+  std::uniform_real_distribution<double> uniform(0, 1);
+  int solved = 0, failed = 0;
+  for (int trial = 0; trial < 100; ++trial) {
+    Survey survey = WithNoise(network.survey, static_cast<unsigned>(trial));
+    const double keep = uniform(generator), slips = uniform(generator) < 0.3 ? 0.05 : 0;
+    const auto is_missing = [&](const auto&) { return uniform(generator) > keep; };
+    std::erase_if(survey.observations, is_missing);
+    if (trial % 2 == 0) std::erase_if(survey.control_points, is_missing);
+    if (trial % 3 == 0) std::erase_if(survey.polygons, is_missing);
+    for (ImageObservation& mark : survey.observations) {
+      if (uniform(generator) < slips) mark.pixel.y() += 2000 * (uniform(generator) - 0.5);
+    }
+    const LiveResult result = SolveLive(InputOf(network, survey));
+    if (result.solved) ++solved;
+    if (!result.message["failed"].isNull()) ++failed;
+  }
+  EXPECT_GT(solved, 50);
+  EXPECT_LE(failed, 2);
 }
 
 }  // namespace
