@@ -182,6 +182,7 @@ class Solver {
       }
       blind.insert(photo.name);
       LeaveOutPhoto(photo.name, photo.no_lens_because, FileOfObservations(input_.survey));
+      result_.message["photos"][photo.name]["needs_lens"] = true;
     }
     const auto is_blind = [&](const auto& row) { return blind.contains(row.photo); };
     std::erase_if(survey_.observations, is_blind);
