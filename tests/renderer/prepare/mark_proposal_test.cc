@@ -20,7 +20,8 @@ GreyPatch PatchOf(const Scene& scene, const Eigen::Vector2i& center) {
     for (int u = 0; u < patch.grey.cols; ++u) {
       double sum = 0;
       for (int i = 0; i < kFine * kFine; ++i) {
-        const Eigen::Vector2d within((i % kFine + 0.5) / kFine - 0.5, (i / kFine + 0.5) / kFine - 0.5);
+        const Eigen::Vector2d within((i % kFine + 0.5) / kFine - 0.5,
+                                     (i / kFine + 0.5) / kFine - 0.5);
         sum += scene(Eigen::Vector2d(u - kRadius + center.x(), v - kRadius + center.y()) + within);
       }
       patch.grey.at<uchar>(v, u) = cv::saturate_cast<uchar>(40 + 170 * sum / (kFine * kFine));
@@ -37,7 +38,8 @@ double Quadrants(const Eigen::Vector2d& at) {
 double Edge(const Eigen::Vector2d& at) { return at.x() < kCorner.x() ? 1 : 0; }
 
 TEST(RefineCorner, FindsACornerToATwentiethOfAPixel) {
-  const auto found = RefineCorner(PatchOf(Quadrants, {101, 81}), kCorner + Eigen::Vector2d(0.9, -0.7));
+  const auto found =
+      RefineCorner(PatchOf(Quadrants, {101, 81}), kCorner + Eigen::Vector2d(0.9, -0.7));
   ASSERT_TRUE(std::holds_alternative<MarkProposal>(found)) << std::get<NoProposal>(found);
   const auto& proposal = std::get<MarkProposal>(found);
   EXPECT_LT((proposal.pixel - kCorner).norm(), 0.05);
@@ -60,13 +62,15 @@ class Texture {
   explicit Texture(unsigned seed) {
     std::mt19937 random(seed);
     cv::Mat noise(400, 400, CV_32F);
-    for (int i = 0; i < 400 * 400; ++i) noise.at<float>(i / 400, i % 400) = static_cast<float>(random() % 1000) / 1000;
+    for (int i = 0; i < 400 * 400; ++i)
+      noise.at<float>(i / 400, i % 400) = static_cast<float>(random() % 1000) / 1000;
     cv::GaussianBlur(noise, blurred_, {}, 3);
     cv::normalize(blurred_, blurred_, 0, 1, cv::NORM_MINMAX);
   }
   double operator()(const Eigen::Vector2d& at) const {
     cv::Mat value;
-    cv::getRectSubPix(blurred_, {1, 1}, {static_cast<float>(at.x()), static_cast<float>(at.y())}, value);
+    cv::getRectSubPix(blurred_, {1, 1}, {static_cast<float>(at.x()), static_cast<float>(at.y())},
+                      value);
     return value.at<float>(0, 0);
   }
 
@@ -109,7 +113,8 @@ TEST(OffsetsBetween, IsTheIdentityForOneCameraAndDoublesAtHalfTheDistance) {
   const PosedCamera near{"near", camera, Rigid3{Eigen::Quaterniond::Identity(), {0, 0, 5}}};
   const Eigen::Vector3d point = Eigen::Vector3d::Zero(), normal = -Eigen::Vector3d::UnitZ();
   EXPECT_TRUE(OffsetsBetween(far, far, point, normal).isIdentity(1e-12));
-  EXPECT_TRUE(OffsetsBetween(far, near, point, normal).isApprox(2 * Eigen::Matrix2d::Identity(), 1e-12));
+  EXPECT_TRUE(
+      OffsetsBetween(far, near, point, normal).isApprox(2 * Eigen::Matrix2d::Identity(), 1e-12));
 }
 
 }  // namespace

@@ -11,7 +11,7 @@
 #include "calibration/files/whole_file.h"
 #include "calibration/photo/photograph.h"
 #include "renderer/prepare/site_of_photos.h"
-#include "tests/renderer/prepare/edited_site.h"
+#include "tests/reconstruction/editing/edited_site.h"
 
 namespace insitu {
 namespace {
@@ -54,11 +54,12 @@ class PrepareSessionTest : public testing::Test {
     return found;
   }
 
-  static Json::Value Mark(const std::string& id, const Json::Value& before, const Json::Value& after) {
+  static Json::Value Mark(const std::string& id, const Json::Value& before,
+                          const Json::Value& after) {
     return ToJson(OneEdit(id, "observations", before, after));
   }
 
-  ScratchFolder folder_{"prepare_session"};
+  ScratchFolder folder_;
   SitePaths site_;
   std::mutex mutex_;
   std::condition_variable came_;
@@ -134,7 +135,7 @@ TEST_F(PrepareSessionTest, ASecondOneOnTheSameSiteIsRefused) {
 }
 
 TEST(MakeSiteOfPhotographs, LinksThePhotographsOfAPlainFolder) {
-  const ScratchFolder folder("plain_photographs");
+  const ScratchFolder folder;
   const SitePaths site{folder.path()};
   WritePng(folder.path() / "one.png", Raster(4, 4, 3), Encoding::kSrgb8);
   folder.Write("notes.txt", "not a photograph");
@@ -144,22 +145,24 @@ TEST(MakeSiteOfPhotographs, LinksThePhotographsOfAPlainFolder) {
 }
 
 TEST(MakeSiteOfPhotographs, AFolderOfNothingIsRefused) {
-  const ScratchFolder folder("nothing");
+  const ScratchFolder folder;
   EXPECT_THROW(MakeSiteOfPhotographs({folder.path()}), InputError);
 }
 
 TEST(MergeColleague, TakesInWhatIsNewAndTellsWhatDiffers) {
-  const ScratchFolder ours("ours"), theirs("theirs");
+  const ScratchFolder both;
+  const SitePaths ours{both.path() / "ours"}, theirs{both.path() / "theirs"};
   const std::string header = "photo,point,x,y,sigma\n";
-  for (const ScratchFolder* folder : {&ours, &theirs}) {
-    std::filesystem::create_directories(folder->path() / "photos");
-    WritePng(folder->path() / "photos/A.png", Raster(4, 4, 3), Encoding::kSrgb8);
+  for (const SitePaths* site : {&ours, &theirs}) {
+    std::filesystem::create_directories(site->photos());
+    std::filesystem::create_directories(site->survey());
+    WritePng(site->photos() / "A.png", Raster(4, 4, 3), Encoding::kSrgb8);
   }
-  ours.Write("survey/observations.csv", header + "A,p,1,1,0.1\n");
-  theirs.Write("survey/observations.csv", header + "A,p,3,3,0.1\nA,q,2,2,0.1\n");
-  const std::string told = MergeColleague({ours.path()}, {theirs.path()});
+  WriteWhole(ours.survey() / "observations.csv", header + "A,p,1,1,0.1\n");
+  WriteWhole(theirs.survey() / "observations.csv", header + "A,p,3,3,0.1\nA,q,2,2,0.1\n");
+  const std::string told = MergeColleague(ours, theirs);
   EXPECT_THAT(told, HasSubstr("1 rows taken in, 1 differ"));
-  EXPECT_EQ(ReadWhole(ours.path() / "survey/observations.csv"), header + "A,p,1,1,0.1\nA,q,2,2,0.1\n");
+  EXPECT_EQ(ReadWhole(ours.survey() / "observations.csv"), header + "A,p,1,1,0.1\nA,q,2,2,0.1\n");
 }
 
 }  // namespace

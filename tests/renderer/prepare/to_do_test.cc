@@ -4,9 +4,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "renderer/prepare/edited_tables.h"
+#include "reconstruction/editing/edited_tables.h"
 #include "tests/calibration/files/scratch_folder.h"
-#include "tests/renderer/prepare/edited_site.h"
+#include "tests/reconstruction/editing/edited_site.h"
 
 namespace insitu {
 namespace {
@@ -39,7 +39,8 @@ class ToDoTest : public testing::Test {
       input_.tables[table].append(RowOf(R"({"photo": "A"})"));
     }
     input_.tables["light"].append(RowOf(R"({"daylight_reflectance_rgb": [0.4, 0.4, 0.4]})"));
-    input_.tables["site"].append(RowOf(R"({"latitude": 47, "local_time": "2024-05-15T09:45:00Z"})"));
+    input_.tables["site"].append(
+        RowOf(R"({"latitude": 47, "local_time": "2024-05-15T09:45:00Z"})"));
   }
 
   std::vector<std::string> Texts() const {
@@ -48,7 +49,7 @@ class ToDoTest : public testing::Test {
     return texts;
   }
 
-  ScratchFolder folder_{"to_do"};
+  ScratchFolder folder_;
   ToDoInput input_;
 };
 
@@ -67,7 +68,8 @@ TEST_F(ToDoTest, AnEmptySurveyBeginsWithItsControlPoints) {
 }
 
 TEST_F(ToDoTest, ALensComesBeforeAllElse) {
-  input_.adjusted = RowOf(R"({"photos": {"A": {"needs_lens": true}}, "diagnoses": [], "failed": null,
+  input_.adjusted =
+      RowOf(R"({"photos": {"A": {"needs_lens": true}}, "diagnoses": [], "failed": null,
     "left_out": [{"kind": "photo", "name": "A", "reason": "its lens is not known yet"}]})");
   EXPECT_EQ(ToDo(input_)[0]["run"], "exif-camera");
   folder_.Write("calibration/board.txt", "10 7 0.03");
@@ -89,7 +91,8 @@ TEST_F(ToDoTest, WhatTakesNoPartIsNamedWithItsPlace) {
 TEST_F(ToDoTest, ManyOfAKindAreCounted) {
   Complete();
   for (int i = 0; i < 30; ++i) {
-    input_.adjusted["left_out"].append(RowOf(R"({"kind": "point", "name": "p", "reason": "one ray"})"));
+    input_.adjusted["left_out"].append(
+        RowOf(R"({"kind": "point", "name": "p", "reason": "one ray"})"));
   }
   EXPECT_EQ(Texts().back(), "and 22 more that take no part");
 }
@@ -103,7 +106,8 @@ TEST_F(ToDoTest, WhatOnlyMakesItBetterStandsBehindTheMontage) {
 TEST_F(ToDoTest, AFileAtFaultAndAGrossErrorComeFirst) {
   Complete();
   input_.file_faults = {"polygons.json:3: no such key"};
-  input_.adjusted["diagnoses"] = RowOf(R"([{"kind": "misfit", "text": "x and y exchanged", "point": "p"},
+  input_.adjusted["diagnoses"] =
+      RowOf(R"([{"kind": "misfit", "text": "x and y exchanged", "point": "p"},
     {"kind": "question", "text": "on purpose?"}])");
   EXPECT_THAT(Texts(), ElementsAre("polygons.json:3: no such key", "x and y exchanged"));
 }
