@@ -41,6 +41,15 @@ TEST(LiveSolution, SaysWhatAdjustSays) {
   EXPECT_EQ(message["photos"].size(), 4u);
   EXPECT_EQ(message["photos"]["P2"]["rms_px"].asDouble(), whole.poses[1].rms_px);
   EXPECT_EQ(message["marks"].size(), survey.observations.size());
+  for (Json::ArrayIndex i = 0; i < message["marks"].size(); ++i) {  // the rows' first are the marks
+    const ObservationResidual &x = whole.residuals[2 * i], &y = whole.residuals[2 * i + 1];
+    const Json::Value& mark = message["marks"][i];
+    ASSERT_EQ(mark["point"].asString(), x.subject);
+    EXPECT_EQ(mark["r"].asDouble(), std::min(x.redundancy, y.redundancy));
+    if (!x.w || !y.w) continue;
+    EXPECT_EQ(std::abs(mark["w"].asDouble()), std::max(std::abs(*x.w), std::abs(*y.w)));
+    EXPECT_EQ(mark["detectable"].asDouble(), std::max(*x.detectable, *y.detectable));
+  }
   for (const AdjustedPoint& point : whole.points) {
     EXPECT_EQ(message["points"][point.name]["xyz"][0].asDouble(), point.position.x());
     EXPECT_EQ(message["points"][point.name]["rays"].asInt(), point.rays);
