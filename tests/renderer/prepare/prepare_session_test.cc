@@ -93,7 +93,7 @@ TEST_F(PrepareSessionTest, AConflictShowsTheRowAsItIs) {
   session_->Apply(Mark("1", Json::nullValue, MarkOn("A", "p", 3, 2)));
   const auto answer = session_->Apply(Mark("2", MarkOn("A", "p", 9, 9), MarkOn("A", "p", 1, 1)));
   EXPECT_EQ(answer.status, 409);
-  EXPECT_EQ(answer.body["conflicts"][0]["current"]["x"], 3);
+  EXPECT_EQ(answer.body["conflicts"][0]["current"]["x"].asDouble(), 3);
 }
 
 TEST_F(PrepareSessionTest, ARefusedRowSaysWhy) {
