@@ -8,9 +8,9 @@
 
 #include "calibration/files/text_table.h"
 #include "calibration/files/wording.h"
+#include "reconstruction/editing/survey_text.h"
 #include "reconstruction/survey/survey_names.h"
 #include "reconstruction/survey/tie_points.h"
-#include "reconstruction/editing/survey_text.h"
 
 namespace insitu {
 namespace {

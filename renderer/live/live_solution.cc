@@ -342,8 +342,7 @@ class Solver {
     adjustment.points = AdjustedPoints(solved.survey_network.network, solved.solution);
     adjustment.poses = AdjustedPoses(solved.survey_network.network, solved.solution);
     CompareWithSurvey(part_.survey, &adjustment);
-    result_.scene =
-        AdjustedScene(part_.survey, solved.survey_network, solved.solution, adjustment);
+    result_.scene = AdjustedScene(part_.survey, solved.survey_network, solved.solution, adjustment);
     result_.message["control"] = ControlToPage(adjustment);
   }
 

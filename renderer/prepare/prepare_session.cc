@@ -9,8 +9,8 @@
 
 #include "calibration/files/error.h"
 #include "reconstruction/editing/edited_tables.h"
-#include "renderer/live/live_worker.h"
 #include "reconstruction/editing/site_edit.h"
+#include "renderer/live/live_worker.h"
 #include "renderer/prepare/to_do.h"
 
 namespace insitu {

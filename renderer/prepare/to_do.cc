@@ -103,8 +103,8 @@ class List {
     if (Count("control_points") < kLeastControl) return;
     for (const Json::Value& left : input_.adjusted["left_out"]) {
       if (left["kind"] != "photo" || NeedsLens(left)) continue;
-      Add(left["name"].asString() + ": " + left["reason"].asString(), "the photo is not oriented yet",
-          "control")["where"]["photo"] = left["name"];
+      Add(left["name"].asString() + ": " + left["reason"].asString(),
+          "the photo is not oriented yet", "control")["where"]["photo"] = left["name"];
     }
   }
 
