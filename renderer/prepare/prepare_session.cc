@@ -142,17 +142,23 @@ struct PrepareSession::Parts {
   void Solve(int revision) {
     auto state = std::make_shared<LiveState>(worker.Adjust(revision));
     Publish(state);
-    {
-      const std::lock_guard lock(mutex);
-      state->result.message["todo"] = ToDoNow();
-    }
     Tell(state->result.message);
+    TellToDo();
     auto lit = std::make_shared<LiveState>(*state);
     worker.AddLight(revision, lit.get());
     if (!lit->light.isNull()) Tell(lit->light);
     worker.AddBuilding(lit.get());
     if (!lit->building.isNull()) Tell(lit->building);
     Publish(lit);
+    TellToDo();
+  }
+
+  void TellToDo() {
+    Json::Value message;
+    message["type"] = "todo";
+    const std::lock_guard lock(mutex);
+    message["todo"] = ToDoNow();
+    Tell(message);
   }
 
   // Waits for something to do; the revision to adjust, or nullopt at the end.
