@@ -103,6 +103,15 @@ TEST_F(PrepareSessionTest, ARefusedRowSaysWhy) {
   EXPECT_THAT(answer.body["error"].asString(), HasSubstr("C"));
 }
 
+TEST_F(PrepareSessionTest, AMarkOffItsPhotographIsRefused) {
+  Start();
+  EXPECT_EQ(session_->Apply(Mark("1", Json::nullValue, MarkOn("A", "p", 7.5, 5.5))).status, 200);
+  const auto answer = session_->Apply(Mark("2", Json::nullValue, MarkOn("A", "q", 7.6, 2)));
+  EXPECT_EQ(answer.status, 400);
+  EXPECT_THAT(answer.body["error"].asString(), HasSubstr("off photo A"));
+  EXPECT_EQ(session_->Site()["revision"], 1);
+}
+
 TEST_F(PrepareSessionTest, UndoAndRedoAreToldAsSuch) {
   Start();
   session_->Apply(Mark("1", Json::nullValue, MarkOn("A", "p", 3, 2)));
