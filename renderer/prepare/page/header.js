@@ -96,6 +96,7 @@ function drawSaved() {
   data.revision = String(state.revision);
   data.saved = String(state.saved);
   data.pending = String(waiting);
+  data.mode = ui.mode;
   data.adjusted = String(state.adjusted?.revision ?? "");
 }
 

@@ -48,7 +48,7 @@ export const kKeyTexts = {
   key_drawPolygon: ["draw a polygon", "Polygon zeichnen"],
   key_bestImage: ["its best image", "sein bestes Bild"],
   key_material: ["its material", "sein Material"],
-  key_wireframe: ["polygons shown or not", "Polygone zeigen oder nicht"],
+  key_wireframe: ["lines as the mode needs, all, none", "Linien nach Arbeitsgang, alle, keine"],
   key_sunPair: ["sun pair", "Sonnenpaar"],
   key_zenithPair: ["zenith pair", "Zenitpaar"],
   key_edgeMark: ["edge mark", "Kantenmessung"],

@@ -101,7 +101,7 @@ export function addKeys() {
     ["zoomOut", "-", zoom(0.5)],
     ["refine", "F", () => refine(activePane())],
     ["match", "G", () => match(activePane())],
-    ["switch", "X", toggleOff],
+    ["switch", "X", () => toggleOff()],
     ["delete", "Delete", deleteMark],
     ["dubious", "D", toggleDubious],
     ["arrows", "R", cycle],

@@ -27,12 +27,38 @@ const run = {
   lines: /** @type {string[]} */ ([])
 };
 
+/** Asks before a camera is made of little more than nothing. */
+function confirmExif() {
+  const asked = dialog(
+    t("exifCamera"),
+    [
+      node("p", {class: "narrow", text: t("exifCameraNote")}),
+      button(
+        t("firstLook"),
+        () => {
+          asked.close();
+          begin("exif-camera");
+        },
+        {class: "main", id: "exif-confirm"}
+      )
+    ],
+    t("cancel")
+  );
+}
+
+/** @param {string} stage or what else /api/run does */
+export function runStage(stage) {
+  if (stage === "exif-camera") confirmExif();
+  else begin(stage);
+}
+
 /** @param {string} stage */
-export async function runStage(stage) {
+async function begin(stage) {
   Object.assign(run, {stage, status: t("running"), progress: null, lines: []});
   showStages();
   const answer = await ask("/api/run", {stage});
   if (answer.error) run.status = answer.error;
+  else if (answer.run === 0) run.status = t("done"); // no program runs for it
   draw();
 }
 

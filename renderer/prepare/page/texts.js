@@ -3,6 +3,7 @@
 // Kontrollpunkt, mark = Bildmessung, tie point = Verknüpfungspunkt, residual = Verbesserung.
 
 import {kKeyTexts} from "./key_texts.js";
+import {kPanelTexts} from "./panel_texts.js";
 
 /** @type {Record<string, [string, string]>} */
 export const kTexts = {
@@ -340,5 +341,6 @@ export const kTexts = {
   stage_convert: ["convert", "umwandeln"],
   stage_render: ["render", "rechnen"],
   stage_montage: ["montage", "Montage"],
+  ...kPanelTexts,
   ...kKeyTexts
 };
