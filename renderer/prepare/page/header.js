@@ -10,6 +10,7 @@ import {adjustedMark, mark, prediction, raysOf, state} from "./state.js";
 import {settle} from "./marking.js";
 import {shown} from "./numbers.js";
 import {say} from "./notices.js";
+import {offText, samples} from "./samples.js";
 import {activePane, setMode, ui} from "./ui.js";
 import {kLanguages, language, setLanguage, t} from "./words.js";
 
@@ -132,7 +133,9 @@ function drawStatus() {
     photo = pane.photo.name,
     point = ui.point;
   const parts = [`${photo}  x ${shown(place.x, 2)}  y ${shown(place.y, 2)}`];
-  if (point !== null) parts.push(...pointParts(photo, point));
+  const sample = ui.mode === "light" && samples().find(one => one.key === ui.sample);
+  if (sample) parts.push(`${t(sample.kind)} ${sample.row.polygon ?? ""}`, `${t("off100")} ${offText(sample)}`);
+  else if (point !== null) parts.push(...pointParts(photo, point));
   keepText(made, parts.join("  |  "));
 }
 

@@ -92,7 +92,7 @@ function weightLine(letter, name, weight) {
   const [value, sigma] = withSigma(weight.value, weight.sigma);
   return node(
     "tr",
-    {},
+    {title: t("weightNote")},
     node("th", {scope: "row"}, "k", node("sub", {text: letter}), ` ${t(name)}`),
     node("td", {text: value}),
     node("td", {text: `± ${sigma}`})

@@ -241,8 +241,10 @@ function drawTodo() {
           "li",
           {title: item.why ?? ""},
           button(item.text, () => goTo(item.where ?? {})),
-          item.why ? node("span", {class: "faint", text: item.why}) : null,
-          item.run ? button(t("run"), () => runStage(item.run), {class: "small"}) : null
+          item.run
+            ? button(t("run"), () => runStage(item.run), {class: "small", "data-run": item.run})
+            : null,
+          item.why ? node("span", {class: "faint", text: item.why}) : null
         )
       )
     ),

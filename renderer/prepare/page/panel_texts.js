@@ -15,6 +15,7 @@ export const kPanelTexts = {
   lightSun: ["sun", "Sonne"],
   lightSky: ["open sky", "offener Himmel"],
   lightAmbient: ["ambient", "Umgebung"],
+  weightNote: ["weight of the light D65", "Gewicht des Lichts D65"],
   sunIrradiance: ["sun, irradiance", "Sonne, Bestrahlung"],
   openSky: ["sky, radiance", "Himmel, Leuchten"],
   reflectanceKnown: [
