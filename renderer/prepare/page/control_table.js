@@ -83,7 +83,7 @@ export function showControlTable() {
       node(
         "details",
         {open: rows("camera_positions").length > 0},
-        node("summary", {text: `${t("cameraPositions")} (${rows("camera_positions").length})`}),
+        node("summary", {text: t("cameraPositions")}),
         node("p", {class: "faint", text: t("cameraNote")}),
         cameras
       )

@@ -5,6 +5,7 @@ import {button, node} from "./dom.js";
 import {newId} from "./outbox.js";
 import {say} from "./notices.js";
 import {edit, isReadOnly, rows} from "./state.js";
+import {ui} from "./ui.js";
 import {t} from "./words.js";
 
 /** Those of this page's making; others may keep drafts of their own there. */
@@ -34,7 +35,7 @@ let drawn = "";
  * @param {(draft: any) => void} goOn
  */
 export function showDrafts(root, goOn) {
-  const all = polygonDrafts(),
+  const all = ui.tool?.name === "drawPolygon" ? [] : polygonDrafts(),
     signature = JSON.stringify(all);
   if (drawn === signature && root.childElementCount === all.length) return;
   drawn = signature;

@@ -12,7 +12,7 @@ import {shown} from "./numbers.js";
 import {say} from "./notices.js";
 import {offText, samples} from "./samples.js";
 import {activePane, setMode, ui} from "./ui.js";
-import {kLanguages, language, setLanguage, t} from "./words.js";
+import {kLanguages, language, setLanguage, raysText, t} from "./words.js";
 
 /** @type {["control"|"polygons"|"sun"|"light", string][]} */
 export const kModes = [
@@ -150,7 +150,7 @@ function pointParts(photo, point) {
       about.w === null ? t("cannotCheck") : `w ${shown(about.w, 1)}  r ${shown(about.r, 2)}`
     );
   if (!one && expected) parts.push(t("predictedWithin", {px: shown(expected.major, 1)}));
-  parts.push(t("rays", {n: raysOf(point)}));
+  parts.push(raysText(raysOf(point)));
   const solved = state.adjusted?.points?.[point];
   if (solved) parts.push(`± ${shown(1000 * Math.hypot(...solved.sigma), 0)} mm`);
   return parts;

@@ -28,8 +28,13 @@ function swatch(rgb) {
 
 const isColour = rgb => Array.isArray(rgb) && rgb.length === 3;
 
-/** A colour's line: swatch, three numbers, their σ. */
-function colourLine(name, rgb, sigma = /** @type {number|null} */ (null)) {
+/**
+ * A colour's line: swatch, three numbers; `sigma`: of each of them, "" where it is not known.
+ * @param {string} name
+ * @param {any} rgb
+ * @param {number|string} [sigma]
+ */
+function colourLine(name, rgb, sigma) {
   if (!isColour(rgb)) return null;
   const digits = Math.max(...rgb) >= 2 ? 2 : 3;
   return node(
@@ -37,15 +42,15 @@ function colourLine(name, rgb, sigma = /** @type {number|null} */ (null)) {
     {},
     node("th", {scope: "row"}, swatch(rgb), t(name)),
     ...rgb.map(value => node("td", {text: shown(value, digits)})),
-    node("td", {text: typeof sigma === "number" ? shown(sigma, 3) : ""})
+    sigma === undefined ? null : node("td", {text: sigma === "" ? "" : shown(sigma, 3)})
   );
 }
 
-const colourTable = (...lines) =>
+const colourTable = (head, ...lines) =>
   node(
     "table",
     {class: "light"},
-    node("thead", {}, node("tr", {}, ...["", "R", "G", "B", "±"].map(text => node("th", {text})))),
+    node("thead", {}, node("tr", {}, ...head.map(text => node("th", {text})))),
     node("tbody", {}, ...lines)
   );
 
@@ -79,8 +84,9 @@ function hazeOf(haze) {
   const isClear = haze.transmittance_100m_sigma === undefined;
   return [
     colourTable(
-      colourLine("horizon", haze.horizon_rgb),
-      colourLine("through100", haze.transmittance_100m_rgb, haze.transmittance_100m_sigma)
+      ["", "R", "G", "B", "±"],
+      colourLine("horizon", haze.horizon_rgb, ""),
+      colourLine("through100", haze.transmittance_100m_rgb, haze.transmittance_100m_sigma ?? "")
     ),
     isClear ? node("p", {class: "faint", text: t("airClear")}) : quality(haze)
   ];
@@ -114,6 +120,7 @@ function daylightOf(daylight) {
       )
     ),
     colourTable(
+      ["", "R", "G", "B"],
       colourLine("sunIrradiance", daylight.sun_irradiance_rgb),
       colourLine("openSky", daylight.open_sky_radiance_rgb)
     ),

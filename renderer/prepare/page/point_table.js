@@ -8,7 +8,7 @@ import {parseNumber, shown} from "./numbers.js";
 import {proposals} from "./proposals.js";
 import {adjustedMark, kindOf, mark, prediction, raysOf, state} from "./state.js";
 import {activePane, grade, showPhoto, ui} from "./ui.js";
-import {t} from "./words.js";
+import {raysText, t} from "./words.js";
 
 /** What is known of the current point on a photo. */
 function aboutPhoto(photo) {
@@ -101,7 +101,7 @@ function line(one) {
 /** Kind, rays, ± mm; the place in the world below. */
 function summary(point) {
   const solved = state.adjusted?.points?.[point];
-  const parts = [t(kindOf(point)), t("rays", {n: raysOf(point)})];
+  const parts = [t(kindOf(point)), raysText(raysOf(point))];
   if (solved) parts.push(`± ${shown(1000 * Math.hypot(...solved.sigma), 0)} mm`);
   return node(
     "p",

@@ -118,6 +118,7 @@ export const kTexts = {
   redoNothing: ["Nothing to redo", "Nichts zu wiederholen"],
   undone: ["Undone: {label}", "Zurückgenommen: {label}"],
   redone: ["Redone: {label}", "Wiederholt: {label}"],
+  oneRay: ["1 ray", "1 Strahl"],
   rays: ["{n} rays", "{n} Strahlen"],
   predictedWithin: ["predicted ± {px} px (95 %)", "vorhergesagt ± {px} px (95 %)"],
   cannotCheck: ["cannot be checked", "nicht prüfbar"],
