@@ -157,7 +157,7 @@ export function drawLightReport(root) {
     ...(light?.haze ? hazeOf(light.haze) : []),
     heading("daylight"),
     ...(light?.daylight ? daylightOf(light.daylight) : []),
-    ...textList("leftOut", leftOut, "left-out"),
+    ...textList("leftOutHead", leftOut, "left-out"),
     ...textList("advice", advice, "advice")
   );
 }

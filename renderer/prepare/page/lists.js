@@ -204,10 +204,10 @@ function sampleList() {
       cells: [
         `${kSampleSigns[one.kind]} ${one.row.photo} ${one.row.x} ${one.row.y}`,
         one.row.polygon ?? t(one.kind),
-        `${offText(one)}${one.level === "bad" ? " !" : ""}`,
-        one.isOut ? t("leftOut") : ""
+        one.isOut ? t("leftOut") : `${offText(one)}${one.level === "bad" ? " !" : ""}`,
+        ""
       ],
-      class: `${one.isOut ? "noted" : one.level}${one.key === ui.sample ? " current" : ""}`,
+      class: `${one.isOut ? "suspect" : one.level}${one.key === ui.sample ? " current" : ""}`,
       act: () => {
         showPhoto(one.row.photo);
         activePane()?.moveCursor(one.row.x, one.row.y);

@@ -236,6 +236,7 @@ export class Pane {
     this.paint();
     this.drawHeader();
     if (!this.photo) return;
+    this.cross.classList.toggle("off", Boolean(this.photo.fault));
     const at = this.toScreen(this.cursor.x, this.cursor.y);
     this.cross.setAttribute("transform", `translate(${at.x} ${at.y})`);
     this.drawOverlay();

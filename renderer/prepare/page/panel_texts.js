@@ -27,6 +27,7 @@ export const kPanelTexts = {
     "Albedo unbekannt: die Helligkeit des Gebäudes ist relativ."
   ],
   leftOut: ["left out", "weggelassen"],
+  leftOutHead: ["Left out", "Weggelassen"],
   advice: ["Advice", "Ratschläge"],
   off100: ["off", "Abweichung"],
   // A point's photos
