@@ -27,7 +27,7 @@ export const kKeyTexts = {
   key_refine: ["refine here", "hier verfeinern"],
   key_match: ["propose on all photos", "auf allen Fotos vorschlagen"],
   key_switch: ["mark off/on", "Messung aus/ein"],
-  key_delete: ["delete mark", "Messung löschen"],
+  key_delete: ["delete mark, or sample", "Messung oder Probe löschen"],
   key_dubious: ["mark dubious (σ × 3)", "Messung zweifelhaft (σ × 3)"],
   key_arrows: ["residual arrows ×1, ×10, ×100, none", "Verbesserungspfeile ×1, ×10, ×100, keine"],
   key_curves: ["epipolar curves", "Epipolarkurven"],

@@ -15,7 +15,9 @@ import {
   toggleDubious,
   toggleOff
 } from "./marking.js";
+import {deleteSample} from "./light_panel.js";
 import {match, refine} from "./proposals.js";
+import {chooseSample} from "./samples.js";
 import {kModes, redo, undo} from "./header.js";
 import {say} from "./notices.js";
 import {enlarge, nextLayout, stepPane} from "./panes.js";
@@ -102,7 +104,7 @@ export function addKeys() {
     ["refine", "F", () => refine(activePane())],
     ["match", "G", () => match(activePane())],
     ["switch", "X", () => toggleOff()],
-    ["delete", "Delete", deleteMark],
+    ["delete", "Delete", () => (ui.mode === "light" ? deleteSample() : deleteMark())],
     ["dubious", "D", toggleDubious],
     ["arrows", "R", cycle],
     [
@@ -216,6 +218,7 @@ function paneKey(event) {
 function escape() {
   say("");
   if (ui.tool) setTool(null);
+  else if (ui.mode === "light" && ui.sample !== null) chooseSample(null);
   else cancel();
   emit("view");
 }

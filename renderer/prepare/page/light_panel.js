@@ -77,7 +77,7 @@ const area = outline =>
   );
 
 /** Deletes the sample chosen, else that at the crosshair. */
-function deleteSample() {
+export function deleteSample() {
   const pane = activePane();
   const sample =
     samples().find(one => one.key === ui.sample) ?? sampleAt(pane, pane.cursor.x, pane.cursor.y);
@@ -112,7 +112,7 @@ export function buildLightPanel(root) {
       start("horizon", "H"),
       start("haze", "J"),
       start("daylight", "O"),
-      button(t("deleteSample"), deleteSample)
+      button(t("deleteSample"), deleteSample, {title: "Del"})
     ),
     labelled(t("reflectance"), card),
     node("div", {id: "light-about"})

@@ -109,15 +109,17 @@ export function clickAt(pane, x, y, isShift, isTouch = false) {
 
 /** A click while the light is looked at: the sample there, or the crosshair comes. */
 function takeSample(pane, x, y) {
-  pane.moveCursor(x, y);
+  const sample = sampleAt(pane, x, y);
+  pane.moveCursor(sample?.row.x ?? x, sample?.row.y ?? y);
   pane.isMoved = false;
-  chooseSample(sampleAt(pane, x, y));
+  chooseSample(sample);
 }
 
 /** Enter or Confirm: the crosshair's place is meant. */
 export function confirm(pane, isShift) {
   if (!pane?.photo) return;
   if (ui.tool) return useTool(pane);
+  if (ui.mode === "light") return; // the points are dimmed: nothing is to happen to them unseen
   if (ui.point === null) return askForPoint();
   settle();
   const photo = pane.photo.name,
