@@ -40,19 +40,21 @@ function middleCells(one) {
   const wide = text => [node("td", {colspan: 3, class: "instead", text})];
   if (one.isProposed) return wide(t("proposed"));
   const away = one.away === null ? "" : shown(one.away, 1);
+  const brief = (value, digits) => shown(value, Math.abs(value) < 10 ? digits : digits - 1);
   if (!one.isMarked) {
     if (one.within === null) return wide(t("notMarked"));
     const text = t("predictedWithin", {px: shown(one.within, 1)});
     return wide(away ? `${text}, ${t("crosshairAway", {px: away})}` : text);
   }
-  if (!one.hasResidual) return wide(away ? t("away", {px: away}) : t("on"));
+  if (!one.hasResidual)
+    return wide([t(one.state), ...(away ? [t("away", {px: away})] : [])].join(", "));
   return [
     node("td", {
       title: away ? t("away", {px: away}) : "",
-      text: one.v.map(value => shown(value, 2)).join("  ")
+      text: one.v.map(value => brief(value, 2)).join(" ")
     }),
     node("td", {
-      text: one.w === null ? "–" : `${shown(one.w, 1)}${grade(one.w) === "bad" ? " !" : ""}`,
+      text: one.w === null ? "–" : `${brief(one.w, 1)}${grade(one.w) === "bad" ? "!" : ""}`,
       title: one.w === null ? t("cannotCheck") : ""
     }),
     node("td", {text: shown(one.r, 2)})
