@@ -207,6 +207,7 @@ function sampleList() {
         one.isOut ? t("leftOut") : `${offText(one)}${one.level === "bad" ? " !" : ""}`,
         ""
       ],
+      note: t(one.kind),
       class: `${one.isOut ? "suspect" : one.level}${one.key === ui.sample ? " current" : ""}`,
       act: () => {
         showPhoto(one.row.photo);

@@ -37,6 +37,7 @@ export const kPanelTexts = {
   opSigma: ["σ of {point} on {photo}", "σ von {point} auf {photo}"],
   away: ["{px} px from the prediction", "{px} px von der Vorhersage"],
   crosshairAway: ["crosshair {px} px away", "Fadenkreuz {px} px entfernt"],
+  predictedShort: ["predicted ± {px} px", "vorhergesagt ± {px} px"],
   notMarked: ["not marked", "nicht gemessen"],
   take: ["Take", "Nehmen"],
   switchOff: ["Off", "Aus"],
@@ -77,5 +78,6 @@ export const kPanelTexts = {
       "Verzeichnung: Punkte können um Dezimeter falsch sein, und kein σ sagt es. Vor jeder ernsthaften " +
       "Messung eine Tafel fotografieren und kalibrieren."
   ],
+  stopped: ["stopped", "angehalten"],
   firstLook: ["For a first look", "Für einen ersten Blick"]
 };

@@ -37,14 +37,19 @@ function aboutPhoto(photo) {
 
 /** The middle cells: v, w and r, or in their place what is known instead. */
 function middleCells(one) {
-  const wide = text => [node("td", {colspan: 3, class: "instead", text})];
+  const wide = (text, title = "") => [
+    node("td", {colspan: one.isMarked ? 3 : 4, class: "instead", text, title})
+  ];
   if (one.isProposed) return wide(t("proposed"));
   const away = one.away === null ? "" : shown(one.away, 1);
   const brief = (value, digits) => shown(value, Math.abs(value) < 10 ? digits : digits - 1);
   if (!one.isMarked) {
     if (one.within === null) return wide(t("notMarked"));
-    const text = t("predictedWithin", {px: shown(one.within, 1)});
-    return wide(away ? `${text}, ${t("crosshairAway", {px: away})}` : text);
+    const text = t("predictedShort", {px: shown(one.within, 1)});
+    return wide(
+      away ? `${text}, ${t("crosshairAway", {px: away})}` : text,
+      t("predictedWithin", {px: shown(one.within, 1)})
+    );
   }
   if (!one.hasResidual)
     return wide([t(one.state), ...(away ? [t("away", {px: away})] : [])].join(", "));
@@ -95,7 +100,7 @@ function line(one) {
     {class: `${level}${one.isActive ? " current" : ""}`, data: {photo: one.photo}},
     node("td", {}, button(one.photo, () => showPhoto(one.photo), {class: "small", title: one.photo})),
     ...middleCells(one),
-    node("td", {}, one.isMarked ? sigmaInput(one) : ""),
+    one.isMarked ? node("td", {}, sigmaInput(one)) : null,
     node("td", {}, last)
   );
 }

@@ -48,5 +48,9 @@ export function buildToolPanel() {
       )
     );
   });
+  // A crosshair on its way: how far it is from where the point should be.
+  on("frame", () => {
+    if (ui.mode === "control" && ui.panes.some(pane => pane.isMoved)) updatePointTable();
+  });
   build();
 }
