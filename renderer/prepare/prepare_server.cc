@@ -86,6 +86,9 @@ class PrepareService {
     Post("best_photo", [this](const Json::Value& q) {
       return JsonResponse(BestPhotoAnswer(*session_.live(), q));
     });
+    Post("polygon_at", [this](const Json::Value& q) {
+      return JsonResponse(PolygonAtAnswer(*session_.live(), q));
+    });
     Post("import", [this](const Json::Value& q) { return JsonResponse(ImportAnswer(site_, q)); });
     Post("refine", [this](const Json::Value& q) { return JsonResponse(Refine(q)); });
     Post("match", [this](const Json::Value& q) { return JsonResponse(Match(q)); });

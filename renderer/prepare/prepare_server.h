@@ -1,17 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The server of the measuring page. All but the page itself wants `Authorization: Bearer TOKEN`.
 //
-//   GET  /, /page.css, /page/NAME.js    the page
-//   GET  /api/site                      tables, photographs, history, the newest results, what to
-//   do GET  /api/tile?photo&level&x&y      JPEG, 512 px; photo is an index GET
-//   /api/patch?photo&x&y&r         PNG, lossless;   GET /api/value?photo&x&y  one pixel POST
-//   /api/op                        an operation (operation.h): 200 {revision}, 409 {conflicts} POST
-//   /api/undo, /api/redo {id}      200 {revision, operation} POST /api/epipolar, /api/measure,
-//   /api/best_photo, /api/import     questions.h POST /api/refine {photo, x, y}, /api/match {photo,
-//   point}          mark_proposal.h POST /api/run {stage}, /api/stop    stages of the site GET
-//   /api/live                      WebSocket: op, saved, not_saved, adjusted, light, building,
-//   todo, run,
-//                                       outside, fault
+//   GET  /, /page.css, /page/NAME.js   the page
+//   GET  /api/site                     tables, photographs, history, newest results, what to do
+//   GET  /api/tile?photo&level&x&y     JPEG, 512 px; photo is an index
+//   GET  /api/patch?photo&x&y&r        PNG, lossless
+//   GET  /api/value?photo&x&y          one pixel
+//   POST /api/op                       an operation (operation.h): 200 {revision}, 409 {conflicts}
+//   POST /api/undo, /api/redo {id}     200 {revision, operation}
+//   POST /api/epipolar, /api/measure, /api/best_photo, /api/polygon_at, /api/import   questions.h
+//   POST /api/refine {photo, x, y}, /api/match {photo, point}    mark_proposal.h
+//   POST /api/run {stage}, /api/stop   stages of the site
+//   GET  /api/live                     WebSocket: op, saved, not_saved, adjusted, light, building,
+//                                      todo, run, outside, fault
 #pragma once
 
 #include <functional>

@@ -2,6 +2,7 @@
 #include "renderer/prepare/questions.h"
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <numbers>
 
@@ -12,11 +13,13 @@
 #include "reconstruction/geometry/best_photo.h"
 #include "reconstruction/geometry/epipolar_curve.h"
 #include "reconstruction/live/derived_quantity.h"
+#include "renderer/live/live_polygons.h"
 
 namespace insitu {
 namespace {
 
 constexpr double kInDegrees = 180 / std::numbers::pi;
+constexpr double kCoplanar = 0.05;       // [m], between polygons that touch
 constexpr double kSurveyedSigma = 0.01;  // [m], of pasted points that state none
 
 InputError NotKnown(const std::string& what) { return {"question", what}; }
@@ -38,6 +41,22 @@ Eigen::Vector3d PositionOf(const LiveState& live, const std::string& point) {
   const Json::Value& xyz = live.result.message["points"][point]["xyz"];
   if (xyz.size() != 3) throw NotKnown("point " + point + " is not determined yet");
   return {xyz[0].asDouble(), xyz[1].asDouble(), xyz[2].asDouble()};
+}
+
+struct SeenPolygon {
+  const Polygon* polygon;
+  Eigen::Vector3d point;  // [m], world
+};
+
+// Every polygon in a pixel's line of sight, however many stand before it.
+std::vector<SeenPolygon> PolygonsAt(const SceneGeometry& scene, const PosedCamera& camera,
+                                    const Eigen::Vector2d& pixel) {
+  std::vector<SeenPolygon> seen;
+  for (const Polygon& polygon : scene.polygons) {
+    if (const auto point = PointOnPolygon(camera, pixel, polygon))
+      seen.push_back({&polygon, *point});
+  }
+  return seen;
 }
 
 void RequireKnown(const std::optional<DerivedQuantity>& quantity) {
@@ -101,6 +120,29 @@ Json::Value BestPhotoAnswer(const LiveState& live, const Json::Value& question) 
     json["mm_per_px"] = photo.mm_per_px;
     answer["photos"].append(json);
   }
+  return answer;
+}
+
+Json::Value PolygonAtAnswer(const LiveState& live, const Json::Value& question) {
+  const PosedCamera& camera = CameraOf(live, question["photo"].asString());
+  if (!live.result.scene) throw NotKnown("nothing is adjusted yet");
+  const std::vector<SeenPolygon> seen =
+      PolygonsAt(*live.result.scene, camera, {question["x"].asDouble(), question["y"].asDouble()});
+  Json::Value answer;
+  answer["polygon"] = Json::nullValue;
+  if (seen.empty()) return answer;
+  const Eigen::Vector3d center = Center(camera.cam_from_world);
+  const auto first = std::min_element(seen.begin(), seen.end(), [&](const auto& a, const auto& b) {
+    return (a.point - center).squaredNorm() < (b.point - center).squaredNorm();
+  });
+  const SeenPolygon* smallest = &*first;
+  for (const SeenPolygon& other : seen) {
+    const double apart = std::abs(first->polygon->normal.dot(other.point - first->point));
+    if (apart <= kCoplanar && AreaOf(*other.polygon) < AreaOf(*smallest->polygon)) {
+      smallest = &other;
+    }
+  }
+  answer["polygon"] = smallest->polygon->name;
   return answer;
 }
 

@@ -22,6 +22,10 @@ Json::Value MeasureAnswer(const LiveState& live, const Json::Value& question);
 // {vertices: [names]} -> {photos: [{photo, score, angle_deg, mm_per_px}]}, best first.
 Json::Value BestPhotoAnswer(const LiveState& live, const Json::Value& question);
 
+// {photo, x, y} -> {polygon}: the polygon that the pixel sees first, null if none; of those that
+// touch there (a path on a lawn) the smallest.
+Json::Value PolygonAtAnswer(const LiveState& live, const Json::Value& question);
+
 // {text} -> {rows: [of control_points], format, remarks}: a pasted table, by the readers of
 // insitu-import-survey.
 Json::Value ImportAnswer(const SitePaths& site, const Json::Value& question);

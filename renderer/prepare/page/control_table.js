@@ -1,14 +1,65 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Control and check points as a table: typed, or pasted from a spreadsheet.
+// Control and check points and surveyed camera positions as tables: typed, or pasted from a spreadsheet.
 
 import {ask} from "./api.js";
+import {drawCoordinates} from "./coordinate_table.js";
 import {button, byId, dialog, node, select, table} from "./dom.js";
-import {edit, freeName, isReadOnly, nameFault, row, rows} from "./state.js";
+import {edit, freeName, isReadOnly, nameFault, row, rows, state} from "./state.js";
 import {say} from "./notices.js";
-import {parseNumber} from "./numbers.js";
 import {t} from "./words.js";
 
-const kFields = ["x", "y", "z", "sigma_x", "sigma_y", "sigma_z"];
+/** @type {import("./coordinate_table.js").Coordinates} */
+const kPoints = {
+  table: "control_points",
+  key: "name",
+  get head() {
+    return t("point");
+  },
+  roles: ["control", "check"],
+  changed: "opControl",
+  deleted: "opDeleteControl",
+  sigma: "0.01",
+  nameField: () =>
+    node("input", {
+      type: "text",
+      id: "new-name",
+      autocomplete: "off",
+      "aria-label": t("point"),
+      placeholder: freeName("c")
+    }),
+  nameFrom: field => {
+    const name = field.value.trim() || field.placeholder,
+      fault = nameFault(name);
+    if (!fault && !row("control_points", name)) return name;
+    say(t(fault || "taken", {name}));
+    return "";
+  }
+};
+
+/** @type {import("./coordinate_table.js").Coordinates} */
+const kCameras = {
+  table: "camera_positions",
+  key: "photo",
+  get head() {
+    return t("photo");
+  },
+  roles: ["weighted", "fixed", "free"],
+  changed: "opCamera",
+  deleted: "opDeleteCamera",
+  sigma: "0.02",
+  nameField: () => {
+    const names = state.photos.map(photo => photo.name).filter(name => !row("camera_positions", name));
+    return select(
+      names.map(name => /** @type {[string, string]} */ ([name, name])),
+      names[0] ?? "",
+      () => {},
+      {"aria-label": t("photo")}
+    );
+  },
+  nameFrom: field => field.value
+};
+
+const draw = () => drawCoordinates(byId("control-rows"), kPoints);
 
 export function showControlTable() {
   const pasted = node("textarea", {
@@ -18,7 +69,8 @@ export function showControlTable() {
     placeholder: t("paste"),
     spellcheck: "false"
   });
-  const found = node("div", {id: "import-found"});
+  const found = node("div", {id: "import-found"}),
+    cameras = node("div", {id: "camera-rows", class: "scroll"});
   pasted.addEventListener("input", () => read(pasted.value, found));
   dialog(
     t("controlTable"),
@@ -27,126 +79,19 @@ export function showControlTable() {
       node("div", {id: "control-rows", class: "scroll"}),
       node("h3", {text: t("paste")}),
       pasted,
-      found
+      found,
+      node(
+        "details",
+        {open: rows("camera_positions").length > 0},
+        node("summary", {text: t("cameraPositions")}),
+        node("p", {class: "faint", text: t("cameraNote")}),
+        cameras
+      )
     ],
     t("close")
   );
   draw();
-}
-
-function draw() {
-  const body = [...rows("control_points").map(line), newLine()];
-  byId("control-rows")?.replaceChildren(
-    table([t("point"), "x [m]", "y [m]", "z [m]", "σx", "σy", "σz", t("role"), ""], body, "control")
-  );
-}
-
-/**
- * @param {any} value
- * @param {string} label
- * @param {(text: string) => void} changed
- */
-const cellInput = (value, label, changed) =>
-  node("input", {
-    type: "text",
-    inputmode: label === t("point") ? "text" : "decimal",
-    value: value ?? "",
-    "aria-label": label,
-    autocomplete: "off",
-    onchange: event => changed(event.target.value)
-  });
-
-/** One point's fields; what is typed goes at once. */
-function line(one) {
-  const change = changes => {
-    if (isReadOnly("control_points")) return say(t("readOnlyTable"));
-    const old = row("control_points", one.name);
-    if (!old) return;
-    edit(t("opControl", {point: one.name}), [
-      {table: "control_points", before: old, after: {...old, ...changes}}
-    ]);
-    if (changes.role) draw();
-  };
-  const numbers = kFields.map(field => {
-    const input = cellInput(row("control_points", one.name)?.[field], `${one.name} ${field}`, text => {
-      const value = parseNumber(text),
-        isBad = value === null || (field.startsWith("sigma") && !(value > 0));
-      input.setAttribute("aria-invalid", String(isBad));
-      if (isBad) say(t("badNumber", {text}));
-      else change({[field]: value});
-    });
-    return input;
-  });
-  const role = select(
-    [
-      ["control", t("control")],
-      ["check", t("check")]
-    ],
-    one.role ?? "control",
-    value => change({role: value}),
-    {"aria-label": `${one.name} ${t("role")}`}
-  );
-  return [
-    one.name,
-    ...numbers,
-    role,
-    button(
-      t("delete"),
-      () => {
-        const old = row("control_points", one.name);
-        if (old)
-          edit(t("opDeleteControl", {point: one.name}), [
-            {table: "control_points", before: old, after: null}
-          ]);
-        draw();
-      },
-      {class: "small"}
-    )
-  ];
-}
-
-/** Fields of a point that is not there yet. */
-function newLine() {
-  const fields = ["name", ...kFields].map(field =>
-    node("input", {
-      type: "text",
-      id: `new-${field}`,
-      autocomplete: "off",
-      inputmode: field === "name" ? "text" : "decimal",
-      "aria-label": field === "name" ? t("point") : field,
-      value: field.startsWith("sigma") ? "0.01" : "",
-      placeholder: field === "name" ? freeName("c") : ""
-    })
-  );
-  const role = select(
-    [
-      ["control", t("control")],
-      ["check", t("check")]
-    ],
-    "control",
-    () => {},
-    {id: "new-role", "aria-label": t("role")}
-  );
-  return [...fields, role, button(t("add"), () => addNew(), {class: "small", id: "new-add"})];
-}
-
-function addNew() {
-  const name = byId("new-name").value.trim() || byId("new-name").placeholder,
-    fault = nameFault(name);
-  if (fault || row("control_points", name)) return say(t(fault || "taken", {name}));
-  /** @type {Record<string, any>} */
-  const after = {name};
-  for (const field of kFields) {
-    const input = byId(`new-${field}`);
-    after[field] = parseNumber(input.value);
-    const isBad = after[field] === null || (field.startsWith("sigma") && !(after[field] > 0));
-    input.setAttribute("aria-invalid", String(isBad));
-    if (isBad) return input.focus();
-  }
-  after.role = byId("new-role").value;
-  edit(t("opControl", {point: name}), [{table: "control_points", before: null, after}]);
-  draw();
-  byId("new-name").focus();
+  drawCoordinates(cameras, kCameras);
 }
 
 /** Asks the server's readers what the pasted text says, and offers to take it. */

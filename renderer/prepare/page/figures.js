@@ -10,6 +10,8 @@ import {placeOf, ui} from "./ui.js";
 const path = (line, isClosed = false) =>
   `M${line.map(([x, y]) => `${x.toFixed(2)} ${y.toFixed(2)}`).join("L")}${isClosed ? "Z" : ""}`;
 
+const lines = all => all.map(line => path(line)).join("");
+
 /**
  * Draws anew only when what is shown has changed; zoom and pan only move the group.
  * @param {any} pane
@@ -20,59 +22,38 @@ export function drawFigures(pane) {
     photo = pane.photo.name;
   const transform = `matrix(${k} 0 0 ${k} ${tx + k / 2} ${ty + k / 2})`;
   if (figures.placed !== transform) figures.setAttribute("transform", (figures.placed = transform));
-  const isSame = figures.seen === pane.changes && (figures.k === k || !figures.hasLabels);
-  if (isSame && !ui.tool?.outline) return;
+  if (figures.seen === pane.changes && !ui.tool?.outline) return;
   figures.seen = pane.changes;
   const shapes = [
-    ...polygons(photo),
     ...building(photo),
+    ...polygons(photo),
     ...edges(photo),
     ...pairs(photo),
     ...curves(photo),
-    ...samples(photo),
     ...drawing(photo, pane)
   ];
   const signature = shapes.map(shape => `${shape.class}|${shape.d}`).join("\n");
-  figures.hasLabels = shapes.some(shape => shape.label);
-  if (figures.signature === signature && (figures.k === k || !figures.hasLabels)) return;
+  if (figures.signature === signature) return;
   figures.signature = signature;
-  figures.k = k;
   figures.replaceChildren(
-    ...shapes.flatMap(shape =>
-      shape.label
-        ? [labelNode(shape, k)]
-        : [
-            svg("path", {class: `casing ${shape.class}`, d: shape.d}),
-            svg("path", {class: shape.class, d: shape.d, data: shape.data ?? {}})
-          ]
-    )
+    ...shapes.flatMap(shape => [
+      svg("path", {class: `casing ${shape.class}`, d: shape.d}),
+      svg("path", {class: shape.class, d: shape.d, data: shape.data ?? {}})
+    ])
   );
 }
 
-function labelNode(shape, k) {
-  const made = svg("text", {
-    class: shape.class,
-    text: shape.label,
-    x: shape.at[0] * k,
-    y: shape.at[1] * k
-  });
-  made.setAttribute("transform", `scale(${1 / k})`);
-  return made;
-}
-
 function* polygons(photo) {
-  if (!ui.wireframe) return;
+  if (ui.lines === "none") return;
   for (const polygon of rows("polygons")) {
-    const images = state.adjusted?.polygons?.[polygon.name]?.images?.[photo];
+    const about = state.adjusted?.polygons?.[polygon.name],
+      data = {polygon: polygon.name};
     const className = `polygon${polygon.name === ui.polygon ? " current" : ""}`;
-    if (images) {
-      yield {
-        class: className,
-        d: images.map(line => path(line)).join(""),
-        data: {polygon: polygon.name}
-      };
-      continue;
-    }
+    const seen = about?.images?.[photo],
+      hidden = about?.hidden?.[photo];
+    if (seen) yield {class: className, d: lines(seen), data};
+    if (hidden) yield {class: `${className} hidden`, d: lines(hidden), data};
+    if (seen || hidden) continue;
     const known = polygon.vertices.map(name => placeOf(photo, name)).filter(at => at);
     if (known.length === polygon.vertices.length && known.length > 2) {
       yield {
@@ -81,15 +62,19 @@ function* polygons(photo) {
           known.map(at => [at.x, at.y]),
           true
         ),
-        data: {polygon: polygon.name}
+        data
       };
     }
   }
 }
 
+/** Off while marks are placed; faint, without the ellipses of its corners, until all lines are wanted. */
 function* building(photo) {
-  const lines = state.building?.images?.[photo];
-  if (lines?.length) yield {class: "building", d: lines.map(line => path(line)).join("")};
+  const isWanted = ui.lines === "all",
+    images = state.building?.images?.[photo];
+  if (ui.lines === "none" || (!isWanted && (ui.mode === "control" || ui.tool))) return;
+  if (images?.length) yield {class: `building${isWanted ? "" : " faint"}`, d: lines(images)};
+  if (!isWanted) return;
   for (const {x, y, major, minor, angle} of state.building?.corners?.[photo] ?? []) {
     yield {class: "building corner", d: ellipse(x, y, major, minor, angle)};
   }
@@ -108,7 +93,7 @@ function ellipse(x, y, major, minor, angle) {
 }
 
 function* edges(photo) {
-  for (const edge of rows("edges")) {
+  for (const edge of ui.mode === "sun" || ui.lines === "all" ? rows("edges") : []) {
     if (edge.photo !== photo) continue;
     const isOff = edge.state === "off";
     yield {
@@ -145,24 +130,6 @@ function* pairs(photo) {
           [to.x, to.y]
         ])
       };
-  }
-}
-
-function* samples(photo) {
-  if (ui.mode !== "light") return;
-  for (const [kind, letter] of [
-    ["horizon", "H"],
-    ["haze", "J"],
-    ["daylight", "O"]
-  ]) {
-    for (const one of rows(kind)) {
-      if (one.photo !== photo) continue;
-      yield {
-        class: `sample ${kind}`,
-        d: `M${one.x - 3} ${one.y}H${one.x + 3}M${one.x} ${one.y - 3}V${one.y + 3}`
-      };
-      yield {class: `sample ${kind}`, label: letter, at: [one.x + 3, one.y - 3]};
-    }
   }
 }
 

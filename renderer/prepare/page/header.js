@@ -10,8 +10,9 @@ import {adjustedMark, mark, prediction, raysOf, state} from "./state.js";
 import {settle} from "./marking.js";
 import {shown} from "./numbers.js";
 import {say} from "./notices.js";
+import {offText, samples} from "./samples.js";
 import {activePane, setMode, ui} from "./ui.js";
-import {kLanguages, language, setLanguage, t} from "./words.js";
+import {kLanguages, language, setLanguage, raysText, t} from "./words.js";
 
 /** @type {["control"|"polygons"|"sun"|"light", string][]} */
 export const kModes = [
@@ -96,6 +97,7 @@ function drawSaved() {
   data.revision = String(state.revision);
   data.saved = String(state.saved);
   data.pending = String(waiting);
+  data.mode = ui.mode;
   data.adjusted = String(state.adjusted?.revision ?? "");
 }
 
@@ -131,7 +133,9 @@ function drawStatus() {
     photo = pane.photo.name,
     point = ui.point;
   const parts = [`${photo}  x ${shown(place.x, 2)}  y ${shown(place.y, 2)}`];
-  if (point !== null) parts.push(...pointParts(photo, point));
+  const sample = ui.mode === "light" && samples().find(one => one.key === ui.sample);
+  if (sample) parts.push(`${t(sample.kind)} ${sample.row.polygon ?? ""}`, `${t("off100")} ${offText(sample)}`);
+  else if (point !== null) parts.push(...pointParts(photo, point));
   keepText(made, parts.join("  |  "));
 }
 
@@ -146,7 +150,7 @@ function pointParts(photo, point) {
       about.w === null ? t("cannotCheck") : `w ${shown(about.w, 1)}  r ${shown(about.r, 2)}`
     );
   if (!one && expected) parts.push(t("predictedWithin", {px: shown(expected.major, 1)}));
-  parts.push(t("rays", {n: raysOf(point)}));
+  parts.push(raysText(raysOf(point)));
   const solved = state.adjusted?.points?.[point];
   if (solved) parts.push(`± ${shown(1000 * Math.hypot(...solved.sigma), 0)} mm`);
   return parts;

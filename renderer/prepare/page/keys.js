@@ -15,7 +15,9 @@ import {
   toggleDubious,
   toggleOff
 } from "./marking.js";
+import {deleteSample} from "./light_panel.js";
 import {match, refine} from "./proposals.js";
+import {chooseSample} from "./samples.js";
 import {kModes, redo, undo} from "./header.js";
 import {say} from "./notices.js";
 import {enlarge, nextLayout, stepPane} from "./panes.js";
@@ -101,8 +103,8 @@ export function addKeys() {
     ["zoomOut", "-", zoom(0.5)],
     ["refine", "F", () => refine(activePane())],
     ["match", "G", () => match(activePane())],
-    ["switch", "X", toggleOff],
-    ["delete", "Delete", deleteMark],
+    ["switch", "X", () => toggleOff()],
+    ["delete", "Delete", () => (ui.mode === "light" ? deleteSample() : deleteMark())],
     ["dubious", "D", toggleDubious],
     ["arrows", "R", cycle],
     [
@@ -161,7 +163,7 @@ export function listenToKeys() {
     if (document.querySelector("dialog[open]") || event.isComposing) return;
     const isInPane = Boolean(target.closest?.(".stage"));
     if (isInPane && paneKey(event)) return event.preventDefault();
-    if (event.key === "Escape" && !isField(target)) return escape();
+    if (event.key === "Escape") return isField(target) ? activePane()?.focus() : escape();
     const key = keyText(event),
       action = actions.find(one => keyFor(one.id) === key);
     if (
@@ -216,6 +218,7 @@ function paneKey(event) {
 function escape() {
   say("");
   if (ui.tool) setTool(null);
+  else if (ui.mode === "light" && ui.sample !== null) chooseSample(null);
   else cancel();
   emit("view");
 }

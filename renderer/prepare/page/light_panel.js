@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Samples of horizon, haze and daylight, and what the light's measurement says of them.
 
+import {ask} from "./api.js";
 import {button, byId, node, labelled} from "./dom.js";
 import {addAction} from "./keys.js";
+import {drawLightReport} from "./light_report.js";
 import {say} from "./notices.js";
-import {parseNumber, shown} from "./numbers.js";
+import {parseNumber} from "./numbers.js";
+import {sampleAt, sampleKey, samples} from "./samples.js";
 import {edit, isReadOnly, row, rows, state} from "./state.js";
 import {activePane, placeOf, setMode, setTool, ui} from "./ui.js";
 import {t} from "./words.js";
@@ -26,21 +29,24 @@ export function takeSamples(kind) {
 }
 
 /** @param {string} kind */
-function insert(kind, photo, x, y) {
+async function insert(kind, photo, x, y) {
+  const polygon = kind === "horizon" ? null : await polygonAt(photo, x, y);
   if (row(kind, photo, x, y)) return say(t("taken", {name: `${photo} ${x} ${y}`}));
-  const polygon = kind === "horizon" ? null : polygonAt(photo, x, y);
   if (kind !== "horizon" && polygon === null) return say(t("noPolygonThere"));
-  edit(t("opSample", {kind: t(kind), photo}), [
-    {table: kind, before: null, after: polygon === null ? {photo, x, y} : {photo, polygon, x, y}}
-  ]);
+  const after = polygon === null ? {photo, x, y} : {photo, polygon, x, y};
+  edit(t("opSample", {kind: t(kind), photo}), [{table: kind, before: null, after}]);
+  ui.sample = sampleKey(kind, after);
   say(t("sampleMade", {kind: t(kind), polygon: polygon ?? ""}));
 }
 
-/**
- * The polygon whose outline holds the pixel: the current one first, then the smallest, which lies before
- * larger ones more often than not. The light's measurement names samples that are hidden.
- */
-function polygonAt(photo, x, y) {
+/** The polygon that the pixel sees first, as the server knows, else by the outlines that are known here. */
+async function polygonAt(photo, x, y) {
+  const answer = await ask("/api/polygon_at", {photo, x, y});
+  return answer.error ? guessedAt(photo, x, y) : (answer.polygon ?? null);
+}
+
+/** The current polygon first, then the smallest, which lies before larger ones more often than not. */
+function guessedAt(photo, x, y) {
   const holding = rows("polygons")
     .map(polygon => ({name: polygon.name, outline: outlineOf(polygon, photo)}))
     .filter(one => one.outline.length > 2 && isInside(one.outline, x, y));
@@ -51,9 +57,7 @@ function polygonAt(photo, x, y) {
 
 function outlineOf(polygon, photo) {
   const corners = polygon.vertices.map(name => placeOf(photo, name));
-  return corners.every(at => at)
-    ? corners.map(at => [at.x, at.y])
-    : (state.adjusted?.polygons?.[polygon.name]?.images?.[photo]?.[0] ?? []);
+  return corners.every(at => at) ? corners.map(at => [at.x, at.y]) : [];
 }
 
 function isInside(outline, x, y) {
@@ -72,20 +76,16 @@ const area = outline =>
     }, 0)
   );
 
-/** Deletes the sample at the crosshair. */
-function deleteSample() {
-  const pane = activePane(),
-    {x, y} = pane.cursor;
-  const near = ["horizon", "haze", "daylight"].flatMap(table =>
-    rows(table)
-      .filter(one => one.photo === pane.photo?.name && Math.hypot(one.x - x, one.y - y) * pane.k <= 12)
-      .map(before => ({table, before, after: null}))
-  );
-  near.sort(
-    (a, b) => Math.hypot(a.before.x - x, a.before.y - y) - Math.hypot(b.before.x - x, b.before.y - y)
-  );
-  if (near.length === 0) return say(t("noSample"));
-  edit(t("opDeleteSample", {photo: pane.photo.name}), [near[0]]);
+/** Deletes the sample chosen, else that at the crosshair. */
+export function deleteSample() {
+  const pane = activePane();
+  const sample =
+    samples().find(one => one.key === ui.sample) ?? sampleAt(pane, pane.cursor.x, pane.cursor.y);
+  if (!sample) return say(t("noSample"));
+  ui.sample = null;
+  edit(t("opDeleteSample", {photo: sample.row.photo}), [
+    {table: sample.kind, before: sample.row, after: null}
+  ]);
 }
 
 export function buildLightPanel(root) {
@@ -112,11 +112,10 @@ export function buildLightPanel(root) {
       start("horizon", "H"),
       start("haze", "J"),
       start("daylight", "O"),
-      button(t("deleteSample"), deleteSample)
+      button(t("deleteSample"), deleteSample, {title: "Del"})
     ),
     labelled(t("reflectance"), card),
-    node("ul", {id: "advice"}),
-    node("dl", {id: "light-about"})
+    node("div", {id: "light-about"})
   );
   drawn = "";
 }
@@ -152,49 +151,18 @@ function takeCard(field) {
 
 let drawn = "";
 export function updateLightPanel() {
-  const light = state.light,
-    card = byId("card");
+  const card = byId("card"),
+    about = byId("light-about");
   const signature = JSON.stringify([
-    light,
+    state.light,
     rows("light"),
-    rows("horizon").length,
-    rows("haze").length,
-    rows("daylight").length
+    ...["horizon", "haze", "daylight"].map(kind => rows(kind).length)
   ]);
-  if (!byId("advice") || drawn === signature) return;
+  if (!about || drawn === signature) return;
   drawn = signature;
   if (document.activeElement !== card)
     card.value = (rows("light")[0]?.daylight_reflectance_rgb ?? []).join(" ");
-  const advice = [...(light?.failed ? [light.failed] : []), ...(light?.advice ?? [])];
-  byId("advice").replaceChildren(
-    ...advice.map(text => node("li", {text: typeof text === "string" ? text : text.text}))
-  );
-  const lines = ["horizon", "haze", "daylight"].map(kind => [
-    t(kind),
-    t("count", {n: rows(kind).length})
-  ]);
-  for (const [name, value] of Object.entries(light ?? {})) {
-    if (["type", "revision", "failed", "samples", "advice"].includes(name)) continue;
-    lines.push([name.replace(/_/g, " "), textOf(value)]);
-  }
-  byId("light-about").replaceChildren(
-    ...lines.flatMap(([name, text]) => [node("dt", {text: name}), node("dd", {text})])
-  );
-}
-
-/**
- * Numbers to four digits, whatever they stand in.
- * @param {any} value
- * @returns {string}
- */
-function textOf(value) {
-  if (typeof value === "number") return shown(value, Math.abs(value) < 1 ? 4 : 2);
-  if (Array.isArray(value)) return value.map(textOf).join("  ");
-  if (value && typeof value === "object")
-    return Object.entries(value)
-      .map(([key, one]) => `${key.replace(/_/g, " ")} ${textOf(one)}`)
-      .join(", ");
-  return value === null || value === undefined ? "–" : String(value);
+  drawLightReport(about);
 }
 
 export function addLightKeys() {

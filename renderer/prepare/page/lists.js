@@ -2,7 +2,7 @@
 // Lists: points by worst |w|, photos, polygons, pairs, samples; and what is to be done.
 
 import {button, byId, first, node} from "./dom.js";
-import {mark, raysOf, rows, state} from "./state.js";
+import {raysOf, rows, state} from "./state.js";
 import {on} from "./signals.js";
 import {shown} from "./numbers.js";
 import {
@@ -15,6 +15,7 @@ import {
   showPhoto,
   ui
 } from "./ui.js";
+import {chooseSample, offText, samples} from "./samples.js";
 import {runStage} from "./stages.js";
 import {t} from "./words.js";
 
@@ -191,33 +192,31 @@ function pairList() {
   return {head: [t("pair"), t("kind"), t("remark")], lines};
 }
 
+const kSampleSigns = {horizon: "◠", haze: "≋", daylight: "☀"};
+
+/** Worst first, after those left out; those of the horizon, which has nothing to compare, at the end. */
 function sampleList() {
-  const residuals = new Map();
-  for (const [kind, all] of Object.entries(state.light?.samples ?? {})) {
-    for (const one of all) residuals.set(`${kind} ${one.photo} ${one.x} ${one.y}`, one);
-  }
-  const lines = ["horizon", "haze", "daylight"].flatMap(kind =>
-    rows(kind).map(one => {
-      const about = residuals.get(`${kind} ${one.photo} ${one.x} ${one.y}`);
-      const residual = about?.residual,
-        size = Array.isArray(residual) ? Math.hypot(...residual) / Math.sqrt(residual.length) : residual;
-      return {
-        cells: [
-          `${t(kind)} ${one.photo} ${one.x} ${one.y}`,
-          one.polygon ?? "",
-          typeof size === "number" ? shown(size, 3) : "–",
-          about?.why ?? about?.reason ?? ""
-        ],
-        class: about?.why || about?.reason ? "noted" : "",
-        act: () => {
-          showPhoto(one.photo);
-          activePane().moveCursor(one.x, one.y);
-          activePane().isMoved = false;
-        }
-      };
-    })
-  );
-  return {head: [t("sample"), t("polygon"), t("residual"), t("remark")], lines};
+  const size = one => (one.isOut ? Infinity : one.residual === null ? -1 : Math.abs(one.residual));
+  const lines = [...samples()]
+    .sort((a, b) => size(b) - size(a) || 0)
+    .map(one => ({
+      key: one.key,
+      cells: [
+        `${kSampleSigns[one.kind]} ${one.row.photo} ${one.row.x} ${one.row.y}`,
+        one.row.polygon ?? t(one.kind),
+        one.isOut ? t("leftOut") : `${offText(one)}${one.level === "bad" ? " !" : ""}`,
+        ""
+      ],
+      note: t(one.kind),
+      class: `${one.isOut ? "suspect" : one.level}${one.key === ui.sample ? " current" : ""}`,
+      act: () => {
+        showPhoto(one.row.photo);
+        activePane()?.moveCursor(one.row.x, one.row.y);
+        if (activePane()) activePane().isMoved = false;
+        chooseSample(one);
+      }
+    }));
+  return {head: [t("sample"), t("polygon"), t("off100"), t("remark")], lines};
 }
 
 const kLists = {
@@ -243,8 +242,10 @@ function drawTodo() {
           "li",
           {title: item.why ?? ""},
           button(item.text, () => goTo(item.where ?? {})),
-          item.why ? node("span", {class: "faint", text: item.why}) : null,
-          item.run ? button(t("run"), () => runStage(item.run), {class: "small"}) : null
+          item.run
+            ? button(t("run"), () => runStage(item.run), {class: "small", "data-run": item.run})
+            : null,
+          item.why ? node("span", {class: "faint", text: item.why}) : null
         )
       )
     ),
@@ -276,12 +277,3 @@ function goTo(where) {
   if (where.table === "control_points") first("[data-menu=controlTable]")?.click();
   backToPane();
 }
-
-/** All marks of the current point, for the control panel. */
-export const marksOfPoint = () =>
-  ui.point === null
-    ? []
-    : state.photos.map(photo => ({
-        photo: photo.name,
-        mark: mark(photo.name, /** @type {string} */ (ui.point))
-      }));

@@ -128,7 +128,7 @@ export class Loupe {
     }
     for (const polygon of rows("polygons")) {
       const corners = polygon.vertices.map(name => placeOf(photo, name));
-      if (!ui.wireframe || corners.some(at => !at)) continue;
+      if (ui.lines === "none" || corners.some(at => !at)) continue;
       stroke(
         context,
         "#ffffffb0",

@@ -21,6 +21,7 @@ import {stored} from "./numbers.js";
 import {activePane, choosePoint, photosOf, placeOf, showPhoto, ui} from "./ui.js";
 import {say} from "./notices.js";
 import {proposalFor, proposals} from "./proposals.js";
+import {chooseSample, sampleAt} from "./samples.js";
 import {t} from "./words.js";
 
 const kReach = 10; // CSS px within which a click means the mark
@@ -91,8 +92,9 @@ export function dragMark(pane, at, isEnd) {
 export function clickAt(pane, x, y, isShift, isTouch = false) {
   if (!pane.isInFrame(x, y)) return;
   settle();
+  if (ui.mode === "light" && !ui.tool) return takeSample(pane, x, y);
   const name = markAt(pane, x, y);
-  if (name !== null) return choosePoint(name, false);
+  if (name !== null && ui.mode !== "light") return choosePoint(name, false);
   if (pane.k * devicePixelRatio < 0.5) {
     pane.cursor = {x, y};
     pane.isMoved = true;
@@ -105,10 +107,19 @@ export function clickAt(pane, x, y, isShift, isTouch = false) {
   if (!mark(pane.photo.name, ui.point)) confirm(pane, isShift);
 }
 
+/** A click while the light is looked at: the sample there, or the crosshair comes. */
+function takeSample(pane, x, y) {
+  const sample = sampleAt(pane, x, y);
+  pane.moveCursor(sample?.row.x ?? x, sample?.row.y ?? y);
+  pane.isMoved = false;
+  chooseSample(sample);
+}
+
 /** Enter or Confirm: the crosshair's place is meant. */
 export function confirm(pane, isShift) {
   if (!pane?.photo) return;
   if (ui.tool) return useTool(pane);
+  if (ui.mode === "light") return; // the points are dimmed: nothing is to happen to them unseen
   if (ui.point === null) return askForPoint();
   settle();
   const photo = pane.photo.name,
@@ -263,21 +274,23 @@ export function nudge(pane, dx, dy) {
   if (isOn && point !== null) move(photo, point, pane.cursor.x, pane.cursor.y, 400);
 }
 
+const activePhoto = () => activePane()?.photo?.name;
+
 /**
- * @param {(old: any) => any} change of the current mark, null to delete it
+ * @param {(old: any) => any} change of the current point's mark, null to delete it
  * @param {string} label
+ * @param {string} [photo] the active one if none is said
  */
-function changeMark(change, label) {
+export function changeMark(change, label, photo = activePhoto()) {
   settle();
-  const photo = activePane()?.photo?.name,
-    old = ui.point !== null && mark(photo, ui.point);
+  const old = ui.point !== null && mark(photo, ui.point);
   if (!old) return say(t("noMark"));
   if (isReadOnly("observations")) return say(t("readOnlyTable"));
   edit(t(label, {point: ui.point, photo}), [{table: "observations", before: old, after: change(old)}]);
 }
 export const deleteMark = () => changeMark(() => null, "opDelete");
-export const toggleOff = () =>
-  changeMark(old => ({...old, state: old.state === "off" ? "on" : "off"}), "opSwitch");
+export const toggleOff = (photo = activePhoto()) =>
+  changeMark(old => ({...old, state: old.state === "off" ? "on" : "off"}), "opSwitch", photo);
 /** Dubious: σ is three times as large; and back. */
 export const toggleDubious = () =>
   changeMark(

@@ -17,6 +17,7 @@ const kShapes = {
   vertex: "M0 -8.5L8.5 0L0 8.5L-8.5 0Z",
   proposal: "M-9 -4V-9H-4M4 -9H9V-4M9 4V9H4M-4 9H-9V4"
 };
+const kMostNamed = 12; // bad marks of a photo that show their names unasked
 const kOff = "M-9 -9L9 9M9 -9L-9 9",
   kDot = "M-1.5 0H1.5M0 -1.5V1.5";
 
@@ -108,7 +109,20 @@ const makeMark = (point, photo) =>
     svg("text", {x: 11, y: -7})
   );
 
-function updateMark(made, one, at, {k, changes}) {
+/** Whether a photo has more bad marks than names have room. */
+function isCrowded(pane) {
+  if (pane.countedAt !== pane.changes) {
+    pane.countedAt = pane.changes;
+    const bad = (state.adjusted?.marks ?? []).filter(
+      one => one.photo === pane.photo.name && grade(one.w) === "bad"
+    );
+    pane.isCrowded = bad.length > kMostNamed;
+  }
+  return pane.isCrowded;
+}
+
+function updateMark(made, one, at, pane) {
+  const {k, changes} = pane;
   put(made, at);
   if (made.changes !== changes) describeMark(made, one);
   made.changes = changes;
@@ -116,7 +130,8 @@ function updateMark(made, one, at, {k, changes}) {
   const arrow =
     about && ui.arrows && !isOff ? arrowPath(about.vx * ui.arrows * k, about.vy * ui.arrows * k) : "";
   const scale = k < 1 && !isCurrent ? "scale(.7)" : "scale(1)";
-  const text = isCurrent || signs || ui.isNamed || k >= 6 ? one.point + signs : "";
+  const isNamed = isCurrent || ui.isNamed || k >= 6 || (signs && !isCrowded(pane));
+  const text = isNamed ? one.point + signs : signs.trim();
   const parts = made.childNodes;
   if (made.arrow !== arrow) [parts[0], parts[1]].forEach(part => part.setAttribute("d", arrow));
   if (made.scale !== scale) [parts[2], parts[3]].forEach(part => part.setAttribute("transform", scale));

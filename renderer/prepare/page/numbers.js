@@ -61,6 +61,20 @@ export function shown(value, digits) {
 }
 
 /**
+ * A value and its σ, to the second digit of the σ.
+ * @param {number} value
+ * @param {number} sigma
+ * @returns {[string, string]}
+ */
+export function withSigma(value, sigma) {
+  if (!(sigma > 0) || !Number.isFinite(sigma)) return [shown(value, 4), "–"];
+  const digits = Math.min(1 - Math.floor(Math.log10(sigma)), 9),
+    unit = 10 ** -digits;
+  const rounded = number => shown(digits < 0 ? Math.round(number / unit) * unit : number, Math.max(digits, 0));
+  return [rounded(value), rounded(sigma)];
+}
+
+/**
  * A pixel coordinate as it is stored: to a thousandth.
  * @param {number} value
  */

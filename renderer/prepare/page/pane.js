@@ -2,15 +2,16 @@
 // A pane: one photograph with its own zoom, painted from tiles, and the crosshair on it.
 // screen = k (p + 1/2) + t in CSS pixels, p a pixel coordinate, (0, 0) being a pixel's centre.
 
-import {node, svg} from "./dom.js";
+import {button, node, svg} from "./dom.js";
 import {drawFigures} from "./figures.js";
 import {listenTo} from "./gestures.js";
 import {Loupe} from "./loupe.js";
 import {drawMarks} from "./marks.js";
+import {drawSamples} from "./samples.js";
 import {photoOf, state} from "./state.js";
 import {emit, redraw} from "./signals.js";
 import {fetchTiles, kTile, tileIfHere, wishTile} from "./tiles.js";
-import {activePane, placeOf, ui} from "./ui.js";
+import {activePane, placeOf, stepLines, ui} from "./ui.js";
 import {t} from "./words.js";
 
 const clamp = (value, low, high) => Math.min(Math.max(value, low), high);
@@ -30,6 +31,8 @@ export class Pane {
     this.isDrawn = false;
     /** @type {Map<string, any>} */
     this.markNodes = new Map();
+    /** @type {Map<string, any>} */
+    this.sampleNodes = new Map();
     /** How often what is drawn has changed, but for its place. */
     this.changes = 0;
     this.drawn = {k: 0, tx: 0, ty: 0};
@@ -45,13 +48,15 @@ export class Pane {
     this.canvas = node("canvas");
     this.figures = svg("g", {class: "figures"});
     this.markLayer = svg("g", {class: "marks"});
+    this.sampleLayer = svg("g", {class: "samples"});
     this.cross = svg(
       "g",
       {class: "crosshair"},
       svg("path", {class: "casing", d: kCross}),
       svg("path", {d: kCross})
     );
-    this.overlay = svg("svg", {class: "overlay", "aria-hidden": false}, this.figures, this.markLayer);
+    const layers = [this.figures, this.markLayer, this.sampleLayer];
+    this.overlay = svg("svg", {class: "overlay", "aria-hidden": false}, ...layers);
     const crossLayer = svg("svg", {class: "overlay still"}, this.cross);
     this.stage = node(
       "div",
@@ -67,10 +72,15 @@ export class Pane {
       this.focus();
     });
     this.note = node("span", {class: "note"});
+    const next = () => {
+      stepLines();
+      this.focus();
+    };
+    this.lines = button("", next, {class: "small lines", tabindex: -1, title: "'"});
     this.root = node(
       "section",
       {class: "pane"},
-      node("header", {}, this.chooser, this.note),
+      node("header", {}, this.chooser, this.note, this.lines),
       this.stage
     );
   }
@@ -81,8 +91,9 @@ export class Pane {
     this.photo = photo;
     this.index = state.photos.indexOf(photo);
     this.isDrawn = false;
-    this.markLayer.replaceChildren();
+    for (const layer of [this.markLayer, this.sampleLayer]) layer.replaceChildren();
     this.markNodes = new Map();
+    this.sampleNodes = new Map();
     this.cursor = {x: (photo.width - 1) / 2, y: (photo.height - 1) / 2};
     this.isMoved = false;
     this.stage.setAttribute("aria-label", t("paneLabel", {photo: photo.name}));
@@ -225,6 +236,7 @@ export class Pane {
     this.paint();
     this.drawHeader();
     if (!this.photo) return;
+    this.cross.classList.toggle("off", Boolean(this.photo.fault));
     const at = this.toScreen(this.cursor.x, this.cursor.y);
     this.cross.setAttribute("transform", `translate(${at.x} ${at.y})`);
     this.drawOverlay();
@@ -241,6 +253,7 @@ export class Pane {
       this.isDrawn = true;
       this.drawn = {k: this.k, tx: this.tx, ty: this.ty};
       drawMarks(this);
+      drawSamples(this);
     }
     const shift = `translate(${this.tx - this.drawn.tx}px, ${this.ty - this.drawn.ty}px)`;
     if (this.overlay.style.transform !== shift) this.overlay.style.transform = shift;
@@ -254,7 +267,12 @@ export class Pane {
       this.chooser.replaceChildren(...names.map(name => node("option", {value: name, text: name})));
     }
     this.chooser.value = this.photo?.name ?? "";
-    const about = state.adjusted?.photos?.[this.photo?.name ?? ""];
+    const about = state.adjusted?.photos?.[this.photo?.name ?? ""],
+      fault = this.photo?.fault;
+    this.lines.textContent = t(`lines_${ui.lines}`);
+    this.note.classList.toggle("fault", Boolean(fault));
+    this.note.title = fault ?? "";
+    if (fault) return void (this.note.textContent = t("photoFault", {why: fault}));
     this.note.textContent = !this.photo
       ? ""
       : noteOf(this.photo.name, about) +
@@ -268,7 +286,7 @@ export class Pane {
     context.setTransform(1, 0, 0, 1, 0, 0);
     context.fillStyle = "#15191c";
     context.fillRect(0, 0, this.canvas.width, this.canvas.height);
-    if (this.photo && this.width)
+    if (this.photo && !this.photo.fault && this.width)
       this.paintTiles(context, this.k * ratio, this.tx * ratio, this.ty * ratio);
     fetchTiles();
     this.paintMs = performance.now() - begin;

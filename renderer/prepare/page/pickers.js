@@ -16,14 +16,15 @@ import {t} from "./words.js";
  * @param {boolean} [what.isClosed] drawn as an outline
  * @param {boolean} [what.onlyKnown] no new points
  * @param {(names: string[], photo: string|null) => void} what.done
- * @param {() => void} [what.cancelled]
+ * @param {{names: string[], photo: string|null}} [what.begun] taken up again
+ * @param {(names: string[], photo: string|null) => void} [what.cancelled]
  * @returns {import("./ui.js").Tool}
  */
 export function pointTool(what) {
   /** @type {string[]} */
-  const names = [];
+  const names = [...(what.begun?.names ?? [])];
   const made = new Set(); // points that this tool has marked
-  let photo = /** @type {string|null} */ (null),
+  let photo = what.begun?.photo ?? null,
     isDone = false;
   const end = () => {
     isDone = true;
@@ -58,7 +59,7 @@ export function pointTool(what) {
       end();
     },
     cancelled: () => {
-      if (!isDone) what.cancelled?.();
+      if (!isDone) what.cancelled?.(names, photo);
     },
     outline: on =>
       what.count === 1

@@ -3,14 +3,13 @@
 
 import {button, byId, labelled, node} from "./dom.js";
 import {confirm, deleteMark, marking, takeName, toggleDubious, toggleOff} from "./marking.js";
-import {match, proposals, refine} from "./proposals.js";
+import {match, refine} from "./proposals.js";
 import {showRename} from "./renaming.js";
 import {say} from "./notices.js";
-import {parseNumber, parsePair, shown} from "./numbers.js";
-import {adjustedMark, indexed, kindOf, photoOf, prediction, state} from "./state.js";
-import {activePane, grade, showPhoto, ui} from "./ui.js";
+import {parseNumber, parsePair} from "./numbers.js";
+import {indexed, photoOf, state} from "./state.js";
+import {activePane, showPhoto, ui} from "./ui.js";
 import {on} from "./signals.js";
-import {marksOfPoint} from "./lists.js";
 import {t} from "./words.js";
 
 /** What keyboard users type: a name, a place. */
@@ -128,51 +127,5 @@ export function buildMarkPanel(root) {
       on_("match", "G", () => match(activePane()))
     ),
     node("div", {id: "marks-of-point"})
-  );
-}
-
-let drawn = "";
-/** The point's photos with what is known of each. */
-export function updateMarkPanel() {
-  const lines = marksOfPoint().map(({photo, mark}) => {
-    const about = mark && adjustedMark(photo, mark.point),
-      expected = !mark && prediction(photo, ui.point ?? "");
-    const proposed = proposals.point === ui.point && proposals.byPhoto.has(photo);
-    return {
-      photo,
-      state: mark ? (mark.state ?? "on") : "",
-      text: proposed
-        ? t("proposed")
-        : mark
-          ? about?.w === null
-            ? t("cannotCheck")
-            : about
-              ? `w ${shown(about.w, 1)}, r ${shown(about.r, 2)}`
-              : t("on")
-          : expected
-            ? t("predictedWithin", {px: shown(expected.major, 1)})
-            : "–",
-      level: mark ? grade(about?.w) : ""
-    };
-  });
-  const signature = JSON.stringify([ui.point, lines, ui.point && kindOf(ui.point)]);
-  const root = document.getElementById("marks-of-point");
-  if (!root || (drawn === signature && root.childElementCount > 0)) return;
-  drawn = signature;
-  if (ui.point === null)
-    return root.replaceChildren(node("p", {class: "faint", text: t("noPointHint")}));
-  root.replaceChildren(
-    node("p", {}, node("strong", {text: ui.point}), ` ${t(kindOf(ui.point))}`),
-    ...lines.map(line =>
-      node(
-        "p",
-        {class: `mark-line ${line.level} ${line.state}`},
-        button(line.photo, () => showPhoto(line.photo)),
-        node("span", {
-          text:
-            line.text + (line.state === "off" || line.state === "dubious" ? `, ${t(line.state)}` : "")
-        })
-      )
-    )
   );
 }

@@ -3,13 +3,15 @@
 
 import {ask, getJson} from "./api.js";
 import {button, labelled, node, select, byId} from "./dom.js";
+import {endDraft, keepDraft, showDrafts} from "./drafts.js";
 import {addAction} from "./keys.js";
 import {edit, freeName, isReadOnly, nameFault, row, rows, state} from "./state.js";
 import {shown} from "./numbers.js";
 import {say} from "./notices.js";
+import {screenColour} from "./light_report.js";
 import {pointTool} from "./pickers.js";
 import {emit} from "./signals.js";
-import {activePane, placeOf, setMode, setTool, ui} from "./ui.js";
+import {activePane, placeOf, setMode, setTool, stepLines, ui} from "./ui.js";
 import {t} from "./words.js";
 
 const current = () => (ui.polygon === null ? undefined : row("polygons", ui.polygon));
@@ -33,25 +35,32 @@ export function turned(names, photo) {
   return area > 0 ? [names[0], ...names.slice(1).reverse()] : names;
 }
 
-export function drawPolygon() {
+/**
+ * Takes vertices until Enter; left before, what there is becomes a draft.
+ * @param {any} [draft] that is taken up again
+ */
+export function drawPolygon(draft = null) {
   if (isReadOnly("polygons")) return say(t("readOnlyTable"));
   setMode("polygons");
-  setTool(
-    pointTool({
-      name: "drawPolygon",
-      wanted: ["vertexFirst", "vertexNext", "vertexNext", "vertexOrEnter"],
-      done: finish
-    })
-  );
-  say(t("vertexFirst"));
+  const tool = pointTool({
+    name: "drawPolygon",
+    wanted: ["vertexFirst", "vertexNext", "vertexNext", "vertexOrEnter"],
+    begun: draft ? {names: draft.vertices, photo: draft.photo} : undefined,
+    done: (names, photo) => finish(names, photo, draft),
+    cancelled: (names, photo) => keepDraft(names, photo, draft)
+  });
+  setTool(tool);
+  say(tool.hint());
 }
+// A window that closes leaves its tool: the outbox sends the draft when the page comes back.
+addEventListener("pagehide", () => ui.tool?.name === "drawPolygon" && setTool(null));
 
 /** Inserts the polygon drawn; its photo is the one it was drawn on until a better one is asked for. */
-function finish(names, photo) {
+function finish(names, photo, draft) {
   const name = freeName("polygon_"),
     material = current()?.material ?? (lastMaterial || materials()[0]) ?? "unknown";
   const after = {name, vertices: turned(names, photo), photo, material, mask: null};
-  edit(t("opPolygon", {name}), [{table: "polygons", before: null, after}]);
+  edit(t("opPolygon", {name}), [{table: "polygons", before: null, after}, ...endDraft(draft)]);
   ui.polygon = name;
   say(t("polygonMade", {name}));
 }
@@ -145,7 +154,10 @@ export function buildPolygonPanel(root) {
     node(
       "div",
       {class: "buttons"},
-      button(t("drawPolygon"), then(drawPolygon), {class: "main", title: "B"}),
+      button(
+        t("drawPolygon"),
+        then(() => drawPolygon()), {class: "main", title: "B"}
+      ),
       button(t("bestImage"), then(bestPhoto), {title: "I"}),
       button(
         t("flip"),
@@ -153,6 +165,7 @@ export function buildPolygonPanel(root) {
       ),
       button(t("delete"), then(deletePolygon))
     ),
+    node("div", {id: "drafts"}),
     node(
       "div",
       {class: "row"},
@@ -173,6 +186,11 @@ export function buildPolygonPanel(root) {
 
 let drawn = "";
 export function updatePolygonPanel() {
+  const goOn = draft => {
+    drawPolygon(draft);
+    activePane().focus();
+  };
+  if (byId("drafts")) showDrafts(byId("drafts"), goOn);
   const polygon = current(),
     about = polygon && state.adjusted?.polygons?.[polygon.name];
   const signature = JSON.stringify([
@@ -227,9 +245,7 @@ async function showSwatch(material) {
 }
 async function colourOf(material) {
   const diffuse = row("materials", material)?.diffuse;
-  const encode = value =>
-    Math.round(255 * (value <= 0.0031308 ? 12.92 * value : 1.055 * value ** (1 / 2.4) - 0.055));
-  if (Array.isArray(diffuse) && diffuse.length === 3) return `rgb(${diffuse.map(encode).join()})`;
+  if (Array.isArray(diffuse) && diffuse.length === 3) return screenColour(diffuse);
   for (const polygon of rows("polygons").filter(one => one.material === material && one.photo)) {
     const seen = polygon.vertices.map(name => placeOf(polygon.photo, name)).filter(at => at);
     if (seen.length < polygon.vertices.length) continue;
@@ -255,14 +271,15 @@ function toMaterial() {
 }
 
 export function addPolygonKeys() {
-  addAction({id: "drawPolygon", key: "B", run: drawPolygon});
+  addAction({id: "drawPolygon", key: "B", run: () => drawPolygon()});
   addAction({id: "bestImage", key: "I", run: bestPhoto});
   addAction({id: "material", key: "T", run: toMaterial});
   addAction({
     id: "wireframe",
     key: "'",
     run: () => {
-      ui.wireframe = !ui.wireframe;
+      stepLines();
+      say(t(`lines_${ui.lines}`));
     }
   });
 }

@@ -17,7 +17,8 @@ export const kStages = [
   "render",
   "montage"
 ];
-const kMostLines = 2000;
+const kMostLines = 2000,
+  kStopped = 143; // by SIGTERM
 
 /** What the newest run has said. */
 const run = {
@@ -27,12 +28,38 @@ const run = {
   lines: /** @type {string[]} */ ([])
 };
 
+/** Asks before a camera is made of little more than nothing. */
+function confirmExif() {
+  const asked = dialog(
+    t("exifCamera"),
+    [
+      node("p", {class: "narrow", text: t("exifCameraNote")}),
+      button(
+        t("firstLook"),
+        () => {
+          asked.close();
+          begin("exif-camera");
+        },
+        {class: "main", id: "exif-confirm"}
+      )
+    ],
+    t("cancel")
+  );
+}
+
+/** @param {string} stage or what else /api/run does */
+export function runStage(stage) {
+  if (stage === "exif-camera") confirmExif();
+  else begin(stage);
+}
+
 /** @param {string} stage */
-export async function runStage(stage) {
+async function begin(stage) {
   Object.assign(run, {stage, status: t("running"), progress: null, lines: []});
   showStages();
   const answer = await ask("/api/run", {stage});
   if (answer.error) run.status = answer.error;
+  else if (answer.run === 0) run.status = t("done"); // no program runs for it
   draw();
 }
 
@@ -81,22 +108,29 @@ function draw() {
   log.scrollTop = log.scrollHeight;
 }
 
-/** A share: a number from 0 to 1, or {done, total}. */
-const share = progress =>
-  typeof progress === "number" ? progress : progress?.total ? progress.done / progress.total : null;
+/** The share in what a program says of its progress, as in "middle 40 %, 12 s left". */
+function share(text) {
+  const percent = /(\d+) %/.exec(text);
+  return percent ? Number(percent[1]) / 100 : null;
+}
 
 export function followRuns() {
   on("run", message => {
     if (message.stage) run.stage = message.stage;
     if (message.line !== undefined) run.lines = [...run.lines.slice(1 - kMostLines), message.line];
-    if (message.progress !== undefined) run.progress = share(message.progress);
+    if (message.progress !== undefined) {
+      run.progress = share(String(message.progress));
+      run.status = `${t("running")}: ${message.progress}`;
+    }
     if (message.status !== undefined) {
       run.status =
         message.status === 0
           ? t("done")
-          : typeof message.status === "number"
-            ? t("failed", {status: message.status})
-            : String(message.status);
+          : message.status === kStopped
+            ? t("stopped")
+            : typeof message.status === "number"
+              ? t("failed", {status: message.status})
+              : String(message.status);
       run.progress = null;
       say(`${t(`stage_${run.stage}`)}: ${run.status}`);
     }

@@ -7,7 +7,7 @@ import {enqueue, newId, openOutbox, unconfirmed} from "./outbox.js";
 import {emit} from "./signals.js";
 
 /** @typedef {Record<string, any>} Row */
-/** @typedef {{name: string, width: number, height: number, levels: number, camera: string}} Photo */
+/** @typedef {{name: string, width: number, height: number, levels: number, camera: string, fault?: string}} Photo */
 
 /** The fields by which a row is known; none: the whole row; empty: the table's only row. */
 export const kKeys = {
@@ -236,6 +236,7 @@ async function load() {
     light: site.light,
     adjusted: site.adjusted,
     building: site.building ?? state.building,
+    notSaved: site.not_saved ?? "",
     isLoaded: true
   });
   base = site.revision;

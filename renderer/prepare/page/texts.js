@@ -3,6 +3,7 @@
 // Kontrollpunkt, mark = Bildmessung, tie point = Verknüpfungspunkt, residual = Verbesserung.
 
 import {kKeyTexts} from "./key_texts.js";
+import {kPanelTexts} from "./panel_texts.js";
 
 /** @type {Record<string, [string, string]>} */
 export const kTexts = {
@@ -117,6 +118,7 @@ export const kTexts = {
   redoNothing: ["Nothing to redo", "Nichts zu wiederholen"],
   undone: ["Undone: {label}", "Zurückgenommen: {label}"],
   redone: ["Redone: {label}", "Wiederholt: {label}"],
+  oneRay: ["1 ray", "1 Strahl"],
   rays: ["{n} rays", "{n} Strahlen"],
   predictedWithin: ["predicted ± {px} px (95 %)", "vorhergesagt ± {px} px (95 %)"],
   cannotCheck: ["cannot be checked", "nicht prüfbar"],
@@ -340,5 +342,6 @@ export const kTexts = {
   stage_convert: ["convert", "umwandeln"],
   stage_render: ["render", "rechnen"],
   stage_montage: ["montage", "Montage"],
+  ...kPanelTexts,
   ...kKeyTexts
 };

@@ -4,7 +4,8 @@
 import {button, byId, node} from "./dom.js";
 import {confirm} from "./marking.js";
 import {on} from "./signals.js";
-import {buildMarkPanel, buildPointPanel, updateMarkPanel} from "./point_panel.js";
+import {buildMarkPanel, buildPointPanel} from "./point_panel.js";
+import {updatePointTable} from "./point_table.js";
 import {buildPolygonPanel, updatePolygonPanel} from "./polygon_tool.js";
 import {buildDirectionPanel, updateDirectionPanel} from "./directions.js";
 import {buildLightPanel, updateLightPanel} from "./light_panel.js";
@@ -13,7 +14,7 @@ import {t} from "./words.js";
 
 /** @type {Record<string, [(root: any) => void, () => void]>} */
 const kParts = {
-  control: [buildMarkPanel, updateMarkPanel],
+  control: [buildMarkPanel, updatePointTable],
   polygons: [buildPolygonPanel, updatePolygonPanel],
   sun: [buildDirectionPanel, updateDirectionPanel],
   light: [buildLightPanel, updateLightPanel]
@@ -46,6 +47,10 @@ export function buildToolPanel() {
         button(t("cancel"), () => setTool(null))
       )
     );
+  });
+  // A crosshair on its way: how far it is from where the point should be.
+  on("frame", () => {
+    if (ui.mode === "control" && ui.panes.some(pane => pane.isMoved)) updatePointTable();
   });
   build();
 }

@@ -29,7 +29,9 @@ export const ui = {
   arrows: 10,
   curves: true,
   predictions: true,
-  wireframe: true,
+  /** Lines over the photos: what the mode needs, all, none. */
+  /** @type {"auto"|"all"|"none"} */ lines: "auto",
+  /** @type {string|null} the key of a sample, see samples.js */ sample: null,
   isLoupe: true,
   isNamed: false
 };
@@ -54,6 +56,12 @@ export function setActive(place) {
   ui.active = place;
   live.send({focus: activePane().photo?.name});
   emit("selection");
+}
+
+/** Lines as the mode needs them, all, none, ... */
+export function stepLines() {
+  ui.lines = /** @type {const} */ ({auto: "all", all: "none", none: "auto"})[ui.lines];
+  emit("view");
 }
 
 /** @param {"control"|"polygons"|"sun"|"light"} mode */

@@ -20,6 +20,9 @@ export function setLanguage(chosen) {
   location.reload();
 }
 
+/** @param {number} n */
+export const raysText = n => t(n === 1 ? "oneRay" : "rays", {n});
+
 /**
  * @param {string} key
  * @param {Record<string, any>} [values]

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Texts of the light's report, the point's table, drafts, camera positions, English and German (Swiss).
+
+/** @type {Record<string, [string, string]>} */
+export const kPanelTexts = {
+  lines_auto: ["Lines: as needed", "Linien: nach Bedarf"],
+  lines_all: ["Lines: all", "Linien: alle"],
+  lines_none: ["Lines: none", "Linien: keine"],
+  photoFault: ["cannot be shown: {why}", "nicht anzeigbar: {why}"],
+  // Light
+  through100: ["through 100 m", "durch 100 m"],
+  condition: ["condition {value}", "Kondition {value}"],
+  rmsSigma: ["residuals RMS {value} σ", "Verbesserungen RMS {value} σ"],
+  airClear: ["No haze samples: taken as clear air.", "Keine Dunstproben: Luft gilt als klar."],
+  lightSun: ["sun", "Sonne"],
+  lightSky: ["open sky", "offener Himmel"],
+  lightAmbient: ["ambient", "Umgebung"],
+  weightNote: ["weight of the light D65", "Gewicht des Lichts D65"],
+  sunIrradiance: ["sun, irradiance", "Sonne, Bestrahlung"],
+  openSky: ["sky, radiance", "Himmel, Leuchten"],
+  reflectanceKnown: [
+    "Albedo known: brightness is absolute.",
+    "Albedo bekannt: die Helligkeit ist absolut."
+  ],
+  reflectanceUnknown: [
+    "Albedo not known: the building's brightness is relative.",
+    "Albedo unbekannt: die Helligkeit des Gebäudes ist relativ."
+  ],
+  leftOut: ["left out", "weggelassen"],
+  leftOutHead: ["Left out", "Weggelassen"],
+  advice: ["Advice", "Ratschläge"],
+  off100: ["off", "Abweichung"],
+  // A point's photos
+  vHead: ["v x, y [px]", "v x, y [px]"],
+  sigmaMark: ["σ [px]", "σ [px]"],
+  sigmaOf: ["σ of {point} on {photo} [px]", "σ von {point} auf {photo} [px]"],
+  opSigma: ["σ of {point} on {photo}", "σ von {point} auf {photo}"],
+  away: ["{px} px from the prediction", "{px} px von der Vorhersage"],
+  crosshairAway: ["crosshair {px} px away", "Fadenkreuz {px} px entfernt"],
+  predictedShort: ["predicted ± {px} px", "vorhergesagt ± {px} px"],
+  notMarked: ["not marked", "nicht gemessen"],
+  take: ["Take", "Nehmen"],
+  switchOff: ["Off", "Aus"],
+  switchOn: ["On", "Ein"],
+  // Drafts
+  drafts: ["Unfinished", "Unfertig"],
+  goOn: ["Go on", "Weiter"],
+  discard: ["Discard", "Verwerfen"],
+  draftKept: [
+    "The unfinished polygon is kept; “Go on” takes it up again.",
+    "Das unfertige Polygon bleibt erhalten; «Weiter» nimmt es wieder auf."
+  ],
+  opDraft: ["keep unfinished polygon", "unfertiges Polygon behalten"],
+  opDiscard: ["discard unfinished polygon", "unfertiges Polygon verwerfen"],
+  // Camera positions
+  cameraPositions: ["Camera positions", "Kamerastandorte"],
+  cameraNote: [
+    "Where the camera was surveyed: fixed is taken as exact, weighted by its σ, free only as a start.",
+    "Wo die Kamera eingemessen ist: fest gilt exakt, gewichtet nach σ, frei nur als Startwert."
+  ],
+  fixed: ["fixed", "fest"],
+  weighted: ["weighted", "gewichtet"],
+  free: ["free", "frei"],
+  opCamera: ["position of {name}", "Standort von {name}"],
+  opDeleteCamera: ["delete position of {name}", "Standort von {name} löschen"],
+  // Runs
+  "stage_exif-camera": ["camera from EXIF", "Kamera aus EXIF"],
+  "stage_exif-site": ["place and time from EXIF", "Ort und Zeit aus EXIF"],
+  exifCamera: [
+    "Take the focal length from the photographs' EXIF?",
+    "Brennweite aus den EXIF-Daten der Fotos nehmen?"
+  ],
+  exifCameraNote: [
+    "This is for a first look only. EXIF tells the focal length to a few percent and nothing of the " +
+      "lens's distortion: points may be decimetres off, and no σ tells you. Before anything is measured " +
+      "in earnest, photograph a board and calibrate.",
+    "Nur für einen ersten Blick. EXIF nennt die Brennweite auf einige Prozent genau und nichts von der " +
+      "Verzeichnung: Punkte können um Dezimeter falsch sein, und kein σ sagt es. Vor jeder ernsthaften " +
+      "Messung eine Tafel fotografieren und kalibrieren."
+  ],
+  stopped: ["stopped", "angehalten"],
+  firstLook: ["For a first look", "Für einen ersten Blick"]
+};
