@@ -8,7 +8,6 @@
 #include <string>
 
 #include "renderer/live/live_solution.h"
-#include "renderer/prepare/questions.h"
 #include "tests/reconstruction/survey/synthetic_network.h"
 
 namespace insitu {
@@ -24,7 +23,7 @@ class LivePolygonsTest : public testing::Test {
     for (size_t i = 0; i < network_.photos.size(); ++i) {
       input.photos.push_back({network_.photos[i], network_.cameras[i]});
     }
-    state_.result = SolveLive(input);
+    result_ = SolveLive(input);
   }
 
   Eigen::Vector3d Point(const std::string& name) const { return network_.points.at(name); }
@@ -32,7 +31,7 @@ class LivePolygonsTest : public testing::Test {
     return *network_.cameras[photo].Project(network_.cam_from_world[photo] * point);
   }
   const Json::Value& Lines(const std::string& polygon, const char* kind, size_t photo) const {
-    return state_.result.message["polygons"][polygon][kind][network_.photos[photo]];
+    return result_.message["polygons"][polygon][kind][network_.photos[photo]];
   }
 
   // Of a pixel from lines of a polygon; infinite: there are none.
@@ -50,7 +49,7 @@ class LivePolygonsTest : public testing::Test {
   }
 
   bool FacesPhoto(const std::string& polygon, size_t photo) const {
-    for (const Polygon& other : state_.result.scene->polygons) {
+    for (const Polygon& other : result_.scene->polygons) {
       if (other.name != polygon) continue;
       return other.normal.dot(Center(network_.cam_from_world[photo]) - other.vertices[0]) > 0;
     }
@@ -58,7 +57,7 @@ class LivePolygonsTest : public testing::Test {
   }
 
   SyntheticNetwork network_;
-  LiveState state_;
+  LiveResult result_;
 };
 
 // The foot of a box's wall that looks away is behind the box; that of one which looks here is not,
@@ -98,23 +97,6 @@ TEST_F(LivePolygonsTest, SharedEdgesAreSeen) {
     EXPECT_LT(DistanceTo(Lines("b_wall0", "images", photo), pixel), kOnLine);
     EXPECT_LT(DistanceTo(Lines("b_roof", "images", photo), pixel), kOnLine);
   }
-}
-
-TEST_F(LivePolygonsTest, NamesThePolygonThatAPixelSeesFirst) {
-  int found = 0;
-  for (size_t photo = 0; photo < network_.photos.size(); ++photo) {
-    const Eigen::Vector3d middle = (Point("b0") + Point("b1") + Point("b4") + Point("b5")) / 4;
-    const Eigen::Vector2d pixel = Pixel(photo, middle);
-    if (!FacesPhoto("b_wall0", photo) || !network_.cameras[photo].Sees(pixel)) continue;
-    Json::Value question;
-    question["photo"] = network_.photos[photo];
-    question["x"] = pixel.x();
-    question["y"] = pixel.y();
-    found += PolygonAtAnswer(state_, question)["polygon"].asString() == "b_wall0";
-    question["y"] = -1e6;
-    EXPECT_TRUE(PolygonAtAnswer(state_, question)["polygon"].isNull());
-  }
-  EXPECT_GT(found, 0);
 }
 
 }  // namespace
