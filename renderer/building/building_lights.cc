@@ -157,7 +157,8 @@ std::vector<PointLight> Spread(const JsonNode& light, const PointLight& whole, c
   std::vector<PointLight> lamps;
   for (int i = 0; i < samples * samples; ++i) {
     PointLight lamp = whole;
-    const double s = (i % samples + 0.5) / samples, t = (i / samples + 0.5) / samples;
+    const int row = i / samples, column = i % samples;
+    const double s = (column + 0.5) / samples, t = (row + 0.5) / samples;
     lamp.name.append(" ").append(std::to_string(i + 1));
     lamp.position = area.corner + s * area.u + t * area.v + kClearance * normal;
     lamp.intensity_rgb /= samples * samples;

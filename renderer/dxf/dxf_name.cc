@@ -62,7 +62,8 @@ class Converter {
   }
 
  private:
-  bool IsOpen() const { return handle_ != reinterpret_cast<iconv_t>(-1); }
+  // iconv_open's failure is -1 as a pointer.
+  bool IsOpen() const { return reinterpret_cast<intptr_t>(handle_) != -1; }
   iconv_t handle_;
 };
 

@@ -16,7 +16,7 @@
 #include "calibration/web/open_browser.h"
 #include "calibration/web/photo_tiles.h"
 #include "calibration/web/request_guard.h"
-#include "renderer/prepare/edited_tables.h"
+#include "reconstruction/editing/edited_tables.h"
 #include "renderer/prepare/mark_proposal.h"
 #include "renderer/prepare/prepare_page.h"
 #include "renderer/prepare/prepare_session.h"

@@ -12,7 +12,7 @@
 //   POST /api/refine {photo, x, y}, /api/match {photo, point}    mark_proposal.h
 //   POST /api/run {stage}, /api/stop   stages of the site
 //   GET  /api/live                     WebSocket: op, saved, not_saved, adjusted, light, building,
-//                                      run, outside, fault
+//                                      todo, run, outside, fault
 #pragma once
 
 #include <functional>

@@ -3,14 +3,16 @@
 
 #include <chrono>
 #include <condition_variable>
+#include <map>
 #include <mutex>
 #include <thread>
 #include <utility>
 
 #include "calibration/files/error.h"
-#include "renderer/prepare/edited_tables.h"
-#include "renderer/prepare/live_worker.h"
-#include "renderer/prepare/site_edit.h"
+#include "calibration/photo/photograph.h"
+#include "reconstruction/editing/edited_tables.h"
+#include "reconstruction/editing/site_edit.h"
+#include "renderer/live/live_worker.h"
 #include "renderer/prepare/to_do.h"
 
 namespace insitu {
@@ -31,6 +33,18 @@ Json::Value ConflictsJson(const std::vector<RowConflict>& conflicts) {
   return json;
 }
 
+// By name; photographs that cannot be read have none.
+std::map<std::string, Eigen::Vector2i> SizesOf(const SitePaths& site) {
+  std::map<std::string, Eigen::Vector2i> sizes;
+  for (const auto& path : ListPhotographs(site)) {
+    try {
+      sizes[path.stem().string()] = ReadPhotographSize(path);
+    } catch (const InputError&) {  // the page shows that it cannot be shown
+    }
+  }
+  return sizes;
+}
+
 Json::Value OrNull(const std::optional<std::string>& text) {
   return text ? Json::Value(*text) : Json::Value();
 }
@@ -44,6 +58,7 @@ struct PrepareSession::Parts {
   const SitePaths site;
   const std::function<void(std::string)> send;
   const std::vector<std::string> photos;
+  const std::map<std::string, Eigen::Vector2i> sizes = SizesOf(site);
 
   std::mutex mutex;  // of all below but the worker, which only the thread uses
   std::condition_variable_any changed;
@@ -100,6 +115,21 @@ struct PrepareSession::Parts {
     return answer;
   }
 
+  // Of the pixels that an operation places; "" if all lie on their photographs.
+  std::string OffFrame(const Operation& operation) const {
+    for (const RowEdit& edit : operation.edits) {
+      const Json::Value& row = edit.after;
+      if (!row.isObject() || !row["photo"].isString() || !row["x"].isNumeric()) continue;
+      const auto size = sizes.find(row["photo"].asString());
+      if (size == sizes.end()) continue;
+      const Eigen::Array2d pixel(row["x"].asDouble(), row["y"].asDouble());
+      const bool is_on =
+          (pixel >= -0.5).all() && (pixel <= size->second.cast<double>().array() - 0.5).all();
+      if (!is_on) return edit.table + ": the pixel lies off photo " + size->first;
+    }
+    return "";
+  }
+
   void TellText(const char* type, const std::string& text) const {
     Json::Value message;
     message["type"] = type;
@@ -142,17 +172,23 @@ struct PrepareSession::Parts {
   void Solve(int revision) {
     auto state = std::make_shared<LiveState>(worker.Adjust(revision));
     Publish(state);
-    {
-      const std::lock_guard lock(mutex);
-      state->result.message["todo"] = ToDoNow();
-    }
     Tell(state->result.message);
+    TellToDo();
     auto lit = std::make_shared<LiveState>(*state);
     worker.AddLight(revision, lit.get());
     if (!lit->light.isNull()) Tell(lit->light);
     worker.AddBuilding(lit.get());
     if (!lit->building.isNull()) Tell(lit->building);
     Publish(lit);
+    TellToDo();
+  }
+
+  void TellToDo() {
+    Json::Value message;
+    message["type"] = "todo";
+    const std::lock_guard lock(mutex);
+    message["todo"] = ToDoNow();
+    Tell(message);
   }
 
   // Waits for something to do; the revision to adjust, or nullopt at the end.
@@ -230,8 +266,11 @@ Json::Value PrepareSession::Site() {
 }
 
 PrepareSession::Answer PrepareSession::Apply(const Json::Value& operation) {
+  const Operation asked = OperationFromJson(operation);
   const std::lock_guard lock(parts_->mutex);
-  return parts_->Done(parts_->edit.Apply(OperationFromJson(operation)), "edit");
+  EditOutcome off_frame;
+  off_frame.refused = parts_->OffFrame(asked);
+  return parts_->Done(off_frame.is_done() ? parts_->edit.Apply(asked) : off_frame, "edit");
 }
 
 PrepareSession::Answer PrepareSession::Undo(const std::string& id) {

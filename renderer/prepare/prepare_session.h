@@ -13,7 +13,7 @@
 #include <string>
 
 #include "calibration/program/site.h"
-#include "renderer/prepare/live_worker.h"
+#include "renderer/live/live_worker.h"
 
 namespace insitu {
 

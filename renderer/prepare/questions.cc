@@ -13,7 +13,7 @@
 #include "reconstruction/geometry/best_photo.h"
 #include "reconstruction/geometry/epipolar_curve.h"
 #include "reconstruction/live/derived_quantity.h"
-#include "renderer/prepare/live_polygons.h"
+#include "renderer/live/live_polygons.h"
 
 namespace insitu {
 namespace {

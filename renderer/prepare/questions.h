@@ -5,7 +5,7 @@
 #include <json/value.h>
 
 #include "calibration/program/site.h"
-#include "renderer/prepare/live_worker.h"
+#include "renderer/live/live_worker.h"
 
 namespace insitu {
 

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "calibration/files/error.h"
-#include "renderer/prepare/edited_tables.h"
-#include "renderer/prepare/site_edit.h"
+#include "reconstruction/editing/edited_tables.h"
+#include "reconstruction/editing/site_edit.h"
 
 namespace insitu {
 

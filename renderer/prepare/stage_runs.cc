@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "renderer/prepare/stage_runs.h"
 
+#include <optional>
+#include <string_view>
 #include <utility>
 #include <vector>
 
 #include "calibration/files/error.h"
+#include "calibration/files/text_table.h"
 #include "calibration/program/child_process.h"
 #include "calibration/program/program.h"
 #include "renderer/stages/montage_stages.h"
@@ -18,6 +21,16 @@ constexpr char kMontage[] = "montage";
 std::vector<std::string> CommandOf(const std::string& stage, const SitePaths& site) {
   const auto program = FindProgram(OwnFolder(), stage);
   return {program.string(), site.root.string()};
+}
+
+// "progress: middle 40 %, 12 s left" is 0.4; nullopt: it is not known how far.
+std::optional<double> ShareOf(const std::string& progress) {
+  const size_t percent = progress.find(" %");
+  if (percent == std::string::npos || percent == 0) return std::nullopt;
+  const size_t blank = progress.rfind(' ', percent - 1);
+  const auto number =
+      ParseNumber(std::string_view(progress).substr(blank + 1, percent - blank - 1));
+  return number ? std::optional(*number / 100) : std::nullopt;
 }
 
 }  // namespace
@@ -53,9 +66,8 @@ void StageRuns::Run(int run, const std::string& stage, const std::stop_token& st
     tell_(json);
   };
   const auto tell_line = [&](const std::string& line) {
-    const std::string prefix = kProgressPrefix;
-    const bool is_progress = line.starts_with(prefix);
-    message(is_progress ? "progress" : "line", is_progress ? line.substr(prefix.size()) : line);
+    if (!line.starts_with(kProgressPrefix)) return message("line", line);
+    if (const auto share = ShareOf(line)) message("progress", *share);
   };
   int status = 1;
   try {

@@ -15,8 +15,8 @@ namespace insitu {
 
 class StageRuns {
  public:
-  // `tell` receives the messages `run`, from a thread of its own: {run, stage, line}, then {run,
-  // stage, status}.
+  // `tell` receives the messages `run`, from a thread of its own: {run, stage} with `line` or
+  // `progress` (0..1), at the end with `status`.
   StageRuns(SitePaths site, std::function<void(Json::Value)> tell);
   ~StageRuns() { End(); }
   StageRuns(const StageRuns&) = delete;

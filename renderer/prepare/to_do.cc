@@ -27,18 +27,35 @@ class List {
     Directions();
     Light();
     Site();
+    if (items_.empty()) {
+      Add("make the montage", "nothing that it needs is missing", "")["run"] = "montage";
+    }
+    for (const Json::Value& item : advice_) items_.append(item);
     return items_;
   }
 
  private:
+  // What a montage needs.
   Json::Value& Add(const std::string& text, const std::string& why, const std::string& mode) {
+    return AddTo(&items_, text, why, mode);
+  }
+  // What makes it better.
+  Json::Value& Advise(const std::string& text, const std::string& why, const std::string& mode) {
+    return AddTo(&advice_, text, why, mode);
+  }
+  static Json::Value& AddTo(Json::Value* list, const std::string& text, const std::string& why,
+                            const std::string& mode) {
     Json::Value item;
     item["text"] = text;
     item["why"] = why;
     if (!mode.empty()) item["where"]["mode"] = mode;
-    return items_.append(item);
+    return list->append(item);
   }
   Json::ArrayIndex Count(const char* table) const { return input_.tables[table].size(); }
+  bool NeedsLens(const Json::Value& left_out) const {
+    return left_out["kind"] == "photo" &&
+           input_.adjusted["photos"][left_out["name"].asString()]["needs_lens"].asBool();
+  }
   bool Has(const std::filesystem::path& path) const { return std::filesystem::exists(path); }
 
   void Files() {
@@ -58,15 +75,11 @@ class List {
   }
 
   void Lens() {
-    std::vector<std::string> blind;
     std::string why;
     for (const Json::Value& left : input_.adjusted["left_out"]) {
-      const std::string reason = left["reason"].asString();
-      if (left["kind"] != "photo" || reason.find("insitu-calibrate") == std::string::npos) continue;
-      blind.push_back(left["name"].asString());
-      why = reason;
+      if (NeedsLens(left)) why = left["reason"].asString();
     }
-    if (blind.empty()) return;
+    if (why.empty()) return;
     const bool has_something =
         Has(input_.site.boards()) && !std::filesystem::is_empty(input_.site.boards());
     if (has_something) {
@@ -89,11 +102,9 @@ class List {
   void Photos() {
     if (Count("control_points") < kLeastControl) return;
     for (const Json::Value& left : input_.adjusted["left_out"]) {
-      if (left["kind"] != "photo") continue;
-      const std::string reason = left["reason"].asString();
-      if (reason.find("insitu-calibrate") != std::string::npos) continue;
-      Add(left["name"].asString() + ": " + reason, "the photo is not oriented yet",
-          "control")["where"]["photo"] = left["name"];
+      if (left["kind"] != "photo" || NeedsLens(left)) continue;
+      Add(left["name"].asString() + ": " + left["reason"].asString(),
+          "the photo is not oriented yet", "control")["where"]["photo"] = left["name"];
     }
   }
 
@@ -127,18 +138,18 @@ class List {
       if (!polygon["photo"].isString()) without.push_back(polygon["name"].asString());
     }
     if (without.empty()) return;
-    Add(Listing("polygons without a photo that shows them", without, 4),
-        "their colour is taken from a photograph", "polygons");
+    Advise(Listing("polygons without a photo that shows them", without, 4),
+           "their colour is taken from a photograph", "polygons");
   }
 
   void Directions() {
     if (Count("zenith") == 0) {
-      Add("a vertical edge: bottom, then top",
-          "which way is up is else taken from the coordinates' z axis", "sun");
+      Advise("a vertical edge: bottom, then top",
+             "which way is up is else taken from the coordinates' z axis", "sun");
     }
     if (Count("sun") == 0) {
-      Add("a sun pair: a point, then its shadow",
-          "without one the sky is taken as overcast and no shadow is cast", "sun");
+      Advise("a sun pair: a point, then its shadow",
+             "without one the sky is taken as overcast and no shadow is cast", "sun");
     }
   }
 
@@ -147,7 +158,8 @@ class List {
       Add("a sample of the sky at the horizon", "what haze fades to", "light");
     }
     if (Count("haze") == 0) {
-      Add("haze: one material at two distances or more", "else the air is taken as clear", "light");
+      Advise("haze: one material at two distances or more", "else the air is taken as clear",
+             "light");
     }
     if (Count("daylight") < 3) {
       Add(Formatted("%d more daylight samples of one material, in sun and in shade",
@@ -157,19 +169,19 @@ class List {
     const bool has_card = !input_.tables["light"].empty() &&
                           input_.tables["light"][0].isMember("daylight_reflectance_rgb");
     if (Count("daylight") > 0 && !has_card) {
-      Add("the reflectance of the daylight samples' material",
-          "from a grey card or a table: else the building comes out too dark", "light");
+      Advise("the reflectance of the daylight samples' material",
+             "from a grey card or a table: else the building comes out too dark", "light");
     }
     for (const Json::Value& text : input_.light["left_out"]) {
-      Add(text.asString(), "the sample takes no part", "light");
+      Advise(text.asString(), "the sample takes no part", "light");
     }
   }
 
   void Site() {
     const Json::Value& site = input_.tables["site"];
     if (site.empty() || !site[0].isMember("latitude") || !site[0].isMember("local_time")) {
-      Add("place and time of the photographs", "to check the sun against the almanac", "")["run"] =
-          "exif-site";
+      Advise("place and time of the photographs", "to check the sun against the almanac",
+             "")["run"] = "exif-site";
     }
     if (!Has(input_.site.building())) {
       Add("put the planned building's model into building/", "nothing is planned yet", "");
@@ -177,11 +189,10 @@ class List {
       Add("convert the building's model", "its wireframe then stands in every photo", "")["run"] =
           "convert";
     }
-    if (items_.empty()) Add("make the montage", "nothing is missing", "")["run"] = "montage";
   }
 
   const ToDoInput& input_;
-  Json::Value items_ = Json::Value(Json::arrayValue);
+  Json::Value items_ = Json::Value(Json::arrayValue), advice_ = items_;
 };
 
 }  // namespace

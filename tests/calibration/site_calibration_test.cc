@@ -11,6 +11,7 @@
 #include "calibration/site_undistortion.h"
 #include "tests/calibration/boards/drawn_boards.h"
 #include "tests/calibration/files/scratch_folder.h"
+#include "tests/calibration/program/drawn_page.h"
 
 namespace insitu {
 namespace {
@@ -87,6 +88,9 @@ TEST_F(Site, BoardsGiveTheLensBack) {
 
   const std::string page = ReadWhole(site_.calibration_page());
   EXPECT_NE(page.find("\"cross_validation\""), std::string::npos);
+  const std::string drawn = Drawn(page);  // to its last section
+  EXPECT_NE(drawn.find("<svg"), std::string::npos);
+  EXPECT_NE(drawn.find("<h2>Interior orientation</h2>"), std::string::npos);
 
   // The same boards give the same bytes: no date, no random start.
   const std::string first = ReadWhole(site_.camera());

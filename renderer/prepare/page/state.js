@@ -180,6 +180,10 @@ function takeAdjusted(message) {
 
 const takers = {
   op: takeOperation,
+  todo: message => {
+    state.todo = message.todo;
+    emit("todo");
+  },
   saved: message => {
     state.saved = Math.max(state.saved, message.revision);
     state.notSaved = "";

@@ -16,6 +16,11 @@ TEST(Sha256, IsThatOfTheStandardsExamples) {  // FIPS 180-4
             "cdc76e5c9914fb9281a1c7e284d73e67f1809a48a497200e046d39ccc7112cd0");
 }
 
+TEST(Sha256, OfATextIsThatOfTheFile) {
+  EXPECT_EQ(Sha256OfText("abc"),
+            "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
+}
+
 TEST(Sha256, RefusesWhatCannotBeRead) {
   const ScratchFolder folder;
   EXPECT_THROW(Sha256(folder.path() / "missing"), InputError);

@@ -45,6 +45,24 @@ TEST(RunChild, HasNoInputAndSaysHowItEnded) {
   EXPECT_EQ(RunChild({{"/nowhere/insitu-nothing"}, {}, [](auto&) {}, [](auto&) {}}), 127);
 }
 
+TEST(RunChild, EndsItsGroupWhenItIsToStop) {
+  std::stop_source source;
+  std::thread stopper([&] {
+    usleep(200000);
+    source.request_stop();
+  });
+  std::vector<std::string> lines;
+  const int status =
+      RunChild({.command = {"/bin/sh", "-c", "echo begun; sleep 30 & wait; echo late"},
+                .environment = {},
+                .on_output = [&](const std::string& line) { lines.push_back(line); },
+                .on_error = [](const std::string&) {},
+                .stop = source.get_token()});
+  stopper.join();
+  EXPECT_EQ(status, 128 + SIGTERM);
+  EXPECT_THAT(lines, testing::ElementsAre("begun"));
+}
+
 // In a process of its own, since the signals stay forwarded.
 TEST(ForwardSignalsToChildren, EndsThemAndTells) {
   EXPECT_EXIT(

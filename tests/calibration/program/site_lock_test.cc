@@ -22,6 +22,17 @@ TEST(SiteLock, ASecondRunIsToldWhoHoldsTheSite) {
                   testing::HasSubstr(std::to_string(getpid()) + " on ")));
 }
 
+TEST(SiteLock, OfAnotherFileGoesTogetherWithARun) {
+  const ScratchFolder folder;
+  const SitePaths site = {folder.path()};
+  const SiteLock run(site, "insitu-montage SITE");
+  const SiteLock editor(site, "insitu-prepare", folder.path() / "work/prepare/.lock");
+  EXPECT_THAT(InputErrorOf([&] {
+                const SiteLock second(site, "insitu-prepare", folder.path() / "work/prepare/.lock");
+              }),
+              testing::HasSubstr("in use by insitu-prepare (process "));
+}
+
 TEST(SiteLock, IsGoneWithItsProcess) {
   const ScratchFolder folder;
   const SitePaths site = {folder.path()};

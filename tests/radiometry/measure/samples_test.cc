@@ -171,6 +171,17 @@ TEST_F(SamplesTest, TooFewSamplesAreRefused) {
   ExpectPlaceAndMessage(ErrorOf("{\n\"horizon\": []}"), 2, "expected at least 1");
 }
 
+TEST_F(SamplesTest, WhileTheyAreChosenThoseAtFaultAreListed) {
+  WriteWhole(synthetic_.site.survey() / "samples.json",
+             "{\"horizon\": [],\n\"daylight\": [\n" + OnGround("A", 0, -4) + ",\n" +
+                 R"({"photo": "A", "x": 450, "y": 500, "polygon": "roof"})" + "]}");
+  std::vector<InputError> faults;
+  const LightSamples samples = ReadSamples(synthetic_.site, synthetic_.scene, photos_, {}, &faults);
+  EXPECT_EQ(samples.daylight.size(), 1U);
+  ASSERT_EQ(faults.size(), 1U);
+  ExpectPlaceAndMessage(faults[0].what(), 4, "roof");
+}
+
 TEST_F(SamplesTest, AReflectanceOutsideZeroToOneIsRefused) {
   std::string text = ReadWhole(synthetic_.site.survey() / "samples.json");
   text.replace(text.find("[0.4, 0.4, 0.4]"), 15, "[0.4, 1.4, 0.4]");

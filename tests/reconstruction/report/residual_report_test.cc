@@ -6,8 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
 #include <limits>
 
 #include "calibration/files/json_file.h"
@@ -15,6 +13,7 @@
 #include "reconstruction/adjustment/adjust.h"
 #include "reconstruction/report/residual_csv.h"
 #include "reconstruction/report/residual_page.h"
+#include "tests/calibration/program/drawn_page.h"
 #include "tests/calibration/program/embedded_report.h"
 #include "tests/reconstruction/survey/synthetic_network.h"
 
@@ -260,23 +259,7 @@ TEST_F(Report, PageIsMadeFromTheFileAlone) {
             Json::writeString(Json::StreamWriterBuilder(), report));
 }
 
-// What a browser makes of a page: its elements after the script has run.
-std::string Drawn(const std::string& page) {
-  const auto path = std::filesystem::path(testing::TempDir()) / "residual_report_test.html";
-  WriteWhole(path, page);
-  const std::string command =
-      "timeout 60 chromium --headless --no-sandbox --disable-gpu --dump-dom 'file://" +
-      path.string() + "' 2>/dev/null";
-  FILE* pipe = popen(command.c_str(), "r");
-  std::string dom;
-  char buffer[4096];
-  while (const size_t count = fread(buffer, 1, sizeof buffer, pipe)) dom.append(buffer, count);
-  pclose(pipe);
-  return dom;
-}
-
 TEST_F(Report, PageDrawsToItsEndWhateverTheNames) {
-  ASSERT_EQ(std::system("command -v chromium >/dev/null"), 0) << "Debian package chromium";
   adjustment_.control[0].name = "<b>Süd & \"Ost\"</b>";
   const std::string dom = Drawn(ResidualPage(Make()));
   EXPECT_NE(dom.find("<h2>Conventions</h2>"), std::string::npos);

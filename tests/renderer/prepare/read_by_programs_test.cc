@@ -5,8 +5,8 @@
 #include <filesystem>
 
 #include "radiometry/measure/samples.h"
+#include "reconstruction/editing/site_edit.h"
 #include "reconstruction/survey/read_survey.h"
-#include "renderer/prepare/site_edit.h"
 #include "tests/calibration/files/scratch_folder.h"
 #include "tests/radiometry/measure/synthetic_site.h"
 #include "tests/reconstruction/survey/synthetic_network.h"

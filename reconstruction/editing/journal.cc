@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "reconstruction/editing/journal.h"
+
+#include <fcntl.h>
+#include <json/reader.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <memory>
+#include <string_view>
+#include <system_error>
+
+#include "calibration/files/error.h"
+#include "calibration/files/whole_file.h"
+#include "reconstruction/editing/edited_tables.h"
+
+namespace insitu {
+namespace {
+
+[[noreturn]] void RefuseJournal(const std::filesystem::path& path, const std::string& reason) {
+  throw InputError(path, "cannot be written (" + reason + ")");
+}
+
+class EntryReader {
+ public:
+  EntryReader() {
+    Json::CharReaderBuilder builder;
+    Json::CharReaderBuilder::strictMode(&builder.settings_);
+    reader_.reset(builder.newCharReader());
+  }
+
+  std::optional<Json::Value> Read(std::string_view line) const {
+    Json::Value entry;
+    try {
+      const bool is_read = reader_->parse(line.data(), line.data() + line.size(), &entry, nullptr);
+      if (is_read && entry.isObject()) return entry;
+    } catch (const Json::Exception&) {  // nested too deeply: no entry of ours
+    }
+    return std::nullopt;
+  }
+
+ private:
+  std::unique_ptr<Json::CharReader> reader_;
+};
+
+bool WriteAll(int descriptor, std::string_view text) {
+  while (!text.empty()) {
+    const ssize_t written = write(descriptor, text.data(), text.size());
+    if (written < 0 && errno == EINTR) continue;
+    if (written <= 0) return false;
+    text.remove_prefix(static_cast<size_t>(written));
+  }
+  return true;
+}
+
+}  // namespace
+
+Journal::Journal(std::filesystem::path path) : path_(std::move(path)) {
+  std::error_code error;
+  std::filesystem::create_directories(path_.parent_path(), error);
+  if (error) RefuseJournal(path_.parent_path(), error.message());
+  const bool is_new = !std::filesystem::exists(path_);
+  descriptor_ = open(path_.c_str(), O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
+  if (descriptor_ < 0) RefuseJournal(path_, std::strerror(errno));
+  try {
+    if (is_new) SyncToDisk(path_.parent_path());
+    Read();
+  } catch (...) {
+    close(descriptor_);
+    throw;
+  }
+}
+
+Journal::~Journal() { close(descriptor_); }
+
+void Journal::Read() {
+  const std::string content = ReadWhole(path_);
+  const EntryReader reader;
+  size_t begin = 0;
+  for (int line = 1; begin < content.size(); ++line) {
+    const size_t end = content.find('\n', begin);
+    const bool is_whole = end != std::string::npos;
+    auto entry =
+        is_whole ? reader.Read(std::string_view(content).substr(begin, end - begin)) : std::nullopt;
+    if (!entry) {
+      if (is_whole && end + 1 < content.size()) {
+        throw InputError(path_, line,
+                         "is no entry; move the file away to go on without what it holds");
+      }
+      remark_ = path_.string() + ":" + std::to_string(line) +
+                ": the last line was torn and is cut off; it was never confirmed";
+      break;
+    }
+    entries_.push_back(std::move(*entry));
+    begin = end + 1;
+  }
+  size_ = static_cast<off_t>(begin);
+  if (remark_ && (ftruncate(descriptor_, size_) != 0 || fsync(descriptor_) != 0)) {
+    RefuseJournal(path_, std::strerror(errno));
+  }
+}
+
+void Journal::Append(const Json::Value& entry) {
+  const std::string line = OneLineJson(entry) + "\n";
+  if (WriteAll(descriptor_, line) && fsync(descriptor_) == 0) {
+    size_ += static_cast<off_t>(line.size());
+    return;
+  }
+  const std::string reason = std::strerror(errno);
+  const bool is_cut = ftruncate(descriptor_, size_) == 0;
+  RefuseJournal(path_, reason + (is_cut ? "" : "; its last line may be torn"));
+}
+
+void SyncToDisk(const std::filesystem::path& path) {
+  const int descriptor = open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  if (descriptor < 0) RefuseJournal(path, std::strerror(errno));
+  const bool is_synced = fsync(descriptor) == 0 || errno == EINVAL;  // some disks cannot
+  const std::string reason = std::strerror(errno);
+  close(descriptor);
+  if (!is_synced) RefuseJournal(path, reason);
+}
+
+}  // namespace insitu

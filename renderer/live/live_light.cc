@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "renderer/live/live_light.h"
+
+#include <algorithm>
+#include <filesystem>
+
+#include "calibration/files/error.h"
+#include "calibration/files/json_file.h"
+#include "calibration/files/wording.h"
+#include "radiometry/light_report.h"
+#include "radiometry/measure_daylight.h"
+
+namespace insitu {
+namespace {
+
+constexpr double kHazeDistance = 100;    // [m], for which the transmittance is told
+constexpr double kPoorLight = 100;       // condition above which another sample is proposed
+constexpr double kShortBase = 3;         // farthest haze sample over the nearest
+constexpr double kGrossResidual = 0.25;  // relative
+
+Json::Value ResidualsJson(const std::vector<PixelSample>& samples,
+                          const std::vector<double>& residuals, const SceneGeometry& scene) {
+  Json::Value list(Json::arrayValue);
+  for (size_t i = 0; i < residuals.size(); ++i) {
+    Json::Value row;
+    row["photo"] = scene.cameras[samples[i].photo].photo;
+    row["x"] = samples[i].pixel.x();
+    row["y"] = samples[i].pixel.y();
+    row["residual"] = residuals[i];
+    list.append(row);
+  }
+  return list;
+}
+
+Json::Value HazeJson(const LightMeasurement& measured) {
+  const NaturalEnvironment& environment = measured.environment;
+  Json::Value json;
+  json["horizon_rgb"] = ToJson(environment.spectra.RgbFromSpectrum(environment.air.horizon));
+  json["transmittance_100m_rgb"] = ToJson(TransmittanceRgb(environment, kHazeDistance));
+  if (measured.air_fit.residuals.empty()) return json;
+  const int bins = environment.spectra.bins().count;
+  json["transmittance_100m_sigma"] =
+      kHazeDistance * measured.air_fit.transmittance_sigma.head(bins).mean();
+  json["condition"] = measured.air_fit.condition.head(bins).maxCoeff();
+  json["rms_over_sigma"] = measured.air_fit.rms;
+  return json;
+}
+
+Json::Value DaylightJson(const LightMeasurement& measured) {
+  const NaturalEnvironment& environment = measured.environment;
+  const SpectralBins& bins = environment.spectra.bins();
+  const DaylightFit& fit = measured.daylight_fit;
+  const auto weight = [&](const Spectrum& radiance, const Spectrum& sigma) {
+    Json::Value json;
+    json["value"] = WeightOfD65(radiance, bins);
+    json["sigma"] = WeightOfD65(sigma, bins);
+    return json;
+  };
+  Json::Value json;
+  json["k_s"] = weight(environment.light.sun_radiance, fit.sun_sigma);
+  json["k_u"] = weight(environment.light.ambient_radiance, fit.ambient_sigma);
+  json["k_h"] = weight(environment.light.sky_radiance, fit.sky_sigma);
+  json["sun_irradiance_rgb"] = ToJson(SunIrradianceRgb(environment));
+  json["open_sky_radiance_rgb"] = ToJson(OpenSkyRgb(environment));
+  json["condition"] = fit.condition;
+  json["rms_over_sigma"] = fit.rms;
+  json["reflectance_known"] = measured.reflectance_known;
+  return json;
+}
+
+void AdviseOnHaze(const LightMeasurement& measured, Json::Value* advice) {
+  const std::vector<PixelSample>& haze = measured.samples.haze;
+  if (haze.empty()) return;
+  const auto [nearest, farthest] =
+      std::minmax_element(haze.begin(), haze.end(),
+                          [](const auto& a, const auto& b) { return a.distance < b.distance; });
+  if (farthest->distance > kShortBase * nearest->distance) return;
+  advice->append(
+      Formatted("haze: all samples lie %.0f to %.0f m away; one of the same material much "
+                "nearer or farther tells more",
+                nearest->distance, farthest->distance));
+}
+
+void AdviseOnResiduals(const std::string& kind, const std::vector<PixelSample>& samples,
+                       const std::vector<double>& residuals, const SceneGeometry& scene,
+                       Json::Value* advice) {
+  for (size_t i = 0; i < residuals.size(); ++i) {
+    if (std::abs(residuals[i]) < kGrossResidual) continue;
+    const PixelSample& sample = samples[i];
+    advice->append(
+        Formatted("%s: the sample at %.0f, %.0f on %s is %+.0f %% off: another material, a "
+                  "shadow or a reflection?",
+                  kind.c_str(), sample.pixel.x(), sample.pixel.y(),
+                  scene.cameras[sample.photo].photo.c_str(), 100 * residuals[i]));
+  }
+}
+
+Json::Value AdviceJson(const LightMeasurement& measured) {
+  const SceneGeometry& scene = measured.environment.scene;
+  Json::Value advice(Json::arrayValue);
+  for (const std::string& warning : measured.warnings) advice.append(warning);
+  if (measured.daylight_fit.condition > kPoorLight / 3 &&
+      measured.daylight_fit.condition <= kPoorLight) {
+    advice.append(
+        "daylight: one more sample in open shade and one in deep shade tell sun, sky and "
+        "ambient light better apart");
+  }
+  AdviseOnHaze(measured, &advice);
+  AdviseOnResiduals("haze", measured.samples.haze, measured.air_fit.residuals, scene, &advice);
+  AdviseOnResiduals("daylight", measured.samples.daylight, measured.daylight_fit.residuals, scene,
+                    &advice);
+  return advice;
+}
+
+}  // namespace
+
+LinearPhotos::LinearPhotos(const SitePaths& site) : site_(site) {}
+LinearPhotos::~LinearPhotos() = default;
+
+const std::vector<Photograph>& LinearPhotos::Of(const SceneGeometry& scene) {
+  std::vector<std::string> names;
+  for (const PosedCamera& camera : scene.cameras) names.push_back(camera.photo);
+  if (names == names_) return photos_;
+  std::vector<Photograph> photos;
+  const std::vector<std::filesystem::path> paths = ListPhotographs(site_);
+  for (const PosedCamera& posed : scene.cameras) {
+    const auto kept = std::find(names_.begin(), names_.end(), posed.photo);
+    if (kept != names_.end()) {
+      photos.push_back(photos_[kept - names_.begin()]);
+      continue;
+    }
+    const auto path = std::find_if(paths.begin(), paths.end(),
+                                   [&](const auto& p) { return p.stem() == posed.photo; });
+    if (path == paths.end()) throw InputError(site_.photos(), "no photograph " + posed.photo);
+    RequirePhotographSize(*path, posed.camera.width(), posed.camera.height());
+    photos.push_back(ReadPhotograph(*path));
+  }
+  names_ = std::move(names);
+  photos_ = std::move(photos);
+  return photos_;
+}
+
+Json::Value LiveLight(const SitePaths& site, const SceneGeometry& scene, LinearPhotos& photos) {
+  if (!std::filesystem::exists(site.survey() / "samples.json")) return Json::nullValue;
+  Json::Value message;
+  message["failed"] = Json::nullValue;
+  message["left_out"] = message["advice"] = Json::Value(Json::arrayValue);
+  std::vector<InputError> left_out;
+  try {
+    const LightMeasurement measured =
+        MeasureDaylightSoFar(site, scene, photos.Of(scene), &left_out);
+    message["haze"] = HazeJson(measured);
+    message["daylight"] = DaylightJson(measured);
+    message["samples"]["haze"] =
+        ResidualsJson(measured.samples.haze, measured.air_fit.residuals, scene);
+    message["samples"]["daylight"] =
+        ResidualsJson(measured.samples.daylight, measured.daylight_fit.residuals, scene);
+    message["advice"] = AdviceJson(measured);
+  } catch (const std::exception& error) {
+    message["failed"] = error.what();
+  }
+  for (const InputError& fault : left_out) message["left_out"].append(fault.what());
+  return message;
+}
+
+}  // namespace insitu

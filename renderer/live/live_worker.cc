@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "renderer/live/live_worker.h"
+
+#include <utility>
+
+#include "calibration/files/error.h"
+#include "reconstruction/survey/read_survey.h"
+#include "renderer/live/live_building.h"
+#include "renderer/live/live_lenses.h"
+
+namespace insitu {
+
+LiveWorker::LiveWorker(SitePaths site) : site_(std::move(site)), linear_(site_) {}
+
+LiveState LiveWorker::Adjust(int revision) {
+  if (!has_lenses_) photos_ = ReadLivePhotos(site_);
+  has_lenses_ = true;
+  std::vector<std::string> names;
+  for (const LivePhoto& photo : photos_) names.push_back(photo.name);
+  SurveySoFar read = ReadSurveySoFar(site_, names);
+  LiveState state;
+  for (const InputError& fault : read.faults) state.file_faults.emplace_back(fault.what());
+  state.result = SolveLive({.survey = std::move(read.survey),
+                            .photos = photos_,
+                            .last_poses = poses_,
+                            .site = ReadLiveSite(site_)});
+  if (!state.result.poses.empty()) poses_ = state.result.poses;
+  state.result.message["type"] = "adjusted";
+  state.result.message["revision"] = revision;
+  return state;
+}
+
+void LiveWorker::AddLight(int revision, LiveState* state) {
+  if (!state->result.scene) return;
+  state->light = LiveLight(site_, *state->result.scene, linear_);
+  if (state->light.isNull()) return;
+  state->light["type"] = "light";
+  state->light["revision"] = revision;
+}
+
+void LiveWorker::AddBuilding(LiveState* state) {
+  if (!state->result.scene) return;
+  try {
+    state->building = LiveBuilding(site_, *state->result.scene);
+  } catch (const InputError& error) {
+    state->file_faults.emplace_back(error.what());
+  }
+  if (!state->building.isNull()) state->building["type"] = "building";
+}
+
+}  // namespace insitu

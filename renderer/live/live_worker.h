@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// From the survey's files to what the page is told of them: adjustment, light, the building.
+#pragma once
+
+#include <json/value.h>
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "calibration/program/site.h"
+#include "renderer/live/live_light.h"
+#include "renderer/live/live_solution.h"
+
+namespace insitu {
+
+// The newest results.
+struct LiveState {
+  LiveResult result;                     // its message holds type and revision
+  Json::Value light, building;           // messages, maybe null
+  std::vector<std::string> file_faults;  // of survey files that took no part
+};
+
+// Not safe for several threads at once.
+class LiveWorker {
+ public:
+  explicit LiveWorker(SitePaths site);
+
+  // Lenses may be others now.
+  void ForgetLenses() { has_lenses_ = false; }
+
+  // What the files say as they stand. Throws nothing for their content.
+  LiveState Adjust(int revision);
+  // Then the light and the building of the same scene, which take longer.
+  void AddLight(int revision, LiveState* state);
+  void AddBuilding(LiveState* state);
+
+ private:
+  SitePaths site_;
+  LinearPhotos linear_;
+  std::vector<LivePhoto> photos_;
+  bool has_lenses_ = false;
+  std::map<std::string, Rigid3> poses_;
+};
+
+}  // namespace insitu

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "renderer/live/live_polygons.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <limits>
+#include <string>
+
+#include "renderer/live/live_solution.h"
+#include "tests/reconstruction/survey/synthetic_network.h"
+
+namespace insitu {
+namespace {
+
+constexpr double kOnLine = 0.6;  // [px]: lines bend by 0.25 px at most, and have two digits
+
+class LivePolygonsTest : public testing::Test {
+ protected:
+  LivePolygonsTest() : network_(MakeSyntheticNetwork()) {
+    LiveInput input;
+    input.survey = network_.survey;
+    for (size_t i = 0; i < network_.photos.size(); ++i) {
+      input.photos.push_back({network_.photos[i], network_.cameras[i]});
+    }
+    result_ = SolveLive(input);
+  }
+
+  Eigen::Vector3d Point(const std::string& name) const { return network_.points.at(name); }
+  Eigen::Vector2d Pixel(size_t photo, const Eigen::Vector3d& point) const {
+    return *network_.cameras[photo].Project(network_.cam_from_world[photo] * point);
+  }
+  const Json::Value& Lines(const std::string& polygon, const char* kind, size_t photo) const {
+    return result_.message["polygons"][polygon][kind][network_.photos[photo]];
+  }
+
+  // Of a pixel from lines of a polygon; infinite: there are none.
+  static double DistanceTo(const Json::Value& lines, const Eigen::Vector2d& pixel) {
+    double least = std::numeric_limits<double>::infinity();
+    for (const Json::Value& line : lines) {
+      for (Json::ArrayIndex i = 0; i + 1 < line.size(); ++i) {
+        const Eigen::Vector2d a(line[i][0].asDouble(), line[i][1].asDouble());
+        const Eigen::Vector2d b(line[i + 1][0].asDouble(), line[i + 1][1].asDouble());
+        const double share = std::clamp((pixel - a).dot(b - a) / (b - a).squaredNorm(), 0.0, 1.0);
+        least = std::min(least, (a + share * (b - a) - pixel).norm());
+      }
+    }
+    return least;
+  }
+
+  bool FacesPhoto(const std::string& polygon, size_t photo) const {
+    for (const Polygon& other : result_.scene->polygons) {
+      if (other.name != polygon) continue;
+      return other.normal.dot(Center(network_.cam_from_world[photo]) - other.vertices[0]) > 0;
+    }
+    return false;
+  }
+
+  SyntheticNetwork network_;
+  LiveResult result_;
+};
+
+// The foot of a box's wall that looks away is behind the box; that of one which looks here is not,
+// unless another box stands before it, which none does before all of them.
+TEST_F(LivePolygonsTest, FeetOfWallsThatLookAwayAreHidden) {
+  int away = 0, seen = 0;
+  for (size_t photo = 0; photo < network_.photos.size(); ++photo) {
+    for (const std::string box : {"a", "b", "c"}) {
+      for (int wall = 0; wall < 4; ++wall) {
+        const std::string name = box + "_wall" + std::to_string(wall);
+        const Eigen::Vector3d foot =
+            (Point(box + std::to_string(wall)) + Point(box + std::to_string((wall + 1) % 4))) / 2;
+        const Eigen::Vector2d pixel = Pixel(photo, foot);
+        if (!network_.cameras[photo].Sees(pixel)) continue;
+        const bool is_seen = DistanceTo(Lines(name, "images", photo), pixel) < kOnLine;
+        const bool is_hidden = DistanceTo(Lines(name, "hidden", photo), pixel) < kOnLine;
+        EXPECT_NE(is_seen, is_hidden) << name << " on " << network_.photos[photo];
+        if (FacesPhoto(name, photo)) {
+          seen += is_seen;
+        } else {
+          EXPECT_TRUE(is_hidden) << name << " on " << network_.photos[photo];
+          ++away;
+        }
+      }
+    }
+  }
+  EXPECT_GT(away, 8);
+  EXPECT_GT(seen, 8);
+}
+
+// What touches is not before: the top edges of a wall that looks here are those of its roof.
+TEST_F(LivePolygonsTest, SharedEdgesAreSeen) {
+  for (size_t photo = 0; photo < network_.photos.size(); ++photo) {
+    if (!FacesPhoto("b_wall0", photo) || !FacesPhoto("b_roof", photo)) continue;
+    const Eigen::Vector2d pixel = Pixel(photo, (Point("b4") + Point("b5")) / 2);
+    if (!network_.cameras[photo].Sees(pixel)) continue;
+    EXPECT_LT(DistanceTo(Lines("b_wall0", "images", photo), pixel), kOnLine);
+    EXPECT_LT(DistanceTo(Lines("b_roof", "images", photo), pixel), kOnLine);
+  }
+}
+
+}  // namespace
+}  // namespace insitu

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "renderer/prepare/to_do.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "reconstruction/editing/edited_tables.h"
+#include "tests/calibration/files/scratch_folder.h"
+#include "tests/reconstruction/editing/edited_site.h"
+
+namespace insitu {
+namespace {
+
+using testing::AllOf;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::Not;
+
+class ToDoTest : public testing::Test {
+ protected:
+  ToDoTest() {
+    for (const EditedTable& table : EditedTables()) {
+      input_.tables[table.name] = Json::Value(Json::arrayValue);
+    }
+    input_.site.root = folder_.path();
+    input_.photos = {"A", "B"};
+    input_.adjusted = RowOf(R"({"photos": {}, "left_out": [], "diagnoses": [], "failed": null})");
+  }
+
+  // All that a montage needs.
+  void Complete() {
+    folder_.Write("building/house.dxf", "");
+    folder_.Write("work/building.json", "");
+    for (const char* table : {"control_points", "daylight"}) {
+      for (int i = 0; i < 3; ++i) input_.tables[table].append(Json::objectValue);
+    }
+    for (const char* table : {"polygons", "horizon", "haze", "sun", "zenith"}) {
+      input_.tables[table].append(RowOf(R"({"photo": "A"})"));
+    }
+    input_.tables["light"].append(RowOf(R"({"daylight_reflectance_rgb": [0.4, 0.4, 0.4]})"));
+    input_.tables["site"].append(
+        RowOf(R"({"latitude": 47, "local_time": "2024-05-15T09:45:00Z"})"));
+  }
+
+  std::vector<std::string> Texts() const {
+    std::vector<std::string> texts;
+    for (const Json::Value& item : ToDo(input_)) texts.push_back(item["text"].asString());
+    return texts;
+  }
+
+  ScratchFolder folder_;
+  ToDoInput input_;
+};
+
+TEST_F(ToDoTest, ACompleteSiteIsReadyForItsMontage) {
+  Complete();
+  const Json::Value items = ToDo(input_);
+  ASSERT_EQ(items.size(), 1U);
+  EXPECT_EQ(items[0]["run"], "montage");
+}
+
+TEST_F(ToDoTest, AnEmptySurveyBeginsWithItsControlPoints) {
+  const Json::Value items = ToDo(input_);
+  EXPECT_EQ(items[0]["text"], "3 more control points");
+  EXPECT_EQ(items[0]["where"]["table"], "control_points");
+  for (const Json::Value& item : items) EXPECT_NE(item["run"], "montage");
+}
+
+TEST_F(ToDoTest, ALensComesBeforeAllElse) {
+  input_.adjusted =
+      RowOf(R"({"photos": {"A": {"needs_lens": true}}, "diagnoses": [], "failed": null,
+    "left_out": [{"kind": "photo", "name": "A", "reason": "its lens is not known yet"}]})");
+  EXPECT_EQ(ToDo(input_)[0]["run"], "exif-camera");
+  folder_.Write("calibration/board.txt", "10 7 0.03");
+  EXPECT_EQ(ToDo(input_)[0]["run"], "calibrate");
+}
+
+TEST_F(ToDoTest, WhatTakesNoPartIsNamedWithItsPlace) {
+  Complete();
+  input_.adjusted["left_out"] = RowOf(R"([
+    {"kind": "photo", "name": "B", "reason": "one more control point"},
+    {"kind": "point", "name": "roof", "photo": "A", "reason": "one ray"}])");
+  const Json::Value items = ToDo(input_);
+  ASSERT_EQ(items.size(), 2U);
+  EXPECT_EQ(items[0]["text"], "B: one more control point");
+  EXPECT_EQ(items[0]["where"]["photo"], "B");
+  EXPECT_EQ(items[1]["where"]["point"], "roof");
+}
+
+TEST_F(ToDoTest, ManyOfAKindAreCounted) {
+  Complete();
+  for (int i = 0; i < 30; ++i) {
+    input_.adjusted["left_out"].append(
+        RowOf(R"({"kind": "point", "name": "p", "reason": "one ray"})"));
+  }
+  EXPECT_EQ(Texts().back(), "and 22 more that take no part");
+}
+
+TEST_F(ToDoTest, WhatOnlyMakesItBetterStandsBehindTheMontage) {
+  Complete();
+  input_.tables["sun"].clear();
+  EXPECT_THAT(Texts(), ElementsAre("make the montage", HasSubstr("a sun pair")));
+}
+
+TEST_F(ToDoTest, AFileAtFaultAndAGrossErrorComeFirst) {
+  Complete();
+  input_.file_faults = {"polygons.json:3: no such key"};
+  input_.adjusted["diagnoses"] =
+      RowOf(R"([{"kind": "misfit", "text": "x and y exchanged", "point": "p"},
+    {"kind": "question", "text": "on purpose?"}])");
+  EXPECT_THAT(Texts(), ElementsAre("polygons.json:3: no such key", "x and y exchanged"));
+}
+
+}  // namespace
+}  // namespace insitu
