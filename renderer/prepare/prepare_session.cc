@@ -117,15 +117,15 @@ struct PrepareSession::Parts {
 
   // Of the pixels that an operation places; "" if all lie on their photographs.
   std::string OffFrame(const Operation& operation) const {
-    for (const RowEdit& edit : operation.edits) {
-      const Json::Value& row = edit.after;
+    for (const RowEdit& change : operation.edits) {
+      const Json::Value& row = change.after;
       if (!row.isObject() || !row["photo"].isString() || !row["x"].isNumeric()) continue;
       const auto size = sizes.find(row["photo"].asString());
       if (size == sizes.end()) continue;
       const Eigen::Array2d pixel(row["x"].asDouble(), row["y"].asDouble());
       const bool is_on =
           (pixel >= -0.5).all() && (pixel <= size->second.cast<double>().array() - 0.5).all();
-      if (!is_on) return edit.table + ": the pixel lies off photo " + size->first;
+      if (!is_on) return change.table + ": the pixel lies off photo " + size->first;
     }
     return "";
   }

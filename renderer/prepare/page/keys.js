@@ -163,7 +163,7 @@ export function listenToKeys() {
     if (document.querySelector("dialog[open]") || event.isComposing) return;
     const isInPane = Boolean(target.closest?.(".stage"));
     if (isInPane && paneKey(event)) return event.preventDefault();
-    if (event.key === "Escape" && !isField(target)) return escape();
+    if (event.key === "Escape") return isField(target) ? activePane()?.focus() : escape();
     const key = keyText(event),
       action = actions.find(one => keyFor(one.id) === key);
     if (

@@ -64,11 +64,13 @@ await timed("polygons", polygons.length, async () => {
     await person.press("b");
     for (const vertex of polygon.vertices) await person.point(vertex);
     await person.press("Enter");
+    await person.drawn();
     await person.page.focus("#polygon-name");
     await person.enter(polygon.name);
     await person.press("Escape", "t");
     await person.enter(polygon.material);
     await person.press("Escape");
+    await person.drawn();
   }
 });
 await person.settled();

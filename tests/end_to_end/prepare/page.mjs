@@ -54,6 +54,10 @@ export class Person {
     await this.press("Control+G");
     await this.enter(`${x} ${y}`);
   }
+  /** Until the page has drawn what was done, as a person would see it first. */
+  drawn() {
+    return this.page.evaluate(() => new Promise(done => requestAnimationFrame(() => requestAnimationFrame(done))));
+  }
   data() {
     return this.page.evaluate(() => ({...document.body.dataset}));
   }
