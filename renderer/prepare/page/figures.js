@@ -45,10 +45,11 @@ export function drawFigures(pane) {
 
 function* polygons(photo) {
   if (ui.lines === "none") return;
-  for (const polygon of rows("polygons")) {
+  const isCurrent = polygon => Number(polygon.name === ui.polygon); // drawn last, over its neighbours
+  for (const polygon of rows("polygons").sort((a, b) => isCurrent(a) - isCurrent(b))) {
     const about = state.adjusted?.polygons?.[polygon.name],
       data = {polygon: polygon.name};
-    const className = `polygon${polygon.name === ui.polygon ? " current" : ""}`;
+    const className = `polygon${isCurrent(polygon) ? " current" : ""}`;
     const seen = about?.images?.[photo],
       hidden = about?.hidden?.[photo];
     if (seen) yield {class: className, d: lines(seen), data};

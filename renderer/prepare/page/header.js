@@ -88,7 +88,7 @@ function keepText(made, text) {
 }
 
 function drawSaved() {
-  const waiting = unconfirmed().length,
+  const waiting = unconfirmed().length + state.asking,
     made = byId("saved");
   made.className = waiting > 0 || state.notSaved ? "review" : "pass";
   keepText(made, state.notSaved ? t("notSaved") : waiting > 0 ? t("saving") : t("saved"));

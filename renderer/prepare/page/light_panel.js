@@ -8,6 +8,7 @@ import {drawLightReport} from "./light_report.js";
 import {say} from "./notices.js";
 import {parseNumber} from "./numbers.js";
 import {sampleAt, sampleKey, samples} from "./samples.js";
+import {emit} from "./signals.js";
 import {edit, isReadOnly, row, rows, state} from "./state.js";
 import {activePane, placeOf, setMode, setTool, ui} from "./ui.js";
 import {t} from "./words.js";
@@ -23,9 +24,21 @@ export function takeSamples(kind) {
     name: `sample_${kind}`,
     hint: () => t("samplePlace"),
     finish: () => setTool(null),
-    place: (photo, x, y) => insert(kind, photo, Math.round(x), Math.round(y))
+    place: (photo, x, y) => insertInTurn(kind, photo, Math.round(x), Math.round(y))
   });
   say(t("samplePlace"));
+}
+
+let inTurn = Promise.resolve();
+/** One after the other, as they were placed: the server is asked about each. */
+function insertInTurn(kind, photo, x, y) {
+  state.asking += 1;
+  inTurn = inTurn
+    .then(() => insert(kind, photo, x, y))
+    .finally(() => {
+      state.asking -= 1;
+      emit("saved");
+    });
 }
 
 /** @param {string} kind */

@@ -108,19 +108,13 @@ function draw() {
   log.scrollTop = log.scrollHeight;
 }
 
-/** The share in what a program says of its progress, as in "middle 40 %, 12 s left". */
-function share(text) {
-  const percent = /(\d+) %/.exec(text);
-  return percent ? Number(percent[1]) / 100 : null;
-}
-
 export function followRuns() {
   on("run", message => {
     if (message.stage) run.stage = message.stage;
     if (message.line !== undefined) run.lines = [...run.lines.slice(1 - kMostLines), message.line];
     if (message.progress !== undefined) {
-      run.progress = share(String(message.progress));
-      run.status = `${t("running")}: ${message.progress}`;
+      run.progress = Number(message.progress);
+      run.status = `${t("running")}, ${Math.round(100 * run.progress)} %`;
     }
     if (message.status !== undefined) {
       run.status =

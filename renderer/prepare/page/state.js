@@ -68,6 +68,8 @@ export const state = {
   revision: 0,
   saved: 0,
   notSaved: "",
+  /** Changes that wait for an answer before they can be made. */
+  asking: 0,
   isConnected: false,
   isLoaded: false,
   /** @type {Photo[]} */ photos: [],

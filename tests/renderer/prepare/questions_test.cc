@@ -72,16 +72,20 @@ TEST_F(QuestionsTest, APixelSeesThePolygonBeforeTheOthers) {
 }
 
 TEST_F(QuestionsTest, AnEpipolarCurvePassesThroughThePointsOtherImage) {
-  int tried = 0;
-  for (const auto& [name, position] : network_.points) {
-    const auto here = Pixel(0, name), there = Pixel(1, name);
-    if (!here || !there) continue;
-    Json::Value question = At(0, *here);
-    question["other"] = network_.photos[1];
-    EXPECT_LT(DistanceTo(EpipolarAnswer(live_, question)["curve"], *there), 3) << name;
-    ++tried;
+  int curves = 0;
+  for (size_t other = 1; other < network_.photos.size(); ++other) {
+    for (const auto& [name, position] : network_.points) {
+      const auto here = Pixel(0, name), there = Pixel(other, name);
+      if (!here || !there) continue;
+      Json::Value question = At(0, *here);
+      question["other"] = network_.photos[other];
+      const Json::Value curve = EpipolarAnswer(live_, question)["curve"];
+      if (curve.empty()) continue;                      // taken from one place
+      EXPECT_LT(DistanceTo(curve, *there), 5) << name;  // the adjusted poses are not the true ones
+      ++curves;
+    }
   }
-  EXPECT_GT(tried, 5);
+  EXPECT_GT(curves, 20);
 }
 
 TEST_F(QuestionsTest, ADistanceIsThatOfTheTruthWithinItsSigmas) {
