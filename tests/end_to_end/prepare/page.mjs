@@ -5,21 +5,46 @@ import {until} from "./server.mjs";
 
 const {chromium} = createRequire(import.meta.url)(process.env.PLAYWRIGHT);
 
-/** @param {{port: number, token: string}} server */
-export async function open(server, size = {width: 1280, height: 800}) {
-  const browser = await chromium.launch({executablePath: "/usr/bin/chromium",
-    args: ["--no-sandbox", "--disable-gpu", "--disable-background-networking"]});
-  const page = await browser.newPage({viewport: size});
+/** What Chromium is told: who runs tests as root has no sandbox. */
+const launching = {executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium",
+  args: ["--no-sandbox", "--disable-gpu", "--disable-background-networking"]};
+
+/**
+ * A window on the page; `profile`: a folder in which the browser keeps what pages store.
+ * @param {{port: number, token: string}} server
+ * @param {{size?: {width: number, height: number}, profile?: string, browser?: any}} [how]
+ */
+export async function open(server, {size = {width: 1280, height: 800}, profile, browser} = {}) {
+  if (profile) {
+    const context = await chromium.launchPersistentContext(profile, {...launching, viewport: size});
+    return openIn(context, server, context.pages()[0] ?? (await context.newPage()));
+  }
+  const used = browser ?? (await chromium.launch(launching));
+  const context = await used.newContext({viewport: size});
+  return openIn(used, server, await context.newPage());
+}
+
+async function openIn(browser, server, page) {
   const faults = [];
   page.on("pageerror", error => faults.push(error.message));
+  page.on("console", said => {
+    if (/Content Security Policy/.test(said.text())) faults.push(said.text());
+  });
+  const person = new Person(browser, page, faults);
+  page.on("websocket", socket => socket.on("framereceived", ({payload}) => {
+    const {type, revision} = JSON.parse(String(payload));
+    person.told.push({type, revision, at: performance.now()});
+  }));
   await page.goto(`http://127.0.0.1:${server.port}/#${server.token}`);
   await page.waitForSelector("body[data-ready]");
-  return new Person(browser, page, faults);
+  return person;
 }
 
 export class Person {
   keys = 0;
   clicks = 0;
+  /** @type {{type: string, revision?: number, at: number}[]} messages of the server, with their time [ms] */
+  told = [];
   constructor(browser, page, faults) {
     Object.assign(this, {browser, page, faults});
   }
@@ -67,5 +92,17 @@ export class Person {
       const {revision, saved, adjusted, pending} = await this.data();
       return pending === "0" && saved === revision && adjusted === revision;
     });
+  }  /** The centre of a pixel of a photo that a pane shows, on the screen. */
+  async at(photo, x, y) {
+    return this.page.evaluate(([name, u, v]) => {
+      const stage = document.querySelector(`.pane[data-photo="${name}"] .stage`);
+      const matrix = stage.querySelector(".figures").getScreenCTM();
+      return {x: matrix.a * u + matrix.e, y: matrix.d * v + matrix.f};
+    }, [photo, x, y]);
+  }
+  /** Until the page says it: a text in an element. */
+  sees(selector, text = "") {
+    return this.page.waitForFunction(([where, what]) =>
+      [...document.querySelectorAll(where)].some(one => one.textContent.includes(what)), [selector, text], {timeout: 30000});
   }
 }

@@ -7,9 +7,11 @@ import {once} from "node:events";
 /**
  * @param {string} site
  * @param {string[]} [options]
+ * @param {import("node:child_process").SpawnOptions} [how] as whom it runs, for one
  */
-export async function start(site, options = []) {
-  const child = spawn(`${process.env.INSITU_BIN}/insitu-prepare`, [site, "--no-browser", ...options]);
+export async function start(site, options = [], how = {}) {
+  const child = spawn(`${process.env.INSITU_BIN}/insitu-prepare`, [site, "--no-browser", ...options], how);
+  process.once("exit", () => child.kill("SIGKILL"));
   let said = "", complained = "";
   child.stderr.on("data", text => (complained += text));
   const ended = once(child, "exit");
