@@ -12,16 +12,19 @@ const launching = {executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium",
 /**
  * A window on the page; `profile`: a folder in which the browser keeps what pages store.
  * @param {{port: number, token: string}} server
- * @param {{size?: {width: number, height: number}, profile?: string, browser?: any}} [how]
+ * @param {{size?: {width: number, height: number}, profile?: string, browser?: any,
+ *   prepared?: (page: any) => Promise<void>}} [how]
  */
-export async function open(server, {size = {width: 1280, height: 800}, profile, browser} = {}) {
+export async function open(server, {size = {width: 1280, height: 800}, profile, browser, prepared} = {}) {
   if (profile) {
     const context = await chromium.launchPersistentContext(profile, {...launching, viewport: size});
     return openIn(context, server, context.pages()[0] ?? (await context.newPage()));
   }
   const used = browser ?? (await chromium.launch(launching));
   const context = await used.newContext({viewport: size});
-  return openIn(used, server, await context.newPage());
+  const page = await context.newPage();
+  await prepared?.(page);
+  return openIn(used, server, page);
 }
 
 async function openIn(browser, server, page) {
