@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// guide.mjs MEASURED FOLDER PICTURES: the pictures of renderer/prepare/GUIDE.md, from the demo site MEASURED, copied
+// step by step into FOLDER.
+import fs from "node:fs";
+import {open} from "./page.mjs";
+import {start, until} from "./server.mjs";
+
+const [measured, folder, pictures] = process.argv.slice(2);
+const read = name => fs.readFileSync(`${measured}/survey/${name}`, "utf8");
+
+/** A site with some of the demo's files, its page, and what is done on it before its picture is taken. */
+async function picture(name, {survey = {}, work = true}, act) {
+  fs.rmSync(folder, {recursive: true, force: true});
+  fs.mkdirSync(`${folder}/demo/survey`, {recursive: true});
+  for (const part of ["photos", "calibration", "building", "site.json", ...(work ? ["work/calibration"] : [])])
+    fs.cpSync(`${measured}/${part}`, `${folder}/demo/${part}`, {recursive: true});
+  for (const [file, text] of Object.entries(survey)) fs.writeFileSync(`${folder}/demo/survey/${file}`, text);
+  const server = await start(`${folder}/demo`);
+  const person = await open(server);
+  await person.settled().catch(() => {});
+  await act(person, server);
+  await person.page.waitForLoadState("networkidle").catch(() => {});
+  await person.page.evaluate(() => new Promise(resolve => requestAnimationFrame(() => requestAnimationFrame(resolve))));
+  await person.page.screenshot({path: `${pictures}/${name}.png`});
+  if (person.faults.length > 0) console.log(`FAIL: ${name}: ${person.faults[0]}`);
+  await person.browser.close();
+  await server.stop();
+}
+
+const all = Object.fromEntries(fs.readdirSync(`${measured}/survey`).map(name => [name, read(name)]));
+const {"materials.json": materials, "control_points.csv": control, "observations.csv": marks} = all;
+const lines = marks.trim().split("\n");
+const lit = server => until("the light is measured", async () => (await server.ask("GET", "/api/site")).body.light);
+
+await picture("1_to_do", {survey: {"materials.json": materials}, work: false}, async person => {
+  await person.sees("#todo");
+});
+await picture("2_coordinates", {survey: {"materials.json": materials}}, async person => {
+  await person.click("[data-menu=controlTable]");
+  await person.page.fill("#pasted", control.split("\n").slice(0, 9).join("\n"));
+  await person.sees("#take-over");
+});
+const lacking = lines.filter(line => !/^(right|left),tower_5,|^right,block_/.test(line));
+await picture("3_marks", {survey: {"materials.json": materials, "control_points.csv": control, "observations.csv": `${lacking.join("\n")}\n`}},
+  async person => {
+    await person.photo("left");
+    await person.press("*");
+    await person.point("tower_5");
+    await person.press("2");
+    await person.press("ArrowLeft", "ArrowLeft");
+  });
+await picture("4_polygons", {survey: all}, async person => {
+  await person.press("Alt+2");
+  await person.photo("left");
+  await person.click('#list tr[data-key="house_w"] button');
+});
+await picture("5_sun", {survey: all}, async person => {
+  await person.press("Alt+3");
+  await person.photo("left");
+  await person.sees("#directions");
+});
+await picture("6_light", {survey: all}, async (person, server) => {
+  await lit(server);
+  await person.press("Alt+4");
+  await person.photo("left");
+});
