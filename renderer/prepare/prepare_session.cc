@@ -65,6 +65,7 @@ struct PrepareSession::Parts {
   SiteEdit edit;
   std::shared_ptr<const LiveState> live = std::make_shared<LiveState>();
   std::string not_saved;
+  std::string read_only = ReadOnly();
   bool is_due = true, forgets_lenses = false;
   LiveWorker worker;
   std::jthread thread;
@@ -115,6 +116,29 @@ struct PrepareSession::Parts {
     return answer;
   }
 
+  // A change that the journal cannot take, the disk being full, is not done: the page keeps it and
+  // asks again.
+  Answer Do(const std::function<EditOutcome()>& change, const char* kind) {
+    try {
+      return Done(change(), kind);
+    } catch (const InputError& error) {
+      Answer answer;
+      answer.status = 507;
+      answer.body["error"] = error.what();
+      return answer;
+    }
+  }
+
+  // Files that do not parse, and why.
+  std::string ReadOnly() const {
+    std::string text;
+    for (const ReadOnlyTable& table : edit.read_only()) {
+      const FileFault& fault = table.fault;
+      text += fault.file + ":" + std::to_string(fault.line) + ": " + fault.text + "\n";
+    }
+    return text;
+  }
+
   // Of the pixels that an operation places; "" if all lie on their photographs.
   std::string OffFrame(const Operation& operation) const {
     for (const RowEdit& change : operation.edits) {
@@ -148,6 +172,16 @@ struct PrepareSession::Parts {
                               OneLineJson(conflict.after));
     }
     return !outside.operations.empty() || !outside.reread.empty();
+  }
+
+  // True if a file parses no more or again: then pages load everything anew.
+  bool TellReread(const OutsideChanges& outside) {
+    const std::string before = std::exchange(read_only, ReadOnly());
+    if (before == read_only && outside.reread.empty()) return false;
+    Json::Value message;
+    message["type"] = "reload";
+    Tell(message);
+    return true;
   }
 
   void SaveAndTell() {
@@ -205,7 +239,9 @@ struct PrepareSession::Parts {
       if (changed.wait_for(lock, stop, kLook, [&] { return is_due; })) continue;
       if (stop.stop_requested()) break;
       if (!edit.is_saved()) SaveAndTell();
-      is_due = TellOutside(edit.Refresh());
+      const OutsideChanges outside = edit.Refresh();
+      const bool is_reread = TellReread(outside);
+      is_due = TellOutside(outside) || is_reread;
     }
     return std::nullopt;
   }
@@ -270,17 +306,18 @@ PrepareSession::Answer PrepareSession::Apply(const Json::Value& operation) {
   const std::lock_guard lock(parts_->mutex);
   EditOutcome off_frame;
   off_frame.refused = parts_->OffFrame(asked);
-  return parts_->Done(off_frame.is_done() ? parts_->edit.Apply(asked) : off_frame, "edit");
+  if (!off_frame.is_done()) return parts_->Done(off_frame, "edit");
+  return parts_->Do([&] { return parts_->edit.Apply(asked); }, "edit");
 }
 
 PrepareSession::Answer PrepareSession::Undo(const std::string& id) {
   const std::lock_guard lock(parts_->mutex);
-  return parts_->Done(parts_->edit.Undo(id), "undo");
+  return parts_->Do([&] { return parts_->edit.Undo(id); }, "undo");
 }
 
 PrepareSession::Answer PrepareSession::Redo(const std::string& id) {
   const std::lock_guard lock(parts_->mutex);
-  return parts_->Done(parts_->edit.Redo(id), "redo");
+  return parts_->Do([&] { return parts_->edit.Redo(id); }, "redo");
 }
 
 std::optional<Eigen::Vector2d> PrepareSession::FindMark(const std::string& photo,

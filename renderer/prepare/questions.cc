@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <mutex>
 #include <numbers>
 
 #include "calibration/files/error.h"
@@ -147,6 +148,8 @@ Json::Value PolygonAtAnswer(const LiveState& live, const Json::Value& question) 
 }
 
 Json::Value ImportAnswer(const SitePaths& site, const Json::Value& question) {
+  static std::mutex one_at_a_time;  // windows that paste share the file
+  const std::lock_guard lock(one_at_a_time);
   const std::filesystem::path pasted = site.root / "work/prepare/pasted.txt";
   WriteWhole(pasted, question["text"].asString());
   const SurveyFile file = ReadSurveyFile(pasted, [](const std::string&) { return std::nullopt; });

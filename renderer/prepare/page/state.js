@@ -209,6 +209,7 @@ const takers = {
     state.faults = [...state.faults.slice(-20), message];
     emit("faults");
   },
+  reload: () => load().catch(() => {}), // a file parses no more, or again
   outside: message => {
     state.faults = [...state.faults.slice(-20), message];
     emit("faults");
