@@ -40,27 +40,34 @@ await picture("2_coordinates", {survey: {"materials.json": materials}}, async pe
   await person.page.fill("#pasted", control.split("\n").slice(0, 9).join("\n"));
   await person.sees("#take-over");
 });
-const lacking = lines.filter(line => !/^(right|left),tower_5,|^right,block_/.test(line));
-await picture("3_marks", {survey: {"materials.json": materials, "control_points.csv": control, "observations.csv": `${lacking.join("\n")}\n`}},
+// Control points that are measured somewhere: others would be asked about.
+const known = new Set(lines.map(line => line.split(",")[1]));
+const measuredControl = control.trim().split("\n").filter((line, i) => i === 0 || known.has(line.split(",")[0])).join("\n");
+const lacking = lines.filter(line => !/^(right|left),roof_4,|^right,block_/.test(line));
+await picture("3_marks", {survey: {"materials.json": materials, "control_points.csv": `${measuredControl}\n`, "observations.csv": `${lacking.join("\n")}\n`}},
   async person => {
     await person.photo("left");
     await person.press("*");
-    await person.point("tower_5");
+    await person.point("roof_4");
+    const [, , x, y] = lines.find(line => line.startsWith("left,roof_4,")).split(",").map(Number);
+    await person.goTo(x, y);
     await person.press("2");
-    await person.press("ArrowLeft", "ArrowLeft");
   });
 await picture("4_polygons", {survey: all}, async person => {
   await person.press("Alt+2");
   await person.photo("left");
+  await person.press("/"); // no loupe
   await person.click('#list tr[data-key="house_w"] button');
 });
 await picture("5_sun", {survey: all}, async person => {
   await person.press("Alt+3");
   await person.photo("left");
+  await person.press("/");
   await person.sees("#directions");
 });
 await picture("6_light", {survey: all}, async (person, server) => {
   await lit(server);
   await person.press("Alt+4");
-  await person.photo("left");
+  await person.photo("right");
+  await person.press("*", "/");
 });

@@ -42,7 +42,6 @@ async function collide(point, [x, y], [u, v]) {
 await collide("tower_0", [80, 350], [90, 360]);
 const banner = await ben.page.textContent(".banner.conflict");
 report("a conflict shows both versions", /90/.test(banner) && /80/.test(banner));
-await ben.page.screenshot({path: process.env.CONFLICT_PNG ?? "/dev/null", type: "png"}).catch(() => {});
 await ben.page.click(".banner.conflict button >> nth=0");
 await ben.page.waitForSelector(".banner.conflict", {state: "detached"});
 report("theirs is kept", (await row("left", "tower_0")).x === 90);
@@ -57,9 +56,18 @@ report("what an editor writes into the file appears in both", true);
 fs.writeFileSync(marks, fs.readFileSync(marks, "utf8").replace("left,by_hand,400,", "left,by_hand,410,"));
 await until("it moves", async () => (await row("left", "by_hand"))?.x === 410);
 report("and what is changed there", true);
+const whole = fs.readFileSync(marks, "utf8");
 fs.writeFileSync(marks, "photo,point,x,y,sigma\nleft,tower_0,1,2\n");
 await anna.sees(".banner", "survey/observations.csv:2");
 report("a line that does not parse is told on the page", true, (await anna.page.textContent(".banner")).slice(0, 140));
+const told = await until("the to-do list", async () => {
+  const {todo: [first]} = (await server.ask("GET", "/api/site")).body;
+  return first.text.includes("observations.csv:2") && first.text;
+});
+report("and is the first thing to do", true, told);
+fs.writeFileSync(marks, whole);
+await anna.page.waitForSelector(".banner", {state: "detached"});
+report("mended, it is read again", (await row("left", "by_hand"))?.x === 410);
 report("the pages run without faults", anna.faults.length + ben.faults.length === 0, [...anna.faults, ...ben.faults][0] ?? "");
 await anna.browser.close();
 await server.stop();
