@@ -186,8 +186,8 @@ class List {
     if (!Has(input_.site.building())) {
       Add("put the planned building's model into building/", "nothing is planned yet", "");
     } else if (!Has(input_.site.artificial())) {
-      Add("convert the building's model", "its wireframe then stands in every photo", "")["run"] =
-          "convert";
+      Advise("convert the building's model", "its wireframe then stands in every photo",
+             "")["run"] = "convert";
     }
   }
 

@@ -184,6 +184,11 @@ export function buildPolygonPanel(root) {
   drawn = "";
 }
 
+/** Into a field, unless somebody is typing there. */
+function showIn(id, text) {
+  if (document.activeElement !== byId(id)) byId(id).value = text;
+}
+
 let drawn = "";
 export function updatePolygonPanel() {
   const goOn = draft => {
@@ -202,7 +207,7 @@ export function updatePolygonPanel() {
   ]);
   if (drawn === signature || !byId("polygon-photo")) return;
   drawn = signature;
-  byId("polygon-name").value = polygon?.name ?? "";
+  showIn("polygon-name", polygon?.name ?? "");
   byId("polygon-name").disabled = !polygon;
   byId("polygon-photo").replaceChildren(
     select(
@@ -215,7 +220,7 @@ export function updatePolygonPanel() {
       {disabled: !polygon, "aria-label": t("image")}
     )
   );
-  byId("material").value = polygon?.material ?? lastMaterial;
+  showIn("material", polygon?.material ?? lastMaterial);
   byId("material-names").replaceChildren(...materials().map(value => node("option", {value})));
   showSwatch(polygon?.material ?? lastMaterial);
   const leftOut = (state.adjusted?.left_out ?? []).find(

@@ -98,7 +98,7 @@ await timed("samples", all.length, async () => {
   }
   await person.press("Escape");
   await person.page.fill("#card", samples.daylight_reflectance_rgb.join(" "));
-  await person.press("Enter");
+  await person.press("Enter", "Escape");
 });
 await person.settled();
 const light = await until("the light is measured", async () => {

@@ -3,9 +3,11 @@
 
 #include <gtest/gtest.h>
 
-#include <string>
+#include <algorithm>
+#include <limits>
 
 #include "calibration/files/error.h"
+#include "tests/calibration/files/scratch_folder.h"
 #include "tests/reconstruction/survey/synthetic_network.h"
 
 namespace insitu {
@@ -22,39 +24,106 @@ class QuestionsTest : public testing::Test {
     live_.result = SolveLive(input);
   }
 
-  Json::Value PolygonAt(size_t photo, const Eigen::Vector2d& pixel) const {
+  std::optional<Eigen::Vector2d> Pixel(size_t photo, const std::string& point) const {
+    const auto pixel =
+        network_.cameras[photo].Project(network_.cam_from_world[photo] * network_.points.at(point));
+    return pixel && network_.cameras[photo].Sees(*pixel) ? pixel : std::nullopt;
+  }
+  Json::Value At(size_t photo, const Eigen::Vector2d& pixel) const {
     Json::Value question;
     question["photo"] = network_.photos[photo];
     question["x"] = pixel.x();
     question["y"] = pixel.y();
-    return PolygonAtAnswer(live_, question)["polygon"];
+    return question;
+  }
+  // [px], from a polyline.
+  static double DistanceTo(const Json::Value& line, const Eigen::Vector2d& pixel) {
+    double least = std::numeric_limits<double>::infinity();
+    for (Json::ArrayIndex i = 0; i + 1 < line.size(); ++i) {
+      const Eigen::Vector2d a(line[i][0].asDouble(), line[i][1].asDouble());
+      const Eigen::Vector2d b(line[i + 1][0].asDouble(), line[i + 1][1].asDouble());
+      const double share = std::clamp((pixel - a).dot(b - a) / (b - a).squaredNorm(), 0.0, 1.0);
+      least = std::min(least, (a + share * (b - a) - pixel).norm());
+    }
+    return least;
+  }
+  static Json::Value Names(const char* key, const std::vector<std::string>& names) {
+    Json::Value question;
+    for (const std::string& name : names) question[key].append(name);
+    return question;
   }
 
   SyntheticNetwork network_;
   LiveState live_;
 };
 
-// A wall that looks here, in its middle: what stands behind it is not meant, nor the ground.
-TEST_F(QuestionsTest, NamesThePolygonThatAPixelSeesFirst) {
+TEST_F(QuestionsTest, APixelSeesThePolygonBeforeTheOthers) {
   int found = 0;
   for (size_t photo = 0; photo < network_.photos.size(); ++photo) {
-    const auto point = [&](const char* name) { return network_.points.at(name); };
-    const Eigen::Vector3d middle = (point("b0") + point("b1") + point("b4") + point("b5")) / 4;
+    const Eigen::Vector3d middle = (network_.points.at("b0") + network_.points.at("b1") +
+                                    network_.points.at("b4") + network_.points.at("b5")) /
+                                   4;
     const auto pixel = network_.cameras[photo].Project(network_.cam_from_world[photo] * middle);
     if (!pixel || !network_.cameras[photo].Sees(*pixel)) continue;
-    found += PolygonAt(photo, *pixel).asString() == "b_wall0";
+    found += PolygonAtAnswer(live_, At(photo, *pixel))["polygon"].asString() == "b_wall0";
+    EXPECT_TRUE(PolygonAtAnswer(live_, At(photo, {pixel->x(), -1e6}))["polygon"].isNull());
   }
-  EXPECT_GT(found, 1);
+  EXPECT_GT(found, 0);
 }
 
-TEST_F(QuestionsTest, TheSkyIsNoPolygon) {
-  EXPECT_TRUE(PolygonAt(0, {network_.cameras[0].width() / 2.0, 0}).isNull());
+TEST_F(QuestionsTest, AnEpipolarCurvePassesThroughThePointsOtherImage) {
+  int tried = 0;
+  for (const auto& [name, position] : network_.points) {
+    const auto here = Pixel(0, name), there = Pixel(1, name);
+    if (!here || !there) continue;
+    Json::Value question = At(0, *here);
+    question["other"] = network_.photos[1];
+    EXPECT_LT(DistanceTo(EpipolarAnswer(live_, question)["curve"], *there), 3) << name;
+    ++tried;
+  }
+  EXPECT_GT(tried, 5);
 }
 
-TEST_F(QuestionsTest, APhotoThatIsNotOrientedSeesNothingYet) {
+TEST_F(QuestionsTest, ADistanceIsThatOfTheTruthWithinItsSigmas) {
+  const Json::Value answer = MeasureAnswer(live_, Names("points", {"b0", "b1"}));
+  const double truth = (network_.points.at("b0") - network_.points.at("b1")).norm();
+  EXPECT_GT(answer["sigma_m"].asDouble(), 0);
+  EXPECT_LT(std::abs(answer["distance_m"].asDouble() - truth), 4 * answer["sigma_m"].asDouble());
+  const Json::Value corner = MeasureAnswer(live_, Names("points", {"b1", "b0", "b4"}));
+  EXPECT_NEAR(corner["angle_deg"].asDouble(), 90, 4 * corner["sigma_deg"].asDouble() + 1e-9);
+}
+
+TEST_F(QuestionsTest, WhatIsNotKnownIsSaid) {
+  EXPECT_THROW(MeasureAnswer(live_, Names("points", {"b0", "nobody"})), InputError);
+  EXPECT_THROW(MeasureAnswer(live_, Names("points", {"b0"})), InputError);
+  EXPECT_THROW(MeasureAnswer({}, Names("points", {"b0", "b1"})), InputError);
+  EXPECT_THROW(BestPhotoAnswer(live_, Names("vertices", {"b0", "b1"})), InputError);
+  Json::Value question = At(0, {10, 10});
+  question["other"] = "nowhere";
+  EXPECT_THROW(EpipolarAnswer(live_, question), InputError);
+}
+
+TEST_F(QuestionsTest, PhotosOfAPolygonComeBestFirst) {
+  const Json::Value photos =
+      BestPhotoAnswer(live_, Names("vertices", {"b0", "b1", "b5", "b4"}))["photos"];
+  ASSERT_GT(photos.size(), 1U);
+  for (Json::ArrayIndex i = 1; i < photos.size(); ++i) {
+    EXPECT_GE(photos[i - 1]["score"].asDouble(), photos[i]["score"].asDouble());
+  }
+}
+
+TEST(ImportAnswer, ReadsAPastedTable) {
+  const ScratchFolder folder;
+  std::filesystem::create_directories(folder.path() / "work/prepare");
   Json::Value question;
-  question["photo"] = "P9";
-  EXPECT_THROW(PolygonAtAnswer(live_, question), InputError);
+  question["text"] = "Name\tEast\tNorth\tHeight\nA\t2600000.125\t1200000.5\t431.25\n";
+  const Json::Value answer = ImportAnswer({folder.path()}, question);
+  ASSERT_EQ(answer["rows"].size(), 1U);
+  EXPECT_EQ(answer["rows"][0]["name"], "A");
+  EXPECT_EQ(answer["rows"][0]["x"].asDouble(), 2600000.125);
+  EXPECT_EQ(answer["remarks"].size(), 1U);  // no sigma is stated
+  question["text"] = "nothing that is a table";
+  EXPECT_THROW(ImportAnswer({folder.path()}, question), InputError);
 }
 
 }  // namespace
