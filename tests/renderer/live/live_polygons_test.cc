@@ -95,15 +95,18 @@ TEST_F(LivePolygonsTest, FeetOfWallsThatLookAwayAreHidden) {
   EXPECT_GT(seen, 8);
 }
 
-// What touches is not before: the top edges of a wall that looks here are those of its roof.
+// What touches is not before: the top edge of a wall that looks here is an edge of its roof too.
 TEST_F(LivePolygonsTest, SharedEdgesAreSeen) {
+  int tried = 0;
   for (size_t photo = 0; photo < network_.photos.size(); ++photo) {
-    if (Facing("b_wall0", photo) < 0 || Facing("b_roof", photo) < 0) continue;
+    if (Facing("b_wall0", photo) < 0) continue;
     const Eigen::Vector2d pixel = Pixel(photo, (Point("b4") + Point("b5")) / 2);
     if (!network_.cameras[photo].Sees(pixel)) continue;
     EXPECT_LT(DistanceTo(Lines("b_wall0", "images", photo), pixel), kOnLine);
     EXPECT_LT(DistanceTo(Lines("b_roof", "images", photo), pixel), kOnLine);
+    ++tried;
   }
+  EXPECT_GT(tried, 1);
 }
 
 }  // namespace
