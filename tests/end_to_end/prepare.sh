@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # The measuring page: its server over the wire (nothing confirmed is lost by kill -9, attacks are turned
 # away, bad input is told), and the demo site measured on it by keyboard, then its montage.
+# shellcheck disable=SC2317 # the functions are called through check
 set -euo pipefail
 # shellcheck source=assertions.sh
 source "$(dirname -- "${BASH_SOURCE[0]}")/assertions.sh"
