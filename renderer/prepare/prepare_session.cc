@@ -142,6 +142,7 @@ struct PrepareSession::Parts {
   // Of the pixels that an operation places; "" if all lie on their photographs.
   std::string OffFrame(const Operation& operation) const {
     for (const RowEdit& change : operation.edits) {
+      if (change.table == "camera_positions") continue;  // its x and y are metres
       const Json::Value& row = change.after;
       if (!row.isObject() || !row["photo"].isString() || !row["x"].isNumeric()) continue;
       const auto size = sizes.find(row["photo"].asString());

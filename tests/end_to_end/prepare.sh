@@ -1,7 +1,10 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
 # The measuring page: its server over the wire (nothing confirmed is lost by kill -9, attacks are turned
-# away, bad input is told), and the demo site measured on it by keyboard, then its montage.
+# away, bad input is told); in a browser two windows, undo to the byte, what cannot be saved, a start from
+# nothing but photographs, and the demo site measured by keyboard, then its montage.
+# shellcheck disable=SC2317 # the functions are called through check
+# shellcheck disable=SC2317 # the functions are called through check
 set -euo pipefail
 # shellcheck source=assertions.sh
 source "$(dirname -- "${BASH_SOURCE[0]}")/assertions.sh"
@@ -17,12 +20,43 @@ new_site && check_figures 'kill -9' node "$tests/prepare/kill.mjs" "$temporary/s
 new_site && check_figures 'attacks' node "$tests/prepare/attacks.mjs" "$temporary/site"
 new_site && check_figures 'bad input' node "$tests/prepare/bad_input.mjs" "$temporary/site"
 
-# From photographs to a montage. Status 77, a skip, only if nothing above failed.
 if [[ ! -f ${PLAYWRIGHT:=$root/build/playwright-core}/package.json ]]; then
-  printf 'skipped: no playwright-core in %s, scripts/setup --developer fetches it\n' "$PLAYWRIGHT"
-  exit $((failures > 0 ? 1 : 77))
+  printf 'SKIPPED: the page in a browser: no playwright-core in %s; scripts/setup --developer fetches it\n' \
+    "$PLAYWRIGHT"
+  finish
 fi
 export PLAYWRIGHT
+# in_browser WHAT MODULE ARGUMENT...: on a new site.
+in_browser() {
+  new_site
+  check_figures "$1" node "$tests/prepare/$2.mjs" "$temporary/site" "${@:3}"
+}
+in_browser 'two windows' windows
+in_browser 'files' files
+check 'what the page wrote is read by the adjustment' \
+  "$INSITU_BIN/insitu-reconstruct" "$temporary/site"
+in_browser 'kill -9 of the browser' browser_kill "$temporary/profile"
+in_browser 'a read-only file' not_saved
+
+# On a disk of its own, which only root can make.
+if mkdir -- "$temporary/disk" && mount -t tmpfs -o size=80m tmpfs "$temporary/disk" 2>/dev/null; then
+  trap 'umount -l "$temporary/disk" 2>/dev/null; rm -rf -- "$temporary"' EXIT
+  mkdir -- "$temporary/disk/site"
+  cp -r -- "$DEMO_SITE"/{photos,calibration,survey,work,site.json} "$temporary/disk/site"
+  check_figures 'a full disk' node "$tests/prepare/not_saved.mjs" "$temporary/disk/site" \
+    "$temporary/disk/filled"
+else
+  printf 'SKIPPED: a full disk, which only root can make\n'
+fi
+
+mkdir -- "$temporary/photographs"
+cp -- "$DEMO_SITE"/photos/* "$temporary/photographs"
+/usr/bin/python3 "$tests/prepare/large_photo.py" 480 320 "$temporary/small.jpg"
+new_site
+check_figures 'nothing but photographs' node "$tests/prepare/start_from_nothing.mjs" \
+  "$temporary/photographs" "$temporary/site" "$temporary/small.jpg"
+
+# From photographs to a montage.
 new_site && rm -rf -- "$temporary/site/work" "$temporary/site/montages"
 find "$temporary/site/survey" -type f ! -name materials.json -delete
 check_figures 'measuring' node "$tests/prepare/measure.mjs" "$temporary/site" "$DEMO_SITE" "${SCREENSHOTS:-}"

@@ -112,6 +112,20 @@ TEST_F(PrepareSessionTest, AMarkOffItsPhotographIsRefused) {
   EXPECT_EQ(session_->Site()["revision"], 1);
 }
 
+TEST_F(PrepareSessionTest, ACameraPositionIsNoPixel) {
+  Start();
+  Json::Value row;
+  row["photo"] = "A";
+  row["x"] = 2600480.0;
+  row["y"] = 1200300.0;
+  row["z"] = 436.0;
+  for (const char* sigma : {"sigma_x", "sigma_y", "sigma_z"}) row[sigma] = 0.02;
+  row["role"] = "weighted";
+  Json::Value operation = Mark("1", Json::nullValue, row);
+  operation["edits"][0]["table"] = "camera_positions";
+  EXPECT_EQ(session_->Apply(operation).status, 200);
+}
+
 TEST_F(PrepareSessionTest, UndoAndRedoAreToldAsSuch) {
   Start();
   session_->Apply(Mark("1", Json::nullValue, MarkOn("A", "p", 3, 2)));
