@@ -6,13 +6,15 @@
 
 #include "calibration/calibration_report.h"
 #include "calibration/files/json_file.h"
+#include "calibration/photo/photograph.h"
 #include "calibration/site_cameras.h"
 
 namespace insitu {
 namespace {
 
-LivePhoto ReadLivePhoto(const SitePaths& site, const std::string& name, const std::string& camera) {
-  LivePhoto photo{name, {}};
+LivePhoto ReadLivePhoto(const SitePaths& site, const std::filesystem::path& path,
+                        const std::string& camera) {
+  LivePhoto photo{path.stem().string(), {}};
   if (!camera.empty()) photo.lens.camera = camera;
   if (!std::filesystem::exists(site.camera(camera))) {
     photo.no_lens_because = "its lens is not known yet: run insitu-calibrate";
@@ -20,6 +22,7 @@ LivePhoto ReadLivePhoto(const SitePaths& site, const std::string& name, const st
   }
   try {
     photo.camera = ReadCamera(site.camera(camera));
+    RequirePhotographSize(path, photo.camera->width(), photo.camera->height());
     if (const auto covariance = ReadIntrinsicsCovariance(site, camera)) {
       photo.lens.covariance = *covariance;
     }
@@ -38,7 +41,7 @@ std::vector<LivePhoto> ReadLivePhotos(const SitePaths& site) {
   try {
     const std::vector<std::string> cameras = CamerasOfPhotos(site, paths);
     for (size_t i = 0; i < paths.size(); ++i) {
-      photos.push_back(ReadLivePhoto(site, paths[i].stem().string(), cameras[i]));
+      photos.push_back(ReadLivePhoto(site, paths[i], cameras[i]));
     }
   } catch (const InputError& error) {
     photos.clear();

@@ -4,7 +4,6 @@
 # away, bad input is told); in a browser two windows, undo to the byte, what cannot be saved, a start from
 # nothing but photographs, and the demo site measured by keyboard, then its montage.
 # shellcheck disable=SC2317 # the functions are called through check
-# shellcheck disable=SC2317 # the functions are called through check
 set -euo pipefail
 # shellcheck source=assertions.sh
 source "$(dirname -- "${BASH_SOURCE[0]}")/assertions.sh"

@@ -4,6 +4,10 @@ import {spawn} from "node:child_process";
 import http from "node:http";
 import {once} from "node:events";
 
+/** No server outlives its test. */
+const running = new Set();
+process.once("exit", () => running.forEach(child => child.kill("SIGKILL")));
+
 /**
  * @param {string} site
  * @param {string[]} [options]
@@ -11,7 +15,8 @@ import {once} from "node:events";
  */
 export async function start(site, options = [], how = {}) {
   const child = spawn(`${process.env.INSITU_BIN}/insitu-prepare`, [site, "--no-browser", ...options], how);
-  process.once("exit", () => child.kill("SIGKILL"));
+  running.add(child);
+  child.once("exit", () => running.delete(child));
   let said = "", complained = "";
   child.stderr.on("data", text => (complained += text));
   const ended = once(child, "exit");
