@@ -84,7 +84,8 @@ export async function until(what, is) {
 
 /** Prints an assertion for assertions.sh's check_figures. */
 export function report(what, isRight, figure = "") {
-  console.log(`${isRight ? "ok" : "FAIL"}: ${what}${figure === "" ? "" : ` (${figure})`}`);
+  const told = String(figure).replace(/\s+/g, " ").trim(); // an assertion is a line
+  console.log(`${isRight ? "ok" : "FAIL"}: ${what}${told === "" ? "" : ` (${told})`}`);
 }
 
 /** A generator of numbers from 0 to 1 that gives the same ones each time. [mulberry32] */
