@@ -17,8 +17,12 @@ const history = async () => (await server.ask("GET", "/api/site")).body.history;
 
 await person.photo("left");
 await person.point("new_mark");
-await person.goTo(300, 200);
+await person.goTo(660, 336);
 await person.press("Shift+Enter");
+await person.photo("middle");
+await person.goTo(704, 326);
+await person.press("Shift+Enter");
+await person.photo("left");
 await person.point("tower_0");
 await person.press("ArrowLeft", "Shift+ArrowUp", "x");
 await person.point("tower_1");

@@ -56,7 +56,8 @@ export class Person {
     this.keys += keys.length;
   }
   async type(text) {
-    await this.page.keyboard.type(text);
+    if (process.env.EVERY_KEY) await this.page.keyboard.type(text);
+    else await this.page.keyboard.insertText(text); // at once, which takes a tenth of the time
     this.keys += text.length;
   }
   async click(selector) {
