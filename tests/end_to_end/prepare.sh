@@ -55,10 +55,10 @@ new_site
 check_figures 'nothing but photographs' node "$tests/prepare/start_from_nothing.mjs" \
   "$temporary/photographs" "$temporary/site" "$temporary/small.jpg"
 
-# From photographs to a montage.
+# From photographs to a montage. A quarter is measured, the rest is there: scripts/bench prepare measures all.
 new_site && rm -rf -- "$temporary/site/work" "$temporary/site/montages"
 find "$temporary/site/survey" -type f ! -name materials.json -delete
-check_figures 'measuring' node "$tests/prepare/measure.mjs" "$temporary/site" "$DEMO_SITE" "${SCREENSHOTS:-}"
+check_figures 'measuring' env MEASURE_EVERY="${MEASURE_EVERY:-4}" node "$tests/prepare/measure.mjs" "$temporary/site" "$DEMO_SITE" "${SCREENSHOTS:-}"
 makes_montages() {
   "$INSITU_BIN/insitu-montage" "$temporary/site" >"$temporary/log" 2>&1 || { tail -n 3 "$temporary/log" && return 1; }
   grep '^reconstruct .*verdict' "$temporary/log"

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // measure.mjs SITE MEASURED [SCREENSHOTS]: measures SITE, whose survey/ is empty, by keyboard, as MEASURED
-// was: its marks with 0.4 px noise, its polygons, pairs and samples.
+// was: its marks with 0.4 px noise, its polygons, pairs and samples. With MEASURE_EVERY=N only every Nth of
+// them: the others are in the files at the start, as if somebody had got that far.
 import fs from "node:fs";
 import {open} from "./page.mjs";
 import {report, seeded, start, until} from "./server.mjs";
@@ -14,6 +15,21 @@ const csv = name => {
 };
 const random = seeded(10);
 const normal = () => Math.sqrt(-2 * Math.log(1 - random())) * Math.cos(2 * Math.PI * random());
+
+const every = Number(process.env.MEASURE_EVERY ?? 1);
+const isTyped = (_, i) => i % every === 0, isThere = (_, i) => i % every !== 0;
+const marks = csv("observations.csv").map(({photo, point, x, y}) =>
+  ({photo, point, x: (Number(x) + 0.4 * normal()).toFixed(2), y: (Number(y) + 0.4 * normal()).toFixed(2)}));
+const {polygons} = json("polygons.json"), {sun, zenith} = json("directions.json"), samples = json("samples.json");
+const kinds = {horizon: "h", haze: "j", daylight: "o"};
+if (every > 1) {
+  const write = (name, value) => fs.writeFileSync(`${site}/survey/${name}`, JSON.stringify(value, null, 1));
+  const lines = marks.filter(isThere).map(({photo, point, x, y}) => `${photo},${point},${x},${y},0.5`);
+  fs.writeFileSync(`${site}/survey/observations.csv`, `photo,point,x,y,sigma\n${lines.join("\n")}\n`);
+  write("polygons.json", {polygons: polygons.filter(isThere)});
+  write("directions.json", {sun: sun.filter(isThere), zenith: zenith.filter(isThere)});
+  write("samples.json", Object.fromEntries(Object.keys(kinds).map(kind => [kind, samples[kind].filter(isThere)])));
+}
 
 const server = await start(site);
 const person = await open(server);
@@ -44,22 +60,21 @@ await timed("control points, pasted", control.length, async () => {
   await person.click("#take-over");
   await person.press("Escape");
 });
-const marks = csv("observations.csv");
+const typed = {marks: marks.filter(isTyped), polygons: polygons.filter(isTyped), sun: sun.filter(isTyped), zenith: zenith.filter(isTyped)};
 let current = "";
-await timed("marks", marks.length, async () => {
+await timed("marks", typed.marks.length, async () => {
   await person.page.fill("#sigma-px", "0.5");
-  for (const mark of marks) {
+  for (const mark of typed.marks) {
     if (mark.photo !== current) await person.photo((current = mark.photo));
     await person.point(mark.point);
-    await person.goTo((Number(mark.x) + 0.4 * normal()).toFixed(2), (Number(mark.y) + 0.4 * normal()).toFixed(2));
+    await person.goTo(mark.x, mark.y);
     await person.press("Shift+Enter");
   }
 });
 await person.settled();
 await shot("marks");
-const {polygons} = json("polygons.json");
-await timed("polygons", polygons.length, async () => {
-  for (const polygon of polygons) {
+await timed("polygons", typed.polygons.length, async () => {
+  for (const polygon of typed.polygons) {
     if (polygon.photo && polygon.photo !== current) await person.photo((current = polygon.photo));
     await person.press("b");
     for (const vertex of polygon.vertices) await person.point(vertex);
@@ -75,19 +90,16 @@ await timed("polygons", polygons.length, async () => {
 });
 await person.settled();
 await shot("polygons");
-const {sun, zenith} = json("directions.json");
-await timed("pairs", sun.length + zenith.length, async () => {
+await timed("pairs", typed.sun.length + typed.zenith.length, async () => {
   await person.press("s");
-  for (const {object, shadow} of sun) for (const point of [object, shadow]) await person.point(point);
+  for (const {object, shadow} of typed.sun) for (const point of [object, shadow]) await person.point(point);
   await person.press("Escape", "v");
-  for (const {bottom, top} of zenith) for (const point of [bottom, top]) await person.point(point);
+  for (const {bottom, top} of typed.zenith) for (const point of [bottom, top]) await person.point(point);
   await person.press("Escape");
 });
 await person.settled();
 await shot("sun");
-const samples = json("samples.json");
-const kinds = {horizon: "h", haze: "j", daylight: "o"};
-const all = Object.keys(kinds).flatMap(kind => samples[kind].map(sample => ({...sample, kind})));
+const all = Object.keys(kinds).flatMap(kind => samples[kind].filter(isTyped).map(sample => ({...sample, kind})));
 await timed("samples", all.length, async () => {
   let kind = "";
   for (const sample of all) {
