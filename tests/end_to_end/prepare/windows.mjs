@@ -24,6 +24,14 @@ await ben.press("Control+Z");
 await anna.page.waitForSelector('.marks [data-point="of_anna"][data-photo="left"]', {state: "detached"});
 report("so does its undo", true);
 
+const cara = await open(server, {browser: anna.browser, prepared: page => page.addInitScript(() => {
+  delete globalThis.WebSocket;
+})});
+await mark(anna, "for_cara", 320, 220);
+await onPage(cara, "for_cara");
+report("also in a browser without WebSocket", cara.faults.length === 0, cara.faults[0] ?? "");
+await cara.page.close();
+
 /** Ben moves a mark while his operations are held up, Anna moves the same one meanwhile. */
 async function collide(point, [x, y], [u, v]) {
   let release = () => {};
