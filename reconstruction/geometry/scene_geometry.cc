@@ -58,7 +58,7 @@ Polygon PolygonFromJson(const JsonNode& node, const std::vector<PosedCamera>& ca
     polygon.vertices.push_back(vertex.Vector3());
   }
   if (polygon.vertices.size() < 3) throw node.Error("expected at least three vertices");
-  if (!Triangulate(polygon.vertices, polygon.normal)) {
+  if (!HasInterior(polygon)) {
     throw node.Error("the outline of polygon '" + polygon.name + "' crosses itself or has no area");
   }
   if (const auto covariance = node.Find("covariance")) {
@@ -89,6 +89,10 @@ Eigen::MatrixXd CovarianceFromJson(const JsonNode& node, const Camera& camera) {
 }
 
 }  // namespace
+
+bool HasInterior(const Polygon& polygon) {
+  return Triangulate(polygon.vertices, polygon.normal).has_value();
+}
 
 void WriteSceneGeometry(const SitePaths& site, const SceneGeometry& scene) {
   Json::Value json;

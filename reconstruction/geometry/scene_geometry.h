@@ -41,6 +41,9 @@ struct SceneGeometry {
   double vertex_sigma = 0;  // [m], the median posterior sigma of a vertex coordinate
 };
 
+// Whether its outline neither crosses itself nor is without area, as rays need it.
+bool HasInterior(const Polygon& polygon);
+
 // work/reconstruction/scene.json and the .cameramodel files beside it. Reading throws InputError.
 void WriteSceneGeometry(const SitePaths& site, const SceneGeometry& scene);
 SceneGeometry ReadSceneGeometry(const SitePaths& site);

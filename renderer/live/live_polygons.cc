@@ -47,11 +47,12 @@ Json::Value ToPage(const std::vector<Polyline>& pieces) {
 class Obstacles {
  public:
   Obstacles(std::vector<Polygon> polygons, const Eigen::Vector3d& origin)
-      : scene_(SceneOf(std::move(polygons), origin)),
+      : polygons_(std::move(polygons)),
+        scene_(SceneOf(polygons_, origin, &index_)),
         mesh_(MeshOfPolygons(scene_)),
         rays_(mesh_.mesh) {}
 
-  const std::vector<Polygon>& polygons() const { return scene_.polygons; }
+  const std::vector<Polygon>& polygons() const { return polygons_; }
 
   // Whether another polygon stands clearly before a point of this one's outline.
   bool Hide(int polygon, const Eigen::Vector3d& point, const Eigen::Vector3d& center) const {
@@ -62,8 +63,8 @@ class Obstacles {
     for (int hits = 0; hits < kMostHits && ray.near < distance; ++hits) {
       const std::optional<RayHit> hit = rays_.Nearest(ray);
       if (!hit) return false;
-      const int other = mesh_.polygon_of_triangle[hit->triangle];
-      const Polygon& before = scene_.polygons[other];
+      const int other = index_[mesh_.polygon_of_triangle[hit->triangle]];
+      const Polygon& before = polygons_[other];
       const double behind = std::abs(before.normal.dot(point - before.vertices[0]));
       if (other != polygon && behind > kCoplanar) return true;
       ray.near = hit->distance + kPast;
@@ -72,13 +73,21 @@ class Obstacles {
   }
 
  private:
-  static SceneGeometry SceneOf(std::vector<Polygon> polygons, const Eigen::Vector3d& origin) {
+  // Of an unfinished survey an outline may cross itself: it is drawn, and hides nothing.
+  static SceneGeometry SceneOf(const std::vector<Polygon>& polygons, const Eigen::Vector3d& origin,
+                               std::vector<int>* index) {
     SceneGeometry scene;
     scene.origin = origin;
-    scene.polygons = std::move(polygons);
+    for (size_t p = 0; p < polygons.size(); ++p) {
+      if (!HasInterior(polygons[p])) continue;
+      scene.polygons.push_back(polygons[p]);
+      index->push_back(static_cast<int>(p));
+    }
     return scene;
   }
 
+  std::vector<Polygon> polygons_;
+  std::vector<int> index_;  // among polygons_, of the scene's
   SceneGeometry scene_;
   PolygonMesh mesh_;
   RayScene rays_;

@@ -343,6 +343,8 @@ class Solver {
     adjustment.poses = AdjustedPoses(solved.survey_network.network, solved.solution);
     CompareWithSurvey(part_.survey, &adjustment);
     result_.scene = AdjustedScene(part_.survey, solved.survey_network, solved.solution, adjustment);
+    std::erase_if(result_.scene->polygons,
+                  [](const Polygon& polygon) { return !HasInterior(polygon); });
     result_.message["control"] = ControlToPage(adjustment);
   }
 
