@@ -125,7 +125,7 @@ void LiveWindow::Write() {
                       });
 }
 
-void LiveWindow::Refuse(std::string reason) {
+void LiveWindow::Refuse(const std::string& reason) {
   constexpr size_t kMostReason = 120;  // the protocol has room for 123 bytes
   socket_.async_close({websocket::close_code::policy_error, reason.substr(0, kMostReason)},
                       [self = shared_from_this()](beast::error_code) { self->Close(); });

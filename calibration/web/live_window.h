@@ -29,7 +29,7 @@ class LiveWindow : public std::enable_shared_from_this<LiveWindow> {
   void OnMessage(std::string text);
   void Open();
   void Write();
-  void Refuse(std::string reason);
+  void Refuse(const std::string& reason);
   void Close();  // of itself or by the other side: says so, once
   // Calls a callback on a thread of the server, then reads on; closes if it throws.
   template <typename Call>

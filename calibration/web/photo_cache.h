@@ -9,6 +9,7 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <tuple>
 
 #include "calibration/web/photo_pyramid.h"
 
@@ -18,7 +19,10 @@ namespace insitu {
 struct PyramidKey {
   int photo = 0;
   bool is_overview = false;
-  auto operator<=>(const PyramidKey&) const = default;
+  bool operator==(const PyramidKey&) const = default;
+  bool operator<(const PyramidKey& other) const {
+    return std::tie(photo, is_overview) < std::tie(other.photo, other.is_overview);
+  }
 };
 
 class PhotoCache {

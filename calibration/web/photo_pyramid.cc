@@ -66,7 +66,7 @@ cv::Mat CodesOf(const Raster& linear, int type) {
       Code* const codes = image.ptr<Code>(y);
       for (int i = 0; i < 3 * linear.width; i += 3) {
         for (int c = 0; c < 3; ++c) {  // blue first
-          codes[i + 2 - c] = table[static_cast<size_t>(values[i + c] * highest + 0.5f)];
+          codes[i + 2 - c] = table[cvRound(values[i + c] * highest)];
         }
       }
     }
