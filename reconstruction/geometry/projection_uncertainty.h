@@ -9,6 +9,9 @@
 
 namespace insitu {
 
+// Semi-axes of the ellipse that holds 95 % of a plane error, over those of the standard ellipse.
+inline constexpr double kEllipse95 = 2.4477;  // sqrt(-2 ln 0.05)
+
 struct ImageUncertainty {
   Eigen::Vector2d pixel;              // of the photograph
   Eigen::Matrix2d covariance_px;      // [px^2]

@@ -17,12 +17,9 @@ namespace {
 constexpr double kCrease = 15 * std::numbers::pi / 180;  // an edge between faces that bend more
 constexpr size_t kMostEdges = 20000;                     // of a wireframe: the longest
 constexpr size_t kMostCorners = 400;
-constexpr double kDrawnWithin = 0.5;    // [px]
-constexpr double kNinetyFive = 2.4477;  // ellipse that holds 95 %, in standard ellipses
+constexpr double kDrawnWithin = 0.5;  // [px]
 
-struct Edge {
-  Eigen::Vector3d from, to;
-};
+using Edge = std::pair<Eigen::Vector3d, Eigen::Vector3d>;
 
 // Vertices by place: converters may give each face its own.
 std::vector<int> JoinedVertices(const std::vector<Eigen::Vector3d>& vertices) {
@@ -52,7 +49,7 @@ std::vector<Edge> CreasesOf(const ArtificialEnvironment& building) {
   for (const auto& [ends, normals] : normals_of_edge) {
     const bool is_flat =
         normals.size() == 2 && std::abs(normals[0].dot(normals[1])) > std::cos(kCrease);
-    if (!is_flat) edges.push_back({building.vertices[ends.first], building.vertices[ends.second]});
+    if (!is_flat) edges.emplace_back(building.vertices[ends.first], building.vertices[ends.second]);
   }
   return edges;
 }
@@ -60,7 +57,7 @@ std::vector<Edge> CreasesOf(const ArtificialEnvironment& building) {
 void KeepLongest(std::vector<Edge>* edges) {
   if (edges->size() <= kMostEdges) return;
   const auto is_longer = [](const Edge& a, const Edge& b) {
-    return (a.to - a.from).squaredNorm() > (b.to - b.from).squaredNorm();
+    return (a.second - a.first).squaredNorm() > (b.second - b.first).squaredNorm();
   };
   std::nth_element(edges->begin(), edges->begin() + kMostEdges, edges->end(), is_longer);
   edges->resize(kMostEdges);
@@ -70,8 +67,8 @@ Json::Value LinesJson(const std::vector<Edge>& edges, const PosedCamera& posed) 
   const LensView view(posed.camera);
   Json::Value lines(Json::arrayValue);
   for (const Edge& edge : edges) {
-    for (const Polyline& line : ImageOfArc(view, posed.cam_from_world * edge.from,
-                                           posed.cam_from_world * edge.to, kDrawnWithin)) {
+    for (const Polyline& line : ImageOfArc(view, posed.cam_from_world * edge.first,
+                                           posed.cam_from_world * edge.second, kDrawnWithin)) {
       Json::Value points(Json::arrayValue);
       for (const Eigen::Vector2d& at : line) {
         Json::Value point(Json::arrayValue);
@@ -86,15 +83,14 @@ Json::Value LinesJson(const std::vector<Edge>& edges, const PosedCamera& posed) 
 
 Json::Value CornersJson(const std::vector<CornerUncertainty>& corners) {
   Json::Value list(Json::arrayValue);
-  const size_t step = 1 + corners.size() / kMostCorners;
-  for (size_t i = 0; i < corners.size(); i += step) {
-    const ImageUncertainty& image = corners[i].image;
+  for (const CornerUncertainty& told : corners) {
+    const ImageUncertainty& image = told.image;
     const Eigen::Matrix2d& c = image.covariance_px;
     Json::Value corner;
     corner["x"] = image.pixel.x();
     corner["y"] = image.pixel.y();
-    corner["major"] = kNinetyFive * image.major_px;
-    corner["minor"] = kNinetyFive * image.minor_px;
+    corner["major"] = kEllipse95 * image.major_px;
+    corner["minor"] = kEllipse95 * image.minor_px;
     corner["angle"] = std::atan2(2 * c(0, 1), c(0, 0) - c(1, 1)) / 2;
     list.append(corner);
   }
@@ -103,17 +99,25 @@ Json::Value CornersJson(const std::vector<CornerUncertainty>& corners) {
 
 }  // namespace
 
-Json::Value LiveBuilding(const SitePaths& site, const SceneGeometry& scene) {
-  if (!std::filesystem::exists(site.artificial())) return Json::nullValue;
-  const ArtificialEnvironment building = ReadArtificialEnvironment(site);
-  std::vector<Edge> edges = CreasesOf(building);
-  KeepLongest(&edges);
+BuildingWireframe ReadBuildingWireframe(const SitePaths& site) {
+  BuildingWireframe wireframe;
+  wireframe.edges = CreasesOf(ReadArtificialEnvironment(site));
+  KeepLongest(&wireframe.edges);
+  const size_t step = 1 + 2 * wireframe.edges.size() / kMostCorners;
+  for (size_t i = 0; i < wireframe.edges.size(); i += step) {
+    wireframe.corners.vertices.push_back(wireframe.edges[i].first);
+    wireframe.corners.vertices.push_back(wireframe.edges[i].second);
+  }
+  return wireframe;
+}
+
+Json::Value LiveBuilding(const BuildingWireframe& building, const SceneGeometry& scene) {
   Json::Value message;
   message["images"] = message["corners"] = Json::Value(Json::objectValue);
   for (size_t i = 0; i < scene.cameras.size(); ++i) {
     const std::string& photo = scene.cameras[i].photo;
-    message["images"][photo] = LinesJson(edges, scene.cameras[i]);
-    const auto corners = BuildingUncertainty(scene, i, building);
+    message["images"][photo] = LinesJson(building.edges, scene.cameras[i]);
+    const auto corners = BuildingUncertainty(scene, i, building.corners);
     if (corners) message["corners"][photo] = CornersJson(*corners);
   }
   return message;

@@ -4,17 +4,29 @@
 
 #include <json/value.h>
 
+#include <Eigen/Core>
+#include <utility>
 #include <vector>
 
 #include "calibration/program/site.h"
 #include "reconstruction/geometry/scene_geometry.h"
+#include "renderer/building/artificial_environment.h"
 
 namespace insitu {
 
-// {images: {PHOTO: [[[x, y]...]...]}, corners: {PHOTO: [{x, y, major, minor, angle}]}} of the
-// building of work/building.json: its creases and open edges through the lens, hidden ones too, and
-// the corners with the 95 % ellipses that the orientations give them. Null where insitu-convert has
-// not run. Throws InputError: its files cannot be read.
-Json::Value LiveBuilding(const SitePaths& site, const SceneGeometry& scene);
+// What is drawn of a building, however large it is.
+struct BuildingWireframe {
+  std::vector<std::pair<Eigen::Vector3d, Eigen::Vector3d>>
+      edges;                      // creases and open edges [m], world
+  ArtificialEnvironment corners;  // its vertices only: some of the edges' ends
+};
+
+// Of work/building.json. Throws InputError: its files cannot be read.
+BuildingWireframe ReadBuildingWireframe(const SitePaths& site);
+
+// {images: {PHOTO: [[[x, y]...]...]}, corners: {PHOTO: [{x, y, major, minor, angle}]}}: the edges
+// through the lens, hidden ones too, and the corners with the 95 % ellipses that the orientations
+// give them [px], angle [rad] from +x towards +y.
+Json::Value LiveBuilding(const BuildingWireframe& building, const SceneGeometry& scene);
 
 }  // namespace insitu

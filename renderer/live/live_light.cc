@@ -14,7 +14,7 @@ namespace insitu {
 namespace {
 
 constexpr double kHazeDistance = 100;    // [m], for which the transmittance is told
-constexpr double kPoorLight = 100;       // condition above which another sample is proposed
+constexpr double kFairLight = 33;        // condition above which another sample is proposed
 constexpr double kShortBase = 3;         // farthest haze sample over the nearest
 constexpr double kGrossResidual = 0.25;  // relative
 
@@ -99,8 +99,7 @@ Json::Value AdviceJson(const LightMeasurement& measured) {
   const SceneGeometry& scene = measured.environment.scene;
   Json::Value advice(Json::arrayValue);
   for (const std::string& warning : measured.warnings) advice.append(warning);
-  if (measured.daylight_fit.condition > kPoorLight / 3 &&
-      measured.daylight_fit.condition <= kPoorLight) {
+  if (measured.daylight_fit.condition > kFairLight) {
     advice.append(
         "daylight: one more sample in open shade and one in deep shade tell sun, sky and "
         "ambient light better apart");
@@ -118,25 +117,24 @@ LinearPhotos::LinearPhotos(const SitePaths& site) : site_(site) {}
 LinearPhotos::~LinearPhotos() = default;
 
 const std::vector<Photograph>& LinearPhotos::Of(const SceneGeometry& scene) {
-  std::vector<std::string> names;
-  for (const PosedCamera& camera : scene.cameras) names.push_back(camera.photo);
-  if (names == names_) return photos_;
-  std::vector<Photograph> photos;
   const std::vector<std::filesystem::path> paths = ListPhotographs(site_);
   for (const PosedCamera& posed : scene.cameras) {
-    const auto kept = std::find(names_.begin(), names_.end(), posed.photo);
-    if (kept != names_.end()) {
-      photos.push_back(photos_[kept - names_.begin()]);
-      continue;
-    }
+    if (std::find(names_.begin(), names_.end(), posed.photo) != names_.end()) continue;
     const auto path = std::find_if(paths.begin(), paths.end(),
                                    [&](const auto& p) { return p.stem() == posed.photo; });
     if (path == paths.end()) throw InputError(site_.photos(), "no photograph " + posed.photo);
     RequirePhotographSize(*path, posed.camera.width(), posed.camera.height());
-    photos.push_back(ReadPhotograph(*path));
+    photos_.push_back(ReadPhotograph(*path));
+    names_.push_back(posed.photo);
   }
-  names_ = std::move(names);
-  photos_ = std::move(photos);
+  for (size_t i = 0; i < scene.cameras.size(); ++i) {  // in the scene's order
+    const auto at = std::find(names_.begin() + static_cast<std::ptrdiff_t>(i), names_.end(),
+                              scene.cameras[i].photo);
+    std::swap(photos_[i], photos_[at - names_.begin()]);
+    std::swap(names_[i], *at);
+  }
+  names_.resize(scene.cameras.size());
+  photos_.resize(scene.cameras.size());
   return photos_;
 }
 

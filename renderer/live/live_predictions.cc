@@ -12,16 +12,14 @@
 namespace insitu {
 namespace {
 
-constexpr double kNinetyFivePercent = 2.4477;  // of a standard ellipse
-
 Json::Value EllipseOf(const ImageUncertainty& image) {
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes(image.covariance_px);
   const Eigen::Vector2d major = axes.eigenvectors().col(1);
   Json::Value ellipse;
   ellipse["x"] = image.pixel.x();
   ellipse["y"] = image.pixel.y();
-  ellipse["major"] = kNinetyFivePercent * image.major_px;
-  ellipse["minor"] = kNinetyFivePercent * image.minor_px;
+  ellipse["major"] = kEllipse95 * image.major_px;
+  ellipse["minor"] = kEllipse95 * image.minor_px;
   ellipse["angle"] = std::atan2(major.y(), major.x());
   return ellipse;
 }

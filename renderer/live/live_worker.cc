@@ -1,16 +1,21 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "renderer/live/live_worker.h"
 
+#include <filesystem>
 #include <utility>
 
 #include "calibration/files/error.h"
 #include "reconstruction/survey/read_survey.h"
-#include "renderer/live/live_building.h"
 #include "renderer/live/live_lenses.h"
 
 namespace insitu {
 
 LiveWorker::LiveWorker(SitePaths site) : site_(std::move(site)), linear_(site_) {}
+
+void LiveWorker::ForgetStages() {
+  has_lenses_ = false;
+  building_.reset();
+}
 
 LiveState LiveWorker::Adjust(int revision) {
   if (!has_lenses_) photos_ = ReadLivePhotos(site_);
@@ -41,7 +46,10 @@ void LiveWorker::AddLight(int revision, LiveState* state) {
 void LiveWorker::AddBuilding(LiveState* state) {
   if (!state->result.scene) return;
   try {
-    state->building = LiveBuilding(site_, *state->result.scene);
+    if (!building_ && std::filesystem::exists(site_.artificial())) {
+      building_ = ReadBuildingWireframe(site_);
+    }
+    if (building_) state->building = LiveBuilding(*building_, *state->result.scene);
   } catch (const InputError& error) {
     state->file_faults.emplace_back(error.what());
   }

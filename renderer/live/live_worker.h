@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "calibration/program/site.h"
+#include "renderer/live/live_building.h"
 #include "renderer/live/live_light.h"
 #include "renderer/live/live_solution.h"
 
@@ -18,7 +19,7 @@ namespace insitu {
 struct LiveState {
   LiveResult result;                     // its message holds type and revision
   Json::Value light, building;           // messages, maybe null
-  std::vector<std::string> file_faults;  // of survey files that took no part
+  std::vector<std::string> file_faults;  // files that took no part
 };
 
 // Not safe for several threads at once.
@@ -26,8 +27,8 @@ class LiveWorker {
  public:
   explicit LiveWorker(SitePaths site);
 
-  // Lenses may be others now.
-  void ForgetLenses() { has_lenses_ = false; }
+  // Lenses and the building may be others now: a stage has run.
+  void ForgetStages();
 
   // What the files say as they stand. Throws nothing for their content.
   LiveState Adjust(int revision);
@@ -40,6 +41,7 @@ class LiveWorker {
   LinearPhotos linear_;
   std::vector<LivePhoto> photos_;
   bool has_lenses_ = false;
+  std::optional<BuildingWireframe> building_;
   std::map<std::string, Rigid3> poses_;
 };
 
