@@ -17,6 +17,7 @@
 #include "calibration/web/photo_tiles.h"
 #include "calibration/web/request_guard.h"
 #include "reconstruction/editing/edited_tables.h"
+#include "reconstruction/geometry/projection_uncertainty.h"
 #include "renderer/prepare/mark_proposal.h"
 #include "renderer/prepare/prepare_page.h"
 #include "renderer/prepare/prepare_session.h"
@@ -30,7 +31,6 @@ namespace {
 constexpr int kPatchRadius = 40;      // [px], of what proposals look at
 constexpr double kSearchSigmas = 3;   // of a prediction
 constexpr double kWidestSearch = 25;  // [px]
-constexpr double kNinetyFivePercent = 2.4477;
 
 WebResponse JsonResponse(const Json::Value& json, int status = 200) {
   WebResponse response;
@@ -92,7 +92,7 @@ class PrepareService {
     Post("import", [this](const Json::Value& q) { return JsonResponse(ImportAnswer(site_, q)); });
     Post("refine", [this](const Json::Value& q) { return JsonResponse(Refine(q)); });
     Post("match", [this](const Json::Value& q) { return JsonResponse(Match(q)); });
-    Post("run", [this](const Json::Value& q) { return JsonResponse(Run(q["stage"].asString())); });
+    Post("run", [this](const Json::Value& q) { return Run(q["stage"].asString()); });
     Post("stop", [this](const Json::Value&) {
       runs_.Stop();
       return JsonResponse(Json::objectValue);
@@ -197,8 +197,9 @@ class PrepareService {
     const std::string photo = question["photo"].asString(), name = question["point"].asString();
     const std::shared_ptr<const LiveState> live = session_.live();
     const Json::Value& point = live->result.message["points"][name];
-    const auto mark = session_.FindMark(photo, name);
-    if (!mark || !point["xyz"].isArray()) {
+    const std::map<std::string, Eigen::Vector2d> marks = session_.MarksOf(name);
+    const auto mark = marks.find(photo);
+    if (mark == marks.end() || !point["xyz"].isArray()) {
       throw InputError("match", "the point must be marked here and determined");
     }
     const Eigen::Vector3d world(point["xyz"][0].asDouble(), point["xyz"][1].asDouble(),
@@ -207,8 +208,8 @@ class PrepareService {
     answer["proposals"] = Json::Value(Json::arrayValue);
     for (const PosedCamera& other : live->result.cameras) {
       const Json::Value& seen = point["images"][other.photo];
-      if (other.photo == photo || seen.isNull() || session_.FindMark(other.photo, name)) continue;
-      Json::Value proposal = MatchOn(other, seen, photo, *mark, world, *live);
+      if (seen.isNull() || marks.contains(other.photo)) continue;
+      Json::Value proposal = MatchOn(other, seen, photo, mark->second, world, *live);
       if (proposal.isMember("error")) continue;
       proposal["photo"] = other.photo;
       answer["proposals"].append(proposal);
@@ -227,22 +228,22 @@ class PrepareService {
                                    (Center(other.cam_from_world) - world).normalized();
     const Eigen::Vector2d predicted(seen["x"].asDouble(), seen["y"].asDouble());
     const double radius =
-        std::min(kWidestSearch, 2 + kSearchSigmas / kNinetyFivePercent * seen["major"].asDouble());
+        std::min(kWidestSearch, 2 + kSearchSigmas / kEllipse95 * seen["major"].asDouble());
     return ProposalJson(
         MatchPatch(GreyAround(photo, mark), mark, GreyAround(other.photo, predicted), predicted,
                    OffsetsBetween(*here, other, world, normal.normalized()), radius));
   }
 
-  Json::Value Run(const std::string& stage) {
-    Json::Value answer;
-    if (stage == "exif-camera" || stage == "exif-site") {
-      if (stage == "exif-camera") WriteCameraFromExif(site_, paths_);
-      if (stage == "exif-site") session_.TakeSite(SiteFromExif(paths_));
-      answer["run"] = stage == "exif-camera" ? runs_.Start("calibrate") : 0;
-      return answer;
+  WebResponse Run(const std::string& stage) {
+    if (stage == "exif-site") {
+      PrepareSession::Answer taken = session_.TakeSite(SiteFromExif(paths_));
+      if (taken.status == 200) taken.body["run"] = 0;  // no program runs for it
+      return Told(taken);
     }
-    answer["run"] = runs_.Start(stage);
-    return answer;
+    if (stage == "exif-camera") WriteCameraFromExif(site_, paths_);
+    Json::Value answer;
+    answer["run"] = runs_.Start(stage == "exif-camera" ? "calibrate" : stage);
+    return JsonResponse(answer);
   }
 
   const SitePaths site_;
@@ -263,7 +264,7 @@ LoopbackServerOptions ServerOptions(const PrepareOptions& options, const std::st
   return server;
 }
 
-// Signals that end a server wait in every thread from now on; returns the first one that comes.
+// Signals that end a server are blocked in this thread and all that it starts from now on.
 class EndSignals {
  public:
   EndSignals() {
@@ -271,7 +272,7 @@ class EndSignals {
     for (const int signal : {SIGINT, SIGTERM, SIGHUP}) sigaddset(&signals_, signal);
     pthread_sigmask(SIG_BLOCK, &signals_, nullptr);
   }
-  void Wait() const {
+  void Wait() const {  // for the first one
     int signal = 0;
     sigwait(&signals_, &signal);
   }

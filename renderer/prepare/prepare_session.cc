@@ -3,7 +3,6 @@
 
 #include <chrono>
 #include <condition_variable>
-#include <map>
 #include <mutex>
 #include <thread>
 #include <utility>
@@ -66,7 +65,7 @@ struct PrepareSession::Parts {
   std::shared_ptr<const LiveState> live = std::make_shared<LiveState>();
   std::string not_saved;
   std::string read_only = ReadOnly();
-  bool is_due = true, forgets_lenses = false;
+  bool is_due = true, forgets_stages = false;
   LiveWorker worker;
   std::jthread thread;
 
@@ -80,8 +79,7 @@ struct PrepareSession::Parts {
   }
 
   Json::Value ToDoNow() const {
-    return ToDo(
-        {site, photos, edit.Tables(), live->result.message, live->light, live->file_faults});
+    return ToDo({site, edit.Tables(), live->result.message, live->light, live->file_faults});
   }
 
   void TellOperation(const Operation& operation, const char* kind) const {
@@ -91,7 +89,6 @@ struct PrepareSession::Parts {
     message["operation"] = ToJson(operation);
     message["kind"] = kind;
     message["history"] = History();
-    message["todo"] = ToDoNow();
     Tell(message);
   }
 
@@ -226,7 +223,7 @@ struct PrepareSession::Parts {
     Tell(message);
   }
 
-  // Waits for something to do; the revision to adjust, or nullopt at the end.
+  // Waits for something to do; the revision that the files hold, or nullopt at the end.
   std::optional<int> NextRevision(const std::stop_token& stop) {
     std::unique_lock lock(mutex);
     while (!stop.stop_requested()) {
@@ -234,8 +231,8 @@ struct PrepareSession::Parts {
         is_due = false;
         if (changed.wait_for(lock, stop, kQuiet, [&] { return is_due; })) continue;
         SaveAndTell();
-        if (std::exchange(forgets_lenses, false)) worker.ForgetLenses();
-        return edit.revision();
+        if (std::exchange(forgets_stages, false)) worker.ForgetStages();
+        return edit.saved_revision();
       }
       if (changed.wait_for(lock, stop, kLook, [&] { return is_due; })) continue;
       if (stop.stop_requested()) break;
@@ -321,25 +318,25 @@ PrepareSession::Answer PrepareSession::Redo(const std::string& id) {
   return parts_->Do([&] { return parts_->edit.Redo(id); }, "redo");
 }
 
-std::optional<Eigen::Vector2d> PrepareSession::FindMark(const std::string& photo,
-                                                        const std::string& point) const {
+std::map<std::string, Eigen::Vector2d> PrepareSession::MarksOf(const std::string& point) const {
   const std::lock_guard lock(parts_->mutex);
+  std::map<std::string, Eigen::Vector2d> marks;
   for (const Json::Value& row : parts_->edit.Rows("observations")) {
-    if (row["photo"] != photo || row["point"] != point || row["state"] == "off") continue;
-    return Eigen::Vector2d(row["x"].asDouble(), row["y"].asDouble());
+    if (row["point"] != point || row["state"] == "off") continue;
+    marks[row["photo"].asString()] = {row["x"].asDouble(), row["y"].asDouble()};
   }
-  return std::nullopt;
+  return marks;
 }
 
-void PrepareSession::TakeSite(const Json::Value& members) {
+PrepareSession::Answer PrepareSession::TakeSite(const Json::Value& members) {
   const std::lock_guard lock(parts_->mutex);
   const std::vector<Json::Value> rows = parts_->edit.Rows("site");
   const Json::Value before = rows.empty() ? Json::Value() : rows[0];
   Json::Value after = members;
   for (const std::string& name : before.getMemberNames()) after[name] = before[name];
   const std::string id = "exif-site-" + std::to_string(parts_->edit.revision());
-  parts_->Done(parts_->edit.Apply({id, "Place and time from EXIF", {{"site", before, after}}}),
-               "outside");
+  const Operation operation{id, "Place and time from EXIF", {{"site", before, after}}};
+  return parts_->Do([&] { return parts_->edit.Apply(operation); }, "outside");
 }
 
 std::shared_ptr<const LiveState> PrepareSession::live() const {
@@ -349,7 +346,7 @@ std::shared_ptr<const LiveState> PrepareSession::live() const {
 
 void PrepareSession::Reload() {
   const std::lock_guard lock(parts_->mutex);
-  parts_->is_due = parts_->forgets_lenses = true;
+  parts_->is_due = parts_->forgets_stages = true;
   parts_->changed.notify_all();
 }
 

@@ -8,8 +8,8 @@
 
 #include <Eigen/Core>
 #include <functional>
+#include <map>
 #include <memory>
-#include <optional>
 #include <string>
 
 #include "calibration/program/site.h"
@@ -30,15 +30,17 @@ class PrepareSession {
     int status = 200;
     Json::Value body;
   };
-  Answer Apply(const Json::Value& operation);  // 200 with the revision, 400, or 409 with conflicts
+  // 200 with the revision; 400: refused; 409 with conflicts; 507: it cannot be kept, the disk is
+  // full.
+  Answer Apply(const Json::Value& operation);
   Answer Undo(const std::string& id);
   Answer Redo(const std::string& id);
 
-  // The mark of a point on a photo; nullopt: none, or switched off.
-  std::optional<Eigen::Vector2d> FindMark(const std::string& photo, const std::string& point) const;
+  // The marks of a point [px], by photo, but those that are switched off.
+  std::map<std::string, Eigen::Vector2d> MarksOf(const std::string& point) const;
 
-  // Members for site.json, those that it has already left alone.
-  void TakeSite(const Json::Value& members);
+  // Members for site.json; those that it has already are left alone. Answers as Apply.
+  Answer TakeSite(const Json::Value& members);
 
   // The newest results.
   std::shared_ptr<const LiveState> live() const;

@@ -13,7 +13,6 @@ namespace insitu {
 
 struct ToDoInput {
   SitePaths site;
-  std::vector<std::string> photos;
   Json::Value tables;                    // as SiteEdit has them
   Json::Value adjusted, light;           // messages, maybe null
   std::vector<std::string> file_faults;  // files that take no part

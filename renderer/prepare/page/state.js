@@ -164,7 +164,6 @@ function takeOperation(message) {
     if (kind === "edit") seen.add(operation.id);
   }
   if (message.history) state.history = message.history;
-  if (message.todo) state.todo = message.todo;
   state.revision = Math.max(state.revision, revision);
   rebuild();
   emit("history");

@@ -131,9 +131,9 @@ TEST_F(PrepareSessionTest, UndoAndRedoAreToldAsSuch) {
   session_->Apply(Mark("1", Json::nullValue, MarkOn("A", "p", 3, 2)));
   EXPECT_EQ(session_->Undo("2").status, 200);
   EXPECT_EQ(Wait("op", 2)["kind"], "undo");
-  EXPECT_FALSE(session_->FindMark("A", "p"));
+  EXPECT_TRUE(session_->MarksOf("p").empty());
   EXPECT_EQ(session_->Redo("3").status, 200);
-  EXPECT_TRUE(session_->FindMark("A", "p"));
+  EXPECT_TRUE(session_->MarksOf("p").contains("A"));
 }
 
 TEST_F(PrepareSessionTest, EndingItSavesWhatWasConfirmed) {

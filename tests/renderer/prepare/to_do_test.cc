@@ -24,7 +24,6 @@ class ToDoTest : public testing::Test {
       input_.tables[table.name] = Json::Value(Json::arrayValue);
     }
     input_.site.root = folder_.path();
-    input_.photos = {"A", "B"};
     input_.adjusted = RowOf(R"({"photos": {}, "left_out": [], "diagnoses": [], "failed": null})");
   }
 
