@@ -41,6 +41,12 @@ inline Operation OneEdit(const std::string& id, const std::string& table, const 
   return {id, "label of " + id, {{table, before, after}}};
 }
 
+// The text with its first `from` replaced, which must be there.
+inline std::string Replaced(std::string text, const std::string& from, const std::string& to) {
+  EXPECT_NE(text.find(from), std::string::npos) << from;
+  return text.replace(text.find(from), from.size(), to);
+}
+
 class EditedSite : public testing::Test {
  protected:
   EditedSite() {

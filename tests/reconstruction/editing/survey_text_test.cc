@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "tests/calibration/files/scratch_folder.h"
+#include "tests/reconstruction/editing/edited_site.h"
 
 namespace insitu {
 namespace {
@@ -171,11 +172,6 @@ constexpr char kPolygons[] = R"({
  ]
 }
 )";
-
-std::string Replaced(std::string text, const std::string& from, const std::string& to) {
-  EXPECT_NE(text.find(from), std::string::npos) << from;
-  return text.replace(text.find(from), from.size(), to);
-}
 
 TEST(JsonSurveyText, KeepsEveryByteOfWhatItDoesNotEdit) {
   for (const std::string& text : {std::string(), std::string("{}"), std::string(" { }\n\n"),

@@ -9,6 +9,7 @@
 
 #include "renderer/live/live_solution.h"
 #include "tests/reconstruction/survey/synthetic_network.h"
+#include "tests/renderer/live/line_distance.h"
 
 namespace insitu {
 namespace {
@@ -39,14 +40,7 @@ class LivePolygonsTest : public testing::Test {
   // Of a pixel from lines of a polygon; infinite: there are none.
   static double DistanceTo(const Json::Value& lines, const Eigen::Vector2d& pixel) {
     double least = std::numeric_limits<double>::infinity();
-    for (const Json::Value& line : lines) {
-      for (Json::ArrayIndex i = 0; i + 1 < line.size(); ++i) {
-        const Eigen::Vector2d a(line[i][0].asDouble(), line[i][1].asDouble());
-        const Eigen::Vector2d b(line[i + 1][0].asDouble(), line[i + 1][1].asDouble());
-        const double share = std::clamp((pixel - a).dot(b - a) / (b - a).squaredNorm(), 0.0, 1.0);
-        least = std::min(least, (a + share * (b - a) - pixel).norm());
-      }
-    }
+    for (const Json::Value& line : lines) least = std::min(least, DistanceToLine(line, pixel));
     return least;
   }
 

@@ -9,6 +9,7 @@
 #include "calibration/files/error.h"
 #include "tests/calibration/files/scratch_folder.h"
 #include "tests/reconstruction/survey/synthetic_network.h"
+#include "tests/renderer/live/line_distance.h"
 
 namespace insitu {
 namespace {
@@ -35,17 +36,6 @@ class QuestionsTest : public testing::Test {
     question["x"] = pixel.x();
     question["y"] = pixel.y();
     return question;
-  }
-  // [px], from a polyline.
-  static double DistanceTo(const Json::Value& line, const Eigen::Vector2d& pixel) {
-    double least = std::numeric_limits<double>::infinity();
-    for (Json::ArrayIndex i = 0; i + 1 < line.size(); ++i) {
-      const Eigen::Vector2d a(line[i][0].asDouble(), line[i][1].asDouble());
-      const Eigen::Vector2d b(line[i + 1][0].asDouble(), line[i + 1][1].asDouble());
-      const double share = std::clamp((pixel - a).dot(b - a) / (b - a).squaredNorm(), 0.0, 1.0);
-      least = std::min(least, (a + share * (b - a) - pixel).norm());
-    }
-    return least;
   }
   static Json::Value Names(const char* key, const std::vector<std::string>& names) {
     Json::Value question;
@@ -80,8 +70,9 @@ TEST_F(QuestionsTest, AnEpipolarCurvePassesThroughThePointsOtherImage) {
       Json::Value question = At(0, *here);
       question["other"] = network_.photos[other];
       const Json::Value curve = EpipolarAnswer(live_, question)["curve"];
-      if (curve.empty()) continue;                      // taken from one place
-      EXPECT_LT(DistanceTo(curve, *there), 5) << name;  // the adjusted poses are not the true ones
+      if (curve.empty()) continue;  // taken from one place
+      EXPECT_LT(DistanceToLine(curve, *there), 5)
+          << name;  // the adjusted poses are not the true ones
       ++curves;
     }
   }
