@@ -182,18 +182,20 @@ struct PrepareSession::Parts {
     return true;
   }
 
-  void SaveAndTell() {
+  // False if a file cannot be written.
+  bool SaveAndTell() {
     const SaveReport report = edit.Save();
     TellOutside(report.outside);
     std::string faults;
     for (const FileFault& fault : report.faults) faults += fault.file + ": " + fault.text + "\n";
     if (!faults.empty() && faults != not_saved) TellText("not_saved", faults);
     not_saved = faults;
-    if (!faults.empty()) return;
+    if (!faults.empty()) return false;
     Json::Value message;
     message["type"] = "saved";
     message["revision"] = edit.saved_revision();
     Tell(message);
+    return true;
   }
 
   void Publish(const std::shared_ptr<const LiveState>& state) {
@@ -236,10 +238,10 @@ struct PrepareSession::Parts {
       }
       if (changed.wait_for(lock, stop, kLook, [&] { return is_due; })) continue;
       if (stop.stop_requested()) break;
-      if (!edit.is_saved()) SaveAndTell();
+      is_due = !edit.is_saved() && SaveAndTell();  // what could not be saved before is new
       const OutsideChanges outside = edit.Refresh();
       const bool is_reread = TellReread(outside);
-      is_due = TellOutside(outside) || is_reread;
+      is_due = TellOutside(outside) || is_reread || is_due;
     }
     return std::nullopt;
   }
