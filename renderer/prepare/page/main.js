@@ -1,26 +1,26 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The page as a whole.
 
-import {isReport} from "./api.js";
-import {byId, first, node} from "./dom.js";
-import {addConstraintKeys, showConstraints} from "./constraints.js";
-import {showControlTable} from "./control_table.js";
-import {addDirectionKeys} from "./directions.js";
-import {buildHeader} from "./header.js";
-import {showHelp} from "./help.js";
-import {addAction, addKeys, listenToKeys} from "./keys.js";
-import {addLightKeys} from "./light_panel.js";
-import {buildLists, showList} from "./lists.js";
-import {showMeasure} from "./measure.js";
-import {buildPanes} from "./panes.js";
-import {addPolygonKeys} from "./polygon_tool.js";
-import {emit} from "./signals.js";
-import {showSketches} from "./sketches.js";
-import {followRuns, showStages} from "./stages.js";
-import {start} from "./state.js";
-import {buildToolPanel} from "./tool_panel.js";
-import {activePane} from "./ui.js";
-import {language, t} from "./words.js";
+import {isReport} from "./site/api.js";
+import {byId, first, node} from "./words/dom.js";
+import {addConstraintKeys, showConstraints} from "./tools/constraints.js";
+import {showControlTable} from "./points/control_table.js";
+import {addDirectionKeys} from "./tools/directions.js";
+import {buildHeader} from "./around/header.js";
+import {showHelp} from "./around/help.js";
+import {addAction, addKeys, listenToKeys} from "./around/keys.js";
+import {addLightKeys} from "./light/light_panel.js";
+import {buildLists, showList} from "./around/lists.js";
+import {showMeasure} from "./tools/measure.js";
+import {buildPanes} from "./photo/panes.js";
+import {addPolygonKeys} from "./tools/polygon_tool.js";
+import {emit} from "./site/signals.js";
+import {showSketches} from "./points/sketches.js";
+import {followRuns, showStages} from "./around/stages.js";
+import {start} from "./site/state.js";
+import {buildToolPanel} from "./tools/tool_panel.js";
+import {activePane} from "./site/ui.js";
+import {language, t} from "./words/words.js";
 
 function addPageKeys() {
   addKeys();

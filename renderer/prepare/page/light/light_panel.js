@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Samples of horizon, haze and daylight, and what the light's measurement says of them.
+
+import {ask} from "../site/api.js";
+import {button, byId, node, labelled} from "../words/dom.js";
+import {addAction} from "../around/keys.js";
+import {drawLightReport} from "./light_report.js";
+import {say} from "../around/notices.js";
+import {parseNumber} from "../words/numbers.js";
+import {sampleAt, sampleKey, samples} from "./samples.js";
+import {emit} from "../site/signals.js";
+import {edit, isReadOnly, row, rows, state} from "../site/state.js";
+import {activePane, placeOf, setMode, setTool, ui} from "../site/ui.js";
+import {t} from "../words/words.js";
+
+/**
+ * Takes samples of a kind until Esc.
+ * @param {"horizon"|"haze"|"daylight"} kind
+ */
+export function takeSamples(kind) {
+  if (isReadOnly(kind)) return say(t("readOnlyTable"));
+  setMode("light");
+  setTool({
+    name: `sample_${kind}`,
+    hint: () => t("samplePlace"),
+    finish: () => setTool(null),
+    place: (photo, x, y) => insertInTurn(kind, photo, Math.round(x), Math.round(y))
+  });
+  say(t("samplePlace"));
+}
+
+let inTurn = Promise.resolve();
+/** One after the other, as they were placed: the server is asked about each. */
+function insertInTurn(kind, photo, x, y) {
+  state.asking += 1;
+  inTurn = inTurn
+    .then(() => insert(kind, photo, x, y))
+    .finally(() => {
+      state.asking -= 1;
+      emit("saved");
+    });
+}
+
+/** @param {string} kind */
+async function insert(kind, photo, x, y) {
+  const polygon = kind === "horizon" ? null : await polygonAt(photo, x, y);
+  if (row(kind, photo, x, y)) return say(t("taken", {name: `${photo} ${x} ${y}`}));
+  if (kind !== "horizon" && polygon === null) return say(t("noPolygonThere"));
+  const after = polygon === null ? {photo, x, y} : {photo, polygon, x, y};
+  edit(t("opSample", {kind: t(kind), photo}), [{table: kind, before: null, after}]);
+  ui.sample = sampleKey(kind, after);
+  say(t("sampleMade", {kind: t(kind), polygon: polygon ?? ""}));
+}
+
+/** The polygon that the pixel sees first, as the server knows, else by the outlines that are known here. */
+async function polygonAt(photo, x, y) {
+  const answer = await ask("/api/polygon_at", {photo, x, y});
+  return answer.error ? guessedAt(photo, x, y) : (answer.polygon ?? null);
+}
+
+/** The current polygon first, then the smallest, which lies before larger ones more often than not. */
+function guessedAt(photo, x, y) {
+  const holding = rows("polygons")
+    .map(polygon => ({name: polygon.name, outline: outlineOf(polygon, photo)}))
+    .filter(one => one.outline.length > 2 && isInside(one.outline, x, y));
+  if (holding.some(one => one.name === ui.polygon)) return ui.polygon;
+  holding.sort((a, b) => area(a.outline) - area(b.outline));
+  return holding[0]?.name ?? null;
+}
+
+function outlineOf(polygon, photo) {
+  const corners = polygon.vertices.map(name => placeOf(photo, name));
+  return corners.every(at => at) ? corners.map(at => [at.x, at.y]) : [];
+}
+
+function isInside(outline, x, y) {
+  let inside = false;
+  outline.forEach(([x1, y1], i) => {
+    const [x2, y2] = outline[(i + 1) % outline.length];
+    if (y1 > y !== y2 > y && x < ((x2 - x1) * (y - y1)) / (y2 - y1) + x1) inside = !inside;
+  });
+  return inside;
+}
+const area = outline =>
+  Math.abs(
+    outline.reduce((sum, [x, y], i) => {
+      const [u, v] = outline[(i + 1) % outline.length];
+      return sum + x * v - u * y;
+    }, 0)
+  );
+
+/** Deletes the sample chosen, else that at the crosshair. */
+export function deleteSample() {
+  const pane = activePane();
+  const sample =
+    samples().find(one => one.key === ui.sample) ?? sampleAt(pane, pane.cursor.x, pane.cursor.y);
+  if (!sample) return say(t("noSample"));
+  ui.sample = null;
+  edit(t("opDeleteSample", {photo: sample.row.photo}), [
+    {table: sample.kind, before: sample.row, after: null}
+  ]);
+}
+
+export function buildLightPanel(root) {
+  const start = (kind, key) =>
+    button(
+      t(kind),
+      () => {
+        takeSamples(kind);
+        activePane().focus();
+      },
+      {title: key}
+    );
+  const card = node("input", {
+    id: "card",
+    type: "text",
+    inputmode: "decimal",
+    placeholder: "0.18 0.18 0.18"
+  });
+  card.addEventListener("change", () => takeCard(card));
+  root.append(
+    node(
+      "div",
+      {class: "buttons"},
+      start("horizon", "H"),
+      start("haze", "J"),
+      start("daylight", "O"),
+      button(t("deleteSample"), deleteSample, {title: "Del"})
+    ),
+    labelled(t("reflectance"), card),
+    node("div", {id: "light-about"})
+  );
+  drawn = "";
+}
+
+/** The reflectance of the daylight samples' material: three numbers, or one for grey. */
+function takeCard(field) {
+  const values = field.value
+    .trim()
+    .split(/[\s;]+/)
+    .map(parseNumber);
+  const old = rows("light")[0] ?? null;
+  if (field.value.trim() === "") {
+    const {daylight_reflectance_rgb: _, ...rest} = old ?? {};
+    return edit(t("opCard"), [{table: "light", before: old, after: rest}]);
+  }
+  if (
+    ![1, 3].includes(values.length) ||
+    values.some(value => value === null || value <= 0 || value > 1)
+  ) {
+    return say(t("badNumber", {text: field.value}));
+  }
+  edit(t("opCard"), [
+    {
+      table: "light",
+      before: old,
+      after: {
+        ...old,
+        daylight_reflectance_rgb: values.length === 1 ? [values[0], values[0], values[0]] : values
+      }
+    }
+  ]);
+}
+
+let drawn = "";
+export function updateLightPanel() {
+  const card = byId("card"),
+    about = byId("light-about");
+  const signature = JSON.stringify([
+    state.light,
+    rows("light"),
+    ...["horizon", "haze", "daylight"].map(kind => rows(kind).length)
+  ]);
+  if (!about || drawn === signature) return;
+  drawn = signature;
+  if (document.activeElement !== card)
+    card.value = (rows("light")[0]?.daylight_reflectance_rgb ?? []).join(" ");
+  drawLightReport(about);
+}
+
+export function addLightKeys() {
+  addAction({id: "horizon", key: "H", run: () => takeSamples("horizon")});
+  addAction({id: "haze", key: "J", run: () => takeSamples("haze")});
+  addAction({id: "daylight", key: "O", run: () => takeSamples("daylight")});
+}

@@ -1,0 +1,355 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A pane: one photograph with its own zoom, painted from tiles, and the crosshair on it.
+// screen = k (p + 1/2) + t in CSS pixels, p a pixel coordinate, (0, 0) being a pixel's centre.
+
+import {button, node, svg} from "../words/dom.js";
+import {drawFigures} from "./figures.js";
+import {listenTo} from "./gestures.js";
+import {Loupe} from "./loupe.js";
+import {drawMarks} from "./marks.js";
+import {drawSamples} from "../light/samples.js";
+import {photoOf, state} from "../site/state.js";
+import {emit, redraw} from "../site/signals.js";
+import {fetchTiles, kTile, tileIfHere, wishTile} from "./tiles.js";
+import {activePane, placeOf, stepLines, ui} from "../site/ui.js";
+import {t} from "../words/words.js";
+
+const clamp = (value, low, high) => Math.min(Math.max(value, low), high);
+
+export class Pane {
+  constructor() {
+    /** @type {import("../site/state.js").Photo|null} */
+    this.photo = null;
+    this.k = 1;
+    this.tx = 0;
+    this.ty = 0;
+    this.isFitted = true;
+    /** The crosshair [px], and whether someone has moved it since it was brought to the point. */
+    this.cursor = {x: 0, y: 0};
+    this.isMoved = false;
+    this.paintMs = 0;
+    this.isDrawn = false;
+    /** @type {Map<string, any>} */
+    this.markNodes = new Map();
+    /** @type {Map<string, any>} */
+    this.sampleNodes = new Map();
+    /** How often what is drawn has changed, but for its place. */
+    this.changes = 0;
+    this.drawn = {k: 0, tx: 0, ty: 0};
+    /** @type {any} */
+    this.context = null;
+    this.build();
+    this.loupe = new Loupe(this);
+    listenTo(this);
+    new ResizeObserver(() => this.resize()).observe(this.stage);
+  }
+
+  build() {
+    this.canvas = node("canvas");
+    this.figures = svg("g", {class: "figures"});
+    this.markLayer = svg("g", {class: "marks"});
+    this.sampleLayer = svg("g", {class: "samples"});
+    this.cross = svg(
+      "g",
+      {class: "crosshair"},
+      svg("path", {class: "casing", d: kCross}),
+      svg("path", {d: kCross})
+    );
+    const layers = [this.figures, this.markLayer, this.sampleLayer];
+    this.overlay = svg("svg", {class: "overlay", "aria-hidden": false}, ...layers);
+    const crossLayer = svg("svg", {class: "overlay still"}, this.cross);
+    this.stage = node(
+      "div",
+      {class: "stage", tabindex: 0, role: "application"},
+      this.canvas,
+      this.overlay,
+      crossLayer
+    );
+    this.chooser = node("select", {tabindex: -1, "aria-label": t("photo")});
+    this.chooser.addEventListener("change", () => {
+      this.setPhoto(photoOf(this.chooser.value) ?? null);
+      emit("selection");
+      this.focus();
+    });
+    this.note = node("span", {class: "note"});
+    const next = () => {
+      stepLines();
+      this.focus();
+    };
+    this.lines = button("", next, {class: "small lines", tabindex: -1, title: "'"});
+    this.root = node(
+      "section",
+      {class: "pane"},
+      node("header", {}, this.chooser, this.note, this.lines),
+      this.stage
+    );
+  }
+
+  /** @param {import("../site/state.js").Photo|null} photo */
+  setPhoto(photo) {
+    if (!photo || photo === this.photo) return;
+    this.photo = photo;
+    this.index = state.photos.indexOf(photo);
+    this.isDrawn = false;
+    for (const layer of [this.markLayer, this.sampleLayer]) layer.replaceChildren();
+    this.markNodes = new Map();
+    this.sampleNodes = new Map();
+    this.cursor = {x: (photo.width - 1) / 2, y: (photo.height - 1) / 2};
+    this.isMoved = false;
+    this.stage.setAttribute("aria-label", t("paneLabel", {photo: photo.name}));
+    this.root.dataset.photo = photo.name;
+    this.fit();
+    if (ui.point !== null) this.goTo(ui.point, false);
+  }
+
+  focus() {
+    this.stage.focus({preventScroll: true});
+  }
+
+  resize() {
+    const box = this.stage.getBoundingClientRect(),
+      ratio = devicePixelRatio;
+    if (box.width === 0) return;
+    const dx = (box.width - (this.width ?? box.width)) / 2,
+      dy = (box.height - (this.height ?? box.height)) / 2;
+    this.width = box.width;
+    this.height = box.height;
+    this.canvas.width = Math.round(box.width * ratio);
+    this.canvas.height = Math.round(box.height * ratio);
+    this.isDrawn = false;
+    // Half a pane more on each side, so that a pan only moves the layer.
+    const {width, height} = box;
+    this.overlay.setAttribute("viewBox", `${-width / 2} ${-height / 2} ${2 * width} ${2 * height}`);
+    if (this.isFitted) this.fit();
+    else this.setView(this.k, this.tx + dx, this.ty + dy);
+    this.paint(); // at once: a resized canvas is empty
+  }
+
+  /** The view: t on whole device pixels, so that at whole k every pixel is a sharp square. */
+  setView(k, tx, ty) {
+    const ratio = devicePixelRatio,
+      snap = value => Math.round(value * ratio) / ratio;
+    this.k = clamp(k, this.fitScale() / 4, 64);
+    this.tx = snap(tx);
+    this.ty = snap(ty);
+    redraw();
+  }
+
+  fitScale() {
+    if (!this.photo || !this.width) return 0.1;
+    return Math.min(this.width / this.photo.width, this.height / this.photo.height);
+  }
+
+  fit() {
+    if (!this.photo || !this.width) return;
+    const k = this.fitScale();
+    this.isFitted = true;
+    this.setView(k, (this.width - k * this.photo.width) / 2, (this.height - k * this.photo.height) / 2);
+  }
+
+  /** Zooms so that screen place (x, y) keeps its pixel. */
+  zoomAt(k, x, y) {
+    const p = this.toPhoto(x, y);
+    this.isFitted = false;
+    this.k = clamp(k, this.fitScale() / 4, 64);
+    this.setView(this.k, x - this.k * (p.x + 0.5), y - this.k * (p.y + 0.5));
+  }
+
+  /** Zooms with the crosshair in the middle. */
+  zoomAtCursor(k) {
+    this.isFitted = false;
+    this.k = clamp(k, this.fitScale() / 4, 64);
+    this.centre(this.cursor.x, this.cursor.y);
+  }
+
+  /** Pixel (x, y) to the middle of the pane. */
+  centre(x, y) {
+    this.isFitted = false;
+    this.setView(
+      this.k,
+      (this.width ?? 0) / 2 - this.k * (x + 0.5),
+      (this.height ?? 0) / 2 - this.k * (y + 0.5)
+    );
+  }
+
+  toScreen(x, y) {
+    return {x: this.k * (x + 0.5) + this.tx, y: this.k * (y + 0.5) + this.ty};
+  }
+
+  toPhoto(x, y) {
+    return {x: (x - this.tx) / this.k - 0.5, y: (y - this.ty) / this.k - 0.5};
+  }
+
+  isInFrame(x, y) {
+    return (
+      this.photo !== null &&
+      x >= -0.5 &&
+      y >= -0.5 &&
+      x <= this.photo.width - 0.5 &&
+      y <= this.photo.height - 0.5
+    );
+  }
+
+  /** The crosshair to a point, if its place is known; the view along, if asked. */
+  goTo(point, moves) {
+    const place = this.photo && placeOf(this.photo.name, point);
+    this.isMoved = false;
+    if (!place) return;
+    this.cursor = place;
+    if (moves && !this.isFitted) this.centre(place.x, place.y);
+    else this.reveal();
+    redraw();
+  }
+
+  /** The crosshair stays on the point, wherever that is now. */
+  stay() {
+    const isBusy = this.isMoved || ui.tool || ui.point === null || !this.photo;
+    const place = isBusy ? null : placeOf(this.photo.name, ui.point);
+    if (place) this.cursor = place;
+  }
+
+  /** The crosshair to a pixel, kept on the photo. */
+  moveCursor(x, y) {
+    if (!this.photo) return;
+    this.cursor = {
+      x: clamp(x, -0.5, this.photo.width - 0.5),
+      y: clamp(y, -0.5, this.photo.height - 0.5)
+    };
+    this.isMoved = true;
+    this.reveal();
+    redraw();
+  }
+
+  /** Pans if the crosshair is out of sight. */
+  reveal() {
+    const at = this.toScreen(this.cursor.x, this.cursor.y),
+      edge = 24;
+    if (
+      !this.width ||
+      (at.x >= edge && at.y >= edge && at.x <= this.width - edge && at.y <= this.height - edge)
+    )
+      return;
+    if (!this.isFitted) this.centre(this.cursor.x, this.cursor.y);
+  }
+
+  draw() {
+    this.paint();
+    this.drawHeader();
+    if (!this.photo) return;
+    this.cross.classList.toggle("off", Boolean(this.photo.fault));
+    const at = this.toScreen(this.cursor.x, this.cursor.y);
+    this.cross.setAttribute("transform", `translate(${at.x} ${at.y})`);
+    this.drawOverlay();
+    this.loupe.draw();
+  }
+
+  /** Lines and marks: anew after a change, placed anew after a zoom; a pan only moves their layer. */
+  drawOverlay() {
+    const dx = this.tx - this.drawn.tx,
+      dy = this.ty - this.drawn.ty;
+    const isFar = Math.abs(dx) > this.width / 2 || Math.abs(dy) > this.height / 2;
+    if (!this.isDrawn || this.k !== this.drawn.k || isFar) {
+      if (!this.isDrawn) this.changes += 1;
+      this.isDrawn = true;
+      this.drawn = {k: this.k, tx: this.tx, ty: this.ty};
+      drawMarks(this);
+      drawSamples(this);
+    }
+    const shift = `translate(${this.tx - this.drawn.tx}px, ${this.ty - this.drawn.ty}px)`;
+    if (this.overlay.style.transform !== shift) this.overlay.style.transform = shift;
+    drawFigures(this);
+  }
+
+  drawHeader() {
+    this.root.classList.toggle("active", activePane() === this);
+    const names = state.photos.map(photo => photo.name);
+    if (this.chooser.childElementCount !== names.length) {
+      this.chooser.replaceChildren(...names.map(name => node("option", {value: name, text: name})));
+    }
+    this.chooser.value = this.photo?.name ?? "";
+    const about = state.adjusted?.photos?.[this.photo?.name ?? ""],
+      fault = this.photo?.fault;
+    this.lines.textContent = t(`lines_${ui.lines}`);
+    this.note.classList.toggle("fault", Boolean(fault));
+    this.note.title = fault ?? "";
+    if (fault) return void (this.note.textContent = t("photoFault", {why: fault}));
+    this.note.textContent = !this.photo
+      ? ""
+      : noteOf(this.photo.name, about) +
+        `  ${Math.round(100 * this.k * devicePixelRatio)} %${ui.arrows ? `  v × ${ui.arrows}` : ""}`;
+  }
+
+  paint() {
+    const begin = performance.now(),
+      ratio = devicePixelRatio;
+    const context = (this.context ??= this.canvas.getContext("2d", {alpha: false}));
+    context.setTransform(1, 0, 0, 1, 0, 0);
+    context.fillStyle = "#15191c";
+    context.fillRect(0, 0, this.canvas.width, this.canvas.height);
+    if (this.photo && !this.photo.fault && this.width)
+      this.paintTiles(context, this.k * ratio, this.tx * ratio, this.ty * ratio);
+    fetchTiles();
+    this.paintMs = performance.now() - begin;
+  }
+
+  /** All in device pixels. */
+  paintTiles(context, k, tx, ty) {
+    const {width, height, levels} = /** @type {any} */ (this.photo);
+    const level = clamp(Math.floor(-Math.log2(k) + 1e-6), 0, levels - 1),
+      side = kTile * 2 ** level;
+    context.imageSmoothingEnabled = k < 1;
+    context.save();
+    context.beginPath();
+    context.rect(
+      Math.round(tx),
+      Math.round(ty),
+      Math.round(k * width + tx) - Math.round(tx),
+      Math.round(k * height + ty) - Math.round(ty)
+    );
+    context.clip();
+    const last = (extent, shift, size) =>
+      Math.min(Math.floor((extent - shift) / k / side), Math.ceil(size / side) - 1);
+    const first = shift => Math.max(0, Math.floor(-shift / k / side));
+    wishTile(this.index, levels - 1, 0, 0); // the overview, which is shown until finer tiles are here
+    for (let y = first(ty); y <= last(this.canvas.height, ty, height); ++y) {
+      for (let x = first(tx); x <= last(this.canvas.width, tx, width); ++x) {
+        this.paintTile(context, {level, x, y}, k * side, tx, ty);
+      }
+    }
+    context.restore();
+  }
+
+  /** A tile, or until it is here its part of a coarser one. */
+  paintTile(context, {level, x, y}, size, tx, ty) {
+    const left = Math.round(tx + x * size),
+      right = Math.round(tx + (x + 1) * size);
+    const top = Math.round(ty + y * size),
+      bottom = Math.round(ty + (y + 1) * size);
+    for (let up = 0; level + up < /** @type {any} */ (this.photo).levels; ++up) {
+      const tile = tileIfHere(this.index, level + up, x >> up, y >> up);
+      if (up === 0 && !tile) wishTile(this.index, level, x, y);
+      if (!tile) continue;
+      const part = kTile / 2 ** up;
+      context.drawImage(
+        tile,
+        (x - ((x >> up) << up)) * part,
+        (y - ((y >> up) << up)) * part,
+        part,
+        part,
+        left,
+        top,
+        right - left,
+        bottom - top
+      );
+      return;
+    }
+  }
+}
+
+const kCross = "M-16 0H-3M3 0H16M0 -16V-3M0 3V16";
+
+function noteOf(name, about) {
+  if (!about) return "";
+  if (!about.oriented) return about.why || t("notOriented");
+  return t("orientedNote", {rms: about.rms_px === undefined ? "–" : about.rms_px.toFixed(2)});
+}

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Tiles of photographs: fetched by need, the newest wishes first, kept until newer ones need the room.
+
+import {getBlob} from "../site/api.js";
+
+export const kTile = 512;
+const kMostKept = 256,
+  kMostAtOnce = 6;
+
+/** @type {Map<string, ImageBitmap>} by use, the latest last */
+const kept = new Map();
+/** @type {Map<string, {path: string, wanted: number}>} */
+const wishes = new Map();
+const underway = new Set();
+/** @type {Map<string, number>} until when a tile that failed is not asked for again */
+const failed = new Map();
+let turn = 0;
+/** @type {() => void} */
+let arrived = () => {};
+
+/** @param {() => void} listener called when there are new tiles */
+export const onTiles = listener => {
+  arrived = listener;
+};
+
+/** The tile, if it is here. */
+export function tileIfHere(photo, level, x, y) {
+  const key = `${photo}/${level}/${x}/${y}`;
+  const tile = kept.get(key);
+  if (tile) {
+    kept.delete(key);
+    kept.set(key, tile);
+  }
+  return tile;
+}
+
+/** Asks for a tile; what is not asked for again in the next frames is given up. */
+export function wishTile(photo, level, x, y) {
+  const key = `${photo}/${level}/${x}/${y}`;
+  if (kept.has(key) || underway.has(key) || (failed.get(key) ?? 0) > performance.now()) return;
+  wishes.set(key, {path: `/api/tile?photo=${photo}&level=${level}&x=${x}&y=${y}`, wanted: turn});
+}
+
+/** After a frame's wishes. */
+export function fetchTiles() {
+  turn += 1;
+  for (const [key, wish] of wishes) if (wish.wanted < turn - 30) wishes.delete(key);
+  const newest = [...wishes].sort((a, b) => b[1].wanted - a[1].wanted);
+  for (const [key, wish] of newest) {
+    if (underway.size >= kMostAtOnce) return;
+    wishes.delete(key);
+    underway.add(key);
+    fetchTile(key, wish.path);
+  }
+}
+
+async function fetchTile(key, path) {
+  try {
+    kept.set(key, await createImageBitmap(await getBlob(path)));
+    while (kept.size > kMostKept) {
+      const [oldest, tile] = kept.entries().next().value;
+      tile.close();
+      kept.delete(oldest);
+    }
+  } catch {
+    failed.set(key, performance.now() + 2000);
+    setTimeout(() => arrived(), 2100);
+  }
+  underway.delete(key);
+  arrived();
+  fetchTiles();
+}
