@@ -138,7 +138,8 @@ const std::vector<Photograph>& LinearPhotos::Of(const SceneGeometry& scene) {
   return photos_;
 }
 
-Json::Value LiveLight(const SitePaths& site, const SceneGeometry& scene, LinearPhotos& photos) {
+Json::Value LiveLight(const SitePaths& site, const SceneGeometry& scene, LinearPhotos& photos,
+                      std::shared_ptr<const NaturalEnvironment>* environment) {
   if (!std::filesystem::exists(site.survey() / "samples.json")) return Json::nullValue;
   Json::Value message;
   message["failed"] = Json::nullValue;
@@ -154,6 +155,7 @@ Json::Value LiveLight(const SitePaths& site, const SceneGeometry& scene, LinearP
     message["samples"]["daylight"] =
         ResidualsJson(measured.samples.daylight, measured.daylight_fit.residuals, scene);
     message["advice"] = AdviceJson(measured);
+    if (environment) *environment = std::make_shared<NaturalEnvironment>(measured.environment);
   } catch (const std::exception& error) {
     message["failed"] = error.what();
   }

@@ -22,6 +22,7 @@
 #include "renderer/prepare/prepare_page.h"
 #include "renderer/prepare/prepare_session.h"
 #include "renderer/prepare/questions.h"
+#include "renderer/prepare/relit_photos.h"
 #include "renderer/prepare/site_from_exif.h"
 #include "renderer/prepare/stage_runs.h"
 
@@ -48,6 +49,7 @@ class PrepareService {
         tiles_(paths_),
         send_(std::move(send)),
         session_(site, send_),
+        relit_(paths_, [this] { return session_.live(); }),
         runs_(site, [this](const Json::Value& message) {
           send_(OneLineJson(message));
           if (message.isMember("status")) session_.Reload();
@@ -63,6 +65,7 @@ class PrepareService {
 
   void Stop() {
     runs_.End();
+    relit_.Stop();
     session_.Stop();
   }
 
@@ -74,6 +77,8 @@ class PrepareService {
     routes_["GET /api/site"] = [this](const WebRequest&) { return JsonResponse(Site()); };
     routes_["GET /api/tile"] = [this](const WebRequest& r) { return Tile(r); };
     routes_["GET /api/patch"] = [this](const WebRequest& r) { return Patch(r); };
+    routes_["GET /api/relit"] = [this](const WebRequest& r) { return Relit(r, false); };
+    routes_["GET /api/relit_picture"] = [this](const WebRequest& r) { return Relit(r, true); };
     routes_["GET /api/value"] = [this](const WebRequest& r) { return Value(r); };
     Post("op", [this](const Json::Value& q) { return Told(session_.Apply(q)); });
     Post("undo", [this](const Json::Value& q) { return Told(session_.Undo(q["id"].asString())); });
@@ -143,6 +148,17 @@ class PrepareService {
     response.type = "image/png";
     response.body = tiles_.Patch(QueryInteger(request, "photo"), QueryInteger(request, "x"),
                                  QueryInteger(request, "y"), QueryInteger(request, "r"));
+    return response;
+  }
+
+  WebResponse Relit(const WebRequest& request, bool is_picture) {
+    const auto light = request.query.find("light");
+    const RelitPhotos::Answer answer =
+        relit_.Ask(QueryInteger(request, "photo"), light == request.query.end() ? "" : light->second);
+    if (!is_picture || !answer.jpeg) return JsonResponse(answer.body, answer.status);
+    WebResponse response;
+    response.type = "image/jpeg";
+    response.body = *answer.jpeg;
     return response;
   }
 
@@ -251,6 +267,7 @@ class PrepareService {
   PhotoTiles tiles_;
   const std::function<void(std::string)> send_;
   PrepareSession session_;
+  RelitPhotos relit_;
   StageRuns runs_;
   std::map<std::string, Route> routes_;
 };

@@ -6,6 +6,8 @@
 //   GET  /api/tile?photo&level&x&y     JPEG, 512 px; photo is an index
 //   GET  /api/patch?photo&x&y&r        PNG, lossless
 //   GET  /api/value?photo&x&y          one pixel
+//   GET  /api/relit?photo&light        light: none, sun; 202 until it is made (relit_photos.h)
+//   GET  /api/relit_picture?...        then its JPEG
 //   POST /api/op                       an operation (operation.h): 200 {revision}, 409 {conflicts}
 //   POST /api/undo, /api/redo {id}     200 {revision, operation}
 //   POST /api/epipolar, /api/measure, /api/best_photo, /api/polygon_at, /api/import   questions.h

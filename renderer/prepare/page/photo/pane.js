@@ -10,6 +10,7 @@ import {drawMarks} from "./marks.js";
 import {drawSamples} from "../light/samples.js";
 import {photoOf, state} from "../site/state.js";
 import {emit, redraw} from "../site/signals.js";
+import {relit, stepLight} from "./relit.js";
 import {fetchTiles, kTile, tileIfHere, wishTile} from "./tiles.js";
 import {activePane, placeOf, stepLines, ui} from "../site/ui.js";
 import {t} from "../words/words.js";
@@ -24,6 +25,8 @@ export class Pane {
     this.tx = 0;
     this.ty = 0;
     this.isFitted = true;
+    /** @type {"photo"|"none"|"sun"} in which light it is shown */
+    this.light = "photo";
     /** The crosshair [px], and whether someone has moved it since it was brought to the point. */
     this.cursor = {x: 0, y: 0};
     this.isMoved = false;
@@ -77,10 +80,17 @@ export class Pane {
       this.focus();
     };
     this.lines = button("", next, {class: "small lines", tabindex: -1, title: "'"});
+    const relight = () => {
+      stepLight(this);
+      this.focus();
+    };
+    this.relight = button("", relight, {class: "small relight", tabindex: -1, title: t("key_relight")});
+    this.relitNote = node("output", {class: "relit", "aria-live": "polite"});
+    this.stage.append(this.relitNote);
     this.root = node(
       "section",
       {class: "pane"},
-      node("header", {}, this.chooser, this.note, this.lines),
+      node("header", {}, this.chooser, this.note, this.relight, this.lines),
       this.stage
     );
   }
@@ -270,6 +280,7 @@ export class Pane {
     const about = state.adjusted?.photos?.[this.photo?.name ?? ""],
       fault = this.photo?.fault;
     this.lines.textContent = t(`lines_${ui.lines}`);
+    this.drawRelitNote();
     this.note.classList.toggle("fault", Boolean(fault));
     this.note.title = fault ?? "";
     if (fault) return void (this.note.textContent = t("photoFault", {why: fault}));
@@ -277,6 +288,18 @@ export class Pane {
       ? ""
       : noteOf(this.photo.name, about) +
         `  ${Math.round(100 * this.k * devicePixelRatio)} %${ui.arrows ? `  v × ${ui.arrows}` : ""}`;
+  }
+
+  /** In which light the photo is shown, and what is to be known of it. */
+  drawRelitNote() {
+    this.relight.textContent = t(`light_${this.light}`);
+    this.relight.setAttribute("aria-pressed", String(this.light !== "photo"));
+    this.root.dataset.light = this.light;
+    const made = this.light === "photo" || !this.photo ? null : relit(this.index, this.light);
+    this.relitNote.hidden = !made;
+    this.relitNote.classList.toggle("fault", Boolean(made?.isFault));
+    const text = made ? `${t(`light_${this.light}`)}: ${made.text}` : "";
+    if (this.relitNote.textContent !== text) this.relitNote.textContent = text;
   }
 
   paint() {
@@ -287,12 +310,20 @@ export class Pane {
     context.fillStyle = "#15191c";
     context.fillRect(0, 0, this.canvas.width, this.canvas.height);
     if (this.photo && !this.photo.fault && this.width)
-      this.paintTiles(context, this.k * ratio, this.tx * ratio, this.ty * ratio);
+      this.paintPhoto(context, this.k * ratio, this.tx * ratio, this.ty * ratio);
     fetchTiles();
     this.paintMs = performance.now() - begin;
   }
 
-  /** All in device pixels. */
+  /** All in device pixels; relit as soon as that is made. */
+  paintPhoto(context, k, tx, ty) {
+    const picture = this.light === "photo" ? null : relit(this.index, this.light).picture;
+    if (!picture) return this.paintTiles(context, k, tx, ty);
+    const {width, height} = /** @type {any} */ (this.photo);
+    context.imageSmoothingEnabled = true;
+    context.drawImage(picture, tx, ty, k * width, k * height);
+  }
+
   paintTiles(context, k, tx, ty) {
     const {width, height, levels} = /** @type {any} */ (this.photo);
     const level = clamp(Math.floor(-Math.log2(k) + 1e-6), 0, levels - 1),
