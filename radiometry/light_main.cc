@@ -31,7 +31,7 @@ int RunLight(int argc, char** argv) {
     const LightMeasurement measurement = MeasureDaylight(site, options);
     WriteEnvironment(site, measurement);
     std::cout << BriefReport(measurement);
-    std::cout << WarningLines(measurement.warnings);
+    std::cout << WarningLines(TextsOf(measurement.warnings));
   });
 }
 

@@ -127,7 +127,7 @@ void WriteEnvironment(const SitePaths& site, const LightMeasurement& measured) {
   AddAir(measured, &json["air"]);
   AddLight(measured, &json["light"]);
   json["warnings"] = Json::Value(Json::arrayValue);
-  for (const std::string& warning : measured.warnings) json["warnings"].append(warning);
+  for (const Sentence& warning : measured.warnings) json["warnings"].append(warning.text());
   WriteJson(site.environment(), json);
 }
 

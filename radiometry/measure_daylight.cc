@@ -52,7 +52,7 @@ std::vector<InputImage> ListInputImages(const SitePaths& site, const SceneGeomet
 
 std::map<std::string, NaturalMaterial> MaterialsOfPolygons(const SitePaths& site,
                                                            const SceneGeometry& scene,
-                                                           std::vector<std::string>* warnings) {
+                                                           std::vector<Sentence>* warnings) {
   std::map<std::string, NaturalMaterial> materials = ReadNaturalMaterials(site);
   std::string missing;
   for (const Polygon& polygon : scene.polygons) {
@@ -60,10 +60,10 @@ std::map<std::string, NaturalMaterial> MaterialsOfPolygons(const SitePaths& site
     missing += (missing.empty() ? "" : ", ") + polygon.material;
   }
   if (!missing.empty()) {
-    warnings->push_back(
-        "materials without an entry in survey/materials.json, taken as purely "
-        "diffuse: " +
-        missing);
+    warnings->push_back(Sentence("lightNoMaterial",
+                                 "materials without an entry in survey/materials.json, taken as "
+                                 "purely diffuse: {materials}",
+                                 {{"materials", missing}}));
   }
   return materials;
 }
@@ -84,10 +84,11 @@ Spectrum HorizonColor(const std::vector<PixelSample>& samples, const SpectralBas
 }
 
 AtmosphereFit MeasureAir(const LightSamples& samples, const SpectralBasis& spectra,
-                         std::vector<std::string>* warnings) {
+                         std::vector<Sentence>* warnings) {
   const Spectrum horizon = HorizonColor(samples.horizon, spectra);
   if (samples.haze.empty()) {
-    warnings->push_back("samples.json has no haze samples: the air is taken as clear");
+    warnings->push_back(Sentence(
+        "lightNoHaze", "samples.json has no haze samples: the air is taken as clear"));
     AtmosphereFit clear;
     clear.air.horizon = horizon;
     return clear;
@@ -147,27 +148,33 @@ std::vector<LightGeometry> TraceLight(const std::vector<SurfacePoint>& points, c
 }
 
 Spectrum SampleBrdf(const LightSamples& samples, const SpectralBasis& spectra,
-                    std::vector<std::string>* warnings) {
+                    std::vector<Sentence>* warnings) {
   if (samples.daylight_reflectance) {
     return spectra.ReflectanceFromRgb(*samples.daylight_reflectance) / std::numbers::pi;
   }
-  warnings->push_back(
-      "samples.json has no daylight_reflectance_rgb: it is taken as 1, so the "
-      "building will come out too dark beside its surroundings");
+  warnings->push_back(Sentence("lightNoReflectance",
+                               "samples.json has no daylight_reflectance_rgb: it is taken as 1, so "
+                               "the building will come out too dark beside its surroundings"));
   return spectra.Ones() / std::numbers::pi;
 }
 
 void WarnOfWeakSamples(const LightMeasurement& measured, bool has_sun,
                        const std::vector<DaylightSample>& samples,
-                       std::vector<std::string>* warnings) {
+                       std::vector<Sentence>* warnings) {
   const bool any_sun = std::any_of(samples.begin(), samples.end(),
                                    [](const auto& sample) { return sample.geometry.sun > 0; });
-  if (!has_sun) warnings->push_back("no sun direction was measured: the sky is taken as overcast");
-  if (has_sun && !any_sun) warnings->push_back("no daylight sample sees the sun: it stays dark");
-  if (measured.daylight_fit.condition > kPoorCondition) {
+  if (!has_sun) {
+    warnings->push_back(Sentence("lightOvercast",
+                                 "no sun direction was measured: the sky is taken as overcast"));
+  }
+  if (has_sun && !any_sun) {
     warnings->push_back(
-        "the daylight samples hardly tell sun, sky and ambient light apart: choose "
-        "some in sun, in open shade and in deep shade");
+        Sentence("lightSunUnseen", "no daylight sample sees the sun: it stays dark"));
+  }
+  if (measured.daylight_fit.condition > kPoorCondition) {
+    warnings->push_back(Sentence("lightPoor",
+                                 "the daylight samples hardly tell sun, sky and ambient light "
+                                 "apart: choose some in sun, in open shade and in deep shade"));
   }
 }
 
@@ -228,20 +235,23 @@ LightMeasurement WithoutSamples(const SitePaths& site, SceneGeometry scene,
 
 // Haze that cannot be told is left out; light needs the others.
 void RequireEnough(const SitePaths& site, LightSamples* samples,
-                   std::vector<InputError>* left_out) {
+                   std::vector<Sentence>* left_out) {
   const std::filesystem::path file = site.survey() / "samples.json";
-  const auto require = [&](const char* list, size_t count, size_t at_least) {
+  const auto require = [&](const Sentence& list, size_t count, size_t at_least) {
     if (count >= at_least) return;
-    throw InputError(file, std::string(list) + ": " + std::to_string(count) +
-                               " usable samples, expected at least " + std::to_string(at_least));
+    const Sentence message("lightTooFew",
+                           "{list}: {count} usable samples, expected at least {least}",
+                           {{"list", list.ToJson()}, {"count", int(count)}, {"least", int(at_least)}});
+    throw SaidError(InputError(file, message.text()), {file}, message);
   };
-  require("horizon", samples->horizon.size(), 1);
-  require("daylight", samples->daylight.size(), 3);
+  require(Sentence("nameHorizon", "horizon"), samples->horizon.size(), 1);
+  require(Sentence("nameDaylight", "daylight"), samples->daylight.size(), 3);
   const auto [nearest, farthest] =
       std::minmax_element(samples->haze.begin(), samples->haze.end(),
                           [](const auto& a, const auto& b) { return a.distance < b.distance; });
   if (samples->haze.empty() || nearest->distance < farthest->distance) return;
-  left_out->emplace_back(file, "haze: all samples at one distance, expected different ones");
+  left_out->push_back(Sentence("lightOneDistance",
+                               "haze: all samples at one distance, expected different ones"));
   samples->haze.clear();
 }
 
@@ -273,7 +283,7 @@ LightMeasurement MeasureDaylight(const SitePaths& site, const LightOptions& opti
 
 LightMeasurement MeasureDaylightSoFar(const SitePaths& site, const SceneGeometry& scene,
                                       const std::vector<Photograph>& photos,
-                                      std::vector<InputError>* left_out) {
+                                      std::vector<Sentence>* left_out) {
   const LightOptions options;
   LightMeasurement measured = WithoutSamples(site, scene, options);
   measured.samples = ReadSamples(site, scene, photos, {}, left_out);

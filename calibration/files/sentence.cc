@@ -3,8 +3,6 @@
 
 #include <utility>
 
-#include "calibration/files/error.h"
-
 namespace insitu {
 namespace {
 
@@ -44,6 +42,12 @@ Sentence Sentence::Verbatim(std::string text) {
   return sentence;
 }
 
+Sentence Sentence::SaidIn(const Json::Value& object, const std::string& member) {
+  Sentence sentence = Verbatim(object[member].asString());
+  sentence.said_ = object[member + "_said"];
+  return sentence;
+}
+
 Json::Value Sentence::ToJson() const {
   Json::Value json;
   SayIn(&json, "text");
@@ -53,6 +57,28 @@ Json::Value Sentence::ToJson() const {
 void Sentence::SayIn(Json::Value* object, const std::string& member) const {
   (*object)[member] = text_;
   if (!said_.isNull()) (*object)[member + "_said"] = said_;
+}
+
+std::vector<std::string> TextsOf(const std::vector<Sentence>& sentences) {
+  std::vector<std::string> texts;
+  for (const Sentence& sentence : sentences) texts.push_back(sentence.text());
+  return texts;
+}
+
+SaidError::SaidError(const InputError& english, const FilePlace& place, const Sentence& message)
+    : InputError(english) {
+  const std::string line = place.line > 0 ? ":" + std::to_string(place.line) : "";
+  Json::Value said = Sentence("atPlace", "{place}: {message}",
+                              {{"place", place.path.filename().string() + line},
+                               {"message", message.ToJson()}})
+                         .ToJson();
+  said["text"] = english.what();
+  sentence_ = Sentence::SaidIn(said, "text");
+}
+
+Sentence SentenceOf(const std::exception& error) {
+  const auto* said = dynamic_cast<const SaidError*>(&error);
+  return said ? said->sentence() : Sentence::Verbatim(error.what());
 }
 
 }  // namespace insitu

@@ -4,8 +4,13 @@
 
 #include <json/value.h>
 
+#include <filesystem>
 #include <map>
 #include <string>
+#include <utility>
+#include <vector>
+
+#include "calibration/files/error.h"
 
 namespace insitu {
 
@@ -29,10 +34,27 @@ class Sentence {
   Json::Value ToJson() const;
   // object[member] = text, object[member_said] = {key, values} unless it is verbatim.
   void SayIn(Json::Value* object, const std::string& member) const;
+  // What SayIn wrote.
+  static Sentence SaidIn(const Json::Value& object, const std::string& member);
 
  private:
   std::string text_;
   Json::Value said_;
 };
+
+std::vector<std::string> TextsOf(const std::vector<Sentence>& sentences);
+
+// Bad input that pages word in their language; what() is `english`.what().
+class SaidError : public InputError {
+ public:
+  SaidError(const InputError& english, const FilePlace& place, const Sentence& message);
+  const Sentence& sentence() const { return sentence_; }
+
+ private:
+  Sentence sentence_;
+};
+
+// What an error says: its sentence, else its text verbatim.
+Sentence SentenceOf(const std::exception& error);
 
 }  // namespace insitu

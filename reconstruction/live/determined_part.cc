@@ -27,17 +27,21 @@ std::string MessageAt(const InputError& error, const FilePlace& place) {
   return text.compare(0, start.size(), start) == 0 ? text.substr(start.size()) : text;
 }
 
-std::string ReasonOfPhoto(const StartGrowth& growth, size_t photo) {
-  static const char* const kMissing[] = {"three control points", "two more control points",
-                                         "one more control point"};
+Sentence ReasonOfPhoto(const StartGrowth& growth, size_t photo) {
   const StartGrowth::PhotoMarks marks = growth.MarksOf(photo);
-  if (marks.known.size() < 3) return kMissing[marks.known.size()];
+  if (marks.known.empty()) return Sentence("photoThree", "three control points");
+  if (marks.known.size() == 1) return Sentence("photoTwo", "two more control points");
+  if (marks.known.size() == 2) return Sentence("photoOne", "one more control point");
   const std::string count = std::to_string(marks.known.size());
   if (!growth.CanResect(photo)) {
-    return "its " + count + " known points lie on one line, one more well beside it";
+    return Sentence("photoOnLine",
+                    "its {count} known points lie on one line, one more well beside it",
+                    {{"count", count}});
   }
-  return "no place of the camera explains its " + count +
-         " known points: is one marked in the wrong place or under the wrong name?";
+  return Sentence("photoNoPlace",
+                  "no place of the camera explains its {count} known points: is one marked in the "
+                  "wrong place or under the wrong name?",
+                  {{"count", count}});
 }
 
 // Prunes a copy of a survey. Every pass grows the start values anew, for what is left out may have
@@ -108,7 +112,8 @@ class PartFinder {
     if (index != index_of_photo_.end() && cameras_[index->second].Sees(pixel)) return false;
     const bool is_known = index != index_of_photo_.end();
     LeaveOut({kind, name, photo,
-              is_known ? "marked outside the photograph" : "the lens of its photo is not known",
+              is_known ? Sentence("markOutside", "marked outside the photograph")
+                       : Sentence("markNoLens", "the lens of its photo is not known"),
               place, is_known});
     return true;
   }
@@ -132,7 +137,7 @@ class PartFinder {
     try {
       growth->PlaceByTiePoints();
     } catch (const InputError& contradiction) {
-      LeaveOut({LeftOut::Kind::kObservation, "tie points", "", contradiction.what(), {}, true});
+      LeaveOut({LeftOut::Kind::kObservation, "tie points", "", SentenceOf(contradiction), {}, true});
       part_.survey.tie_points.reset();
     }
   }
@@ -193,15 +198,24 @@ class PartFinder {
     }
   }
 
-  std::string ReasonOfPoint(const StartGrowth& growth, const std::string& name) const {
+  Sentence ReasonOfPoint(const StartGrowth& growth, const std::string& name) const {
     const size_t rays = growth.Rays(name);
-    if (rays == 1) return "one ray, needs a second photograph";
-    if (rays > 1) return "its rays hardly meet, needs a photograph from another side";
+    if (rays == 1) return Sentence("pointOneRay", "one ray, needs a second photograph");
+    if (rays > 1) {
+      return Sentence("pointHardlyMeets",
+                      "its rays hardly meet, needs a photograph from another side");
+    }
     const auto photos = photos_of_point_.find(name);
-    if (photos == photos_of_point_.end()) return "no ray, needs two photographs";
+    if (photos == photos_of_point_.end()) {
+      return Sentence("pointNoRay", "no ray, needs two photographs");
+    }
     const std::string first = *photos->second.begin();
-    if (photos->second.size() == 1) return "one ray, and its photo " + first + " is not placed";
-    return "none of its " + std::to_string(photos->second.size()) + " photos is placed";
+    if (photos->second.size() == 1) {
+      return Sentence("pointPhotoOut", "one ray, and its photo {photo} is not placed",
+                      {{"photo", first}});
+    }
+    return Sentence("pointPhotosOut", "none of its {count} photos is placed",
+                    {{"count", static_cast<int>(photos->second.size())}});
   }
 
   void LeaveOutPoints(const StartGrowth& growth) {
@@ -221,7 +235,7 @@ class PartFinder {
     for (const EdgeMark& edge : part_.survey.edges) {
       if (!is_out(edge)) continue;
       LeaveOut({LeftOut::Kind::kEdge, Joined({edge.from, edge.to}), edge.photo,
-                "its photo is not placed", edge.place});
+                Sentence("edgePhotoOut", "its photo is not placed"), edge.place});
     }
     std::erase_if(part_.survey.edges, is_out);
     std::erase_if(part_.survey.camera_positions, is_out);
@@ -242,14 +256,25 @@ class PartFinder {
     });
   }
 
-  static std::optional<LeftOut> Undetermined(LeftOut::Kind kind, const char* part,
+  // What is said of something that is needed and not determined.
+  using ReasonOf = Sentence (*)(const std::string& needed);
+  static Sentence NoVertex(const std::string& needed) {
+    return Sentence("noVertex", "its vertex {name} is not determined", {{"name", needed}});
+  }
+  static Sentence NoPoint(const std::string& needed) {
+    return Sentence("noPoint", "its point {name} is not determined", {{"name", needed}});
+  }
+  static Sentence NoEnd(const std::string& needed) {
+    return Sentence("noEnd", "its end {name} is not determined", {{"name", needed}});
+  }
+
+  static std::optional<LeftOut> Undetermined(LeftOut::Kind kind, ReasonOf reason,
                                              const std::string& name,
                                              const std::vector<std::string>& names,
                                              const FilePlace& place, const Points& points) {
     for (const std::string& needed : names) {
       if (points.contains(needed)) continue;
-      return LeftOut{kind, name, "",
-                     std::string("its ") + part + " " + needed + " is not determined", place};
+      return LeftOut{kind, name, "", reason(needed), place};
     }
     return std::nullopt;
   }
@@ -258,19 +283,19 @@ class PartFinder {
     using Kind = LeftOut::Kind;
     Survey& survey = part_.survey;
     Prune(&survey.polygons, [&](const PolygonOutline& polygon) {
-      return Undetermined(Kind::kPolygon, "vertex", polygon.name, polygon.vertices, polygon.place,
+      return Undetermined(Kind::kPolygon, NoVertex, polygon.name, polygon.vertices, polygon.place,
                           points);
     });
     const auto of_pairs = [&](Kind kind) {
       return [&points, kind](const DirectionPair& pair) {
-        return Undetermined(kind, "point", Joined({pair.from, pair.to}), {pair.from, pair.to},
+        return Undetermined(kind, NoPoint, Joined({pair.from, pair.to}), {pair.from, pair.to},
                             pair.place, points);
       };
     };
     Prune(&survey.sun_pairs, of_pairs(Kind::kSun));
     Prune(&survey.zenith_pairs, of_pairs(Kind::kZenith));
     Prune(&survey.edges, [&](const EdgeMark& edge) {
-      auto fault = Undetermined(Kind::kEdge, "end", Joined({edge.from, edge.to}),
+      auto fault = Undetermined(Kind::kEdge, NoEnd, Joined({edge.from, edge.to}),
                                 {edge.from, edge.to}, edge.place, points);
       if (fault) fault->photo = edge.photo;
       return fault;
@@ -286,9 +311,11 @@ class PartFinder {
       for (const std::string& polygon : c.polygons) {
         if (polygons.contains(polygon)) continue;
         return LeftOut{LeftOut::Kind::kConstraint, name, "",
-                       "its polygon " + polygon + " is not determined", c.place};
+                       Sentence("noPolygon", "its polygon {name} is not determined",
+                                {{"name", polygon}}),
+                       c.place};
       }
-      return Undetermined(LeftOut::Kind::kConstraint, "point", name, c.points, c.place, points);
+      return Undetermined(LeftOut::Kind::kConstraint, NoPoint, name, c.points, c.place, points);
     });
   }
 
@@ -302,7 +329,7 @@ class PartFinder {
         return std::nullopt;
       } catch (const InputError& error) {
         return LeftOut{LeftOut::Kind::kPolygon,         polygon.name,  "",
-                       MessageAt(error, polygon.place), polygon.place, true};
+                       Sentence::Verbatim(MessageAt(error, polygon.place)), polygon.place, true};
       }
     });
     PruneOpposingPairs(LeftOut::Kind::kSun, points, &part_.survey.sun_pairs);
@@ -310,7 +337,7 @@ class PartFinder {
     Prune(&part_.survey.edges, [&](const EdgeMark& edge) -> std::optional<LeftOut> {
       if (Step(edge.from, edge.to, points).norm() > kApart) return std::nullopt;
       return LeftOut{LeftOut::Kind::kEdge, Joined({edge.from, edge.to}),
-                     edge.photo,           "its ends lie in the same place",
+                     edge.photo,           Sentence("edgeOnePlace", "its ends lie in the same place"),
                      edge.place,           true};
     });
     Prune(&part_.survey.constraints, [&](const GeometricConstraint& c) -> std::optional<LeftOut> {
@@ -318,7 +345,7 @@ class PartFinder {
       for (size_t i = 0; i + 1 < c.points.size(); i += 2) {
         if (Step(c.points[i], c.points[i + 1], points).norm() > kApart) continue;
         return LeftOut{LeftOut::Kind::kConstraint,         Joined(c.points), "",
-                       "its points lie in the same place", c.place,          true};
+                       Sentence("constraintOnePlace", "its points lie in the same place"), c.place,          true};
       }
       return std::nullopt;
     });
@@ -336,7 +363,8 @@ class PartFinder {
     Prune(pairs, [&](const DirectionPair& pair) -> std::optional<LeftOut> {
       if (Step(pair.from, pair.to, points).dot(sum) > 0) return std::nullopt;
       return LeftOut{kind,       Joined({pair.from, pair.to}),
-                     "",         "points away from the other pairs: are its ends exchanged?",
+                     "",         Sentence("pairOpposed",
+                              "points away from the other pairs: are its ends exchanged?"),
                      pair.place, true};
     });
   }

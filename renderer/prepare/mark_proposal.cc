@@ -85,15 +85,16 @@ std::variant<MarkProposal, NoProposal> RefineCorner(const GreyPatch& patch,
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> gradients(
       StructureTensor(patch.grey, corner[0]));
   const double weak = gradients.eigenvalues()[0], strong = gradients.eigenvalues()[1];
-  if (weak < kEvenSurface) return strong < kEvenSurface ? "an even surface" : "an edge, no corner";
-  if (weak < kWeakCorner * strong) return "an edge, no corner";
+  if (strong < kEvenSurface) return Sentence("markEven", "an even surface");
+  if (weak < kEvenSurface) return Sentence("markEdge", "an edge, no corner");
+  if (weak < kWeakCorner * strong) return Sentence("markEdge", "an edge, no corner");
   cv::cornerSubPix(patch.grey, corner, {kHalfWindow, kHalfWindow}, {-1, -1},
                    {cv::TermCriteria::COUNT + cv::TermCriteria::EPS, 40, 0.005});
   MarkProposal proposal;
   const Eigen::Vector2d shift = Eigen::Vector2d(corner[0].x, corner[0].y) - start;
   proposal.pixel = pixel + shift;
   proposal.shift_px = shift.norm();
-  if (!(proposal.shift_px <= kFarthestShift)) return "no corner within 2.5 px";
+  if (!(proposal.shift_px <= kFarthestShift)) return Sentence("markFar", "no corner within 2.5 px");
   proposal.quality = weak / strong;
   proposal.sigma_px = std::max(kLeastSigma, 0.5 * std::sqrt(kWeakCorner / proposal.quality));
   return proposal;
@@ -102,7 +103,7 @@ std::variant<MarkProposal, NoProposal> RefineCorner(const GreyPatch& patch,
 std::variant<MarkProposal, NoProposal> MatchPatch(
     const GreyPatch& patch, const Eigen::Vector2d& pixel, const GreyPatch& other,
     const Eigen::Vector2d& predicted, const Eigen::Matrix2d& other_from_photo, double radius) {
-  if (std::abs(other_from_photo.determinant()) < 0.04) return "seen too obliquely there";
+  if (std::abs(other_from_photo.determinant()) < 0.04) return Sentence("matchOblique", "seen too obliquely there");
   const cv::Mat pattern = WarpedPattern(patch, pixel, other_from_photo);
   const Eigen::Vector2i middle = ToPatch(other, predicted).array().round().cast<int>();
   const int reach = kHalfPattern + static_cast<int>(std::ceil(radius));
@@ -110,17 +111,17 @@ std::variant<MarkProposal, NoProposal> MatchPatch(
       cv::Rect(middle.x() - reach, middle.y() - reach, 2 * reach + 1, 2 * reach + 1) &
       cv::Rect(0, 0, other.grey.cols, other.grey.rows);
   if (window.width <= 2 * kHalfPattern + 2 || window.height <= 2 * kHalfPattern + 2) {
-    return "too near the frame";
+    return Sentence("matchFrame", "too near the frame");
   }
   cv::Mat scores;
   cv::matchTemplate(other.grey(window), pattern, scores, cv::TM_CCOEFF_NORMED);
   double best = 0;
   cv::Point at;
   cv::minMaxLoc(scores, nullptr, &best, nullptr, &at);
-  if (!(best >= kLeastMatch)) return "nothing there looks alike";
-  if (SecondPeak(scores, at) > kSecondBest * best) return "two places look alike";
+  if (!(best >= kLeastMatch)) return Sentence("matchNothing", "nothing there looks alike");
+  if (SecondPeak(scores, at) > kSecondBest * best) return Sentence("matchTwo", "two places look alike");
   if (at.x == 0 || at.y == 0 || at.x + 1 == scores.cols || at.y + 1 == scores.rows) {
-    return "nothing looks alike within its uncertainty";
+    return Sentence("matchUncertain", "nothing looks alike within its uncertainty");
   }
   const auto score = [&](int u, int v) { return scores.at<float>(at.y + v, at.x + u); };
   const Eigen::Vector2d found(at.x + ParabolaTop(score(-1, 0), score(0, 0), score(1, 0)),

@@ -8,6 +8,7 @@
 #include <string>
 #include <variant>
 
+#include "calibration/files/sentence.h"
 #include "calibration/lens/camera.h"
 
 namespace insitu {
@@ -20,7 +21,7 @@ struct MarkProposal {
 };
 
 // What speaks against a proposal, for people.
-using NoProposal = std::string;
+using NoProposal = Sentence;
 
 // Grey values around the whole pixel nearest to a place.
 struct GreyPatch {

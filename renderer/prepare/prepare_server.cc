@@ -6,6 +6,9 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <memory>
 #include <opencv2/imgcodecs.hpp>
 #include <thread>
 #include <utility>
@@ -32,6 +35,7 @@ namespace {
 constexpr int kPatchRadius = 40;      // [px], of what proposals look at
 constexpr double kSearchSigmas = 3;   // of a prediction
 constexpr double kWidestSearch = 25;  // [px]
+constexpr int kHighestPort = 65535;
 
 WebResponse JsonResponse(const Json::Value& json, int status = 200) {
   WebResponse response;
@@ -191,7 +195,7 @@ class PrepareService {
   static Json::Value ProposalJson(const std::variant<MarkProposal, NoProposal>& found) {
     Json::Value json;
     if (const auto* why = std::get_if<NoProposal>(&found)) {
-      json["error"] = *why;
+      why->SayIn(&json, "error");
       return json;
     }
     const auto& proposal = std::get<MarkProposal>(found);
@@ -239,7 +243,7 @@ class PrepareService {
     const auto here =
         std::find_if(live.result.cameras.begin(), live.result.cameras.end(),
                      [&](const PosedCamera& camera) { return camera.photo == photo; });
-    if (here == live.result.cameras.end()) return ProposalJson(NoProposal("not oriented"));
+    if (here == live.result.cameras.end()) return ProposalJson(Sentence("matchNotOriented", "not oriented"));
     const Eigen::Vector3d normal = (Center(here->cam_from_world) - world).normalized() +
                                    (Center(other.cam_from_world) - world).normalized();
     const Eigen::Vector2d predicted(seen["x"].asDouble(), seen["y"].asDouble());
@@ -272,9 +276,20 @@ class PrepareService {
   std::map<std::string, Route> routes_;
 };
 
-LoopbackServerOptions ServerOptions(const PrepareOptions& options, const std::string& token) {
+// Where the port stands under which the site's page was served last. What the page could not send
+// stands in the browser under that address.
+std::filesystem::path PortFile(const SitePaths& site) { return site.root / "work/prepare/port"; }
+
+// 0: none.
+int LastPort(const SitePaths& site) {
+  std::ifstream file(PortFile(site));
+  int port = 0;
+  return file >> port && port > 0 && port <= kHighestPort ? port : 0;
+}
+
+LoopbackServerOptions ServerOptions(int port, const std::string& token) {
   LoopbackServerOptions server;
-  server.port = options.port;
+  server.port = port;
   server.token = token;
   server.public_resources = PreparePage();
   server.slow_paths = {"/api/tile", "/api/patch", "/api/value", "/api/refine", "/api/match"};
@@ -298,22 +313,49 @@ class EndSignals {
   sigset_t signals_ = {};
 };
 
+// At the port asked for, else at the site's last one if that is free; `remark` if it is not.
+std::unique_ptr<LoopbackServer> MakeServer(const SitePaths& site, const PrepareOptions& options,
+                                           const std::string& token,
+                                           const LoopbackServerCallbacks& callbacks,
+                                           std::string* remark) {
+  const int last = options.port == 0 ? LastPort(site) : 0;
+  if (last != 0) {
+    try {
+      return std::make_unique<LoopbackServer>(ServerOptions(last, token), callbacks);
+    } catch (const InputError&) {
+      *remark = "port " + std::to_string(last) +
+                ", under which this site's page was opened last, is taken by another program: what "
+                "that page had not sent yet comes in when it is opened with --port " +
+                std::to_string(last);
+    }
+  }
+  return std::make_unique<LoopbackServer>(ServerOptions(options.port, token), callbacks);
+}
+
+// Not a fault if it cannot be written: then the next port is another one.
+void NotePort(const SitePaths& site, int port) {
+  std::ofstream(PortFile(site)) << port << "\n";
+}
+
 }  // namespace
 
-void ServePrepare(const SitePaths& site, const PrepareOptions& options,
-                  const std::function<void(const std::string&)>& tell) {
+void ServePrepare(const SitePaths& site, const PrepareOptions& options, const TellAddress& tell) {
   const EndSignals end;
   const std::string token = NewToken();
   std::atomic<LoopbackServer*> windows = nullptr;
   PrepareService service(site, [&windows](std::string text) {
     if (LoopbackServer* server = windows) server->Send(std::move(text));
   });
-  LoopbackServer server(ServerOptions(options, token),
-                        {.on_request = [&](const WebRequest& r) { return service.Answer(r); }});
+  std::string remark;
+  const auto made = MakeServer(
+      site, options, token,
+      {.on_request = [&](const WebRequest& r) { return service.Answer(r); }}, &remark);
+  LoopbackServer& server = *made;
+  NotePort(site, server.port());
   windows = &server;  // what was told before that, the page asks for when it comes
   const std::string url = server.address() + "#" + token;
   std::jthread serving([&] { server.Run(); });
-  tell(url);
+  tell(url, remark);
   {
     const auto page = options.opens_browser ? std::make_unique<OpenedPage>(url) : nullptr;
     end.Wait();

@@ -26,14 +26,17 @@
 namespace insitu {
 
 struct PrepareOptions {
-  int port = 0;  // 0: any that is free
+  int port = 0;  // 0: the site's last one, else any that is free
   bool opens_browser = true;
 };
 
+// Receives the address with its token, and what is to be known of it, or "".
+using TellAddress = std::function<void(const std::string& url, const std::string& remark)>;
+
 // Serves until a signal ends it: SIGINT, SIGTERM, SIGHUP. What was confirmed is then in the
-// survey's files. `tell` receives the address with its token. Throws InputError: no photographs,
+// survey's files. Without a port asked for, the site's last one is taken if it is free, for what a
+// page could not send stands in the browser under its address. Throws InputError: no photographs,
 // another server has the site, the port is taken.
-void ServePrepare(const SitePaths& site, const PrepareOptions& options,
-                  const std::function<void(const std::string&)>& tell);
+void ServePrepare(const SitePaths& site, const PrepareOptions& options, const TellAddress& tell);
 
 }  // namespace insitu

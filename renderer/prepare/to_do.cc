@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <utility>
 
-#include "calibration/files/wording.h"
+#include "calibration/files/sentence.h"
 
 namespace insitu {
 namespace {
@@ -28,7 +28,8 @@ class List {
     Light();
     Site();
     if (items_.empty()) {
-      Add("make the montage", "nothing that it needs is missing", "")["run"] = "montage";
+      Add(Sentence("doMontage", "make the montage"),
+          Sentence("whyMontage", "nothing that it needs is missing"), "")["run"] = "montage";
     }
     for (const Json::Value& item : advice_) items_.append(item);
     return items_;
@@ -36,20 +37,32 @@ class List {
 
  private:
   // What a montage needs.
-  Json::Value& Add(const std::string& text, const std::string& why, const std::string& mode) {
+  Json::Value& Add(const Sentence& text, const Sentence& why, const std::string& mode) {
     return AddTo(&items_, text, why, mode);
   }
   // What makes it better.
-  Json::Value& Advise(const std::string& text, const std::string& why, const std::string& mode) {
+  Json::Value& Advise(const Sentence& text, const Sentence& why, const std::string& mode) {
     return AddTo(&advice_, text, why, mode);
   }
-  static Json::Value& AddTo(Json::Value* list, const std::string& text, const std::string& why,
+  static Json::Value& AddTo(Json::Value* list, const Sentence& text, const Sentence& why,
                             const std::string& mode) {
     Json::Value item;
-    item["text"] = text;
-    item["why"] = why;
+    text.SayIn(&item, "text");
+    why.SayIn(&item, "why");
     if (!mode.empty()) item["where"]["mode"] = mode;
     return list->append(item);
+  }
+  static Sentence NamedWithReason(const Json::Value& left) {
+    return Sentence("named", "{name}: {reason}",
+                    {{"name", left["name"]},
+                     {"reason", Sentence::SaidIn(left, "reason").ToJson()}});
+  }
+  // The first few names.
+  static std::string FirstOf(const std::vector<std::string>& names) {
+    constexpr size_t kFew = 4;
+    std::string text;
+    for (size_t i = 0; i < std::min(names.size(), kFew); ++i) text += (i ? ", " : "") + names[i];
+    return text + (names.size() > kFew ? ", ..." : "");
   }
   Json::ArrayIndex Count(const char* table) const { return input_.tables[table].size(); }
   bool NeedsLens(const Json::Value& left_out) const {
@@ -60,14 +73,19 @@ class List {
 
   void Files() {
     for (const std::string& fault : input_.file_faults) {
-      Add(fault, "the file takes no part until this is mended", "");
+      Add(Sentence::Verbatim(fault),
+          Sentence("whyFile", "the file takes no part until this is mended"), "");
     }
     const Json::Value& failed = input_.adjusted["failed"];
-    if (failed.isString()) Add(failed.asString(), "nothing can be adjusted before", "control");
+    if (failed.isString()) {
+      Add(Sentence::Verbatim(failed.asString()),
+          Sentence("whyFailed", "nothing can be adjusted before"), "control");
+    }
     for (const Json::Value& diagnosis : input_.adjusted["diagnoses"]) {
       if (diagnosis["kind"] == "question") continue;
       Json::Value& item =
-          Add(diagnosis["text"].asString(), "found in what was measured", "control");
+          Add(Sentence::SaidIn(diagnosis, "text"),
+              Sentence("whyDiagnosis", "found in what was measured"), "control");
       for (const char* what : {"photo", "point"}) {
         if (diagnosis.isMember(what)) item["where"][what] = diagnosis[what];
       }
@@ -75,18 +93,19 @@ class List {
   }
 
   void Lens() {
-    std::string why;
+    Sentence why;
     for (const Json::Value& left : input_.adjusted["left_out"]) {
-      if (NeedsLens(left)) why = left["reason"].asString();
+      if (NeedsLens(left)) why = Sentence::SaidIn(left, "reason");
     }
     if (why.empty()) return;
     const bool has_something =
         Has(input_.site.boards()) && !std::filesystem::is_empty(input_.site.boards());
     if (has_something) {
-      Add("calibrate the camera", why, "")["run"] = "calibrate";
+      Add(Sentence("doCalibrate", "calibrate the camera"), why, "")["run"] = "calibrate";
     } else {
-      Add("put photographs of a board, or a camera file, into calibration/; or take the focal "
-          "length from EXIF for a first look",
+      Add(Sentence("doLens",
+                   "put photographs of a board, or a camera file, into calibration/; or take the "
+                   "focal length from EXIF for a first look"),
           why, "")["run"] = "exif-camera";
     }
   }
@@ -94,8 +113,10 @@ class List {
   void Control() {
     const Json::ArrayIndex count = Count("control_points");
     if (count >= kLeastControl) return;
-    Add(Formatted("%d more control points", kLeastControl - static_cast<int>(count)),
-        "their coordinates place the photographs in the world: type or paste them",
+    Add(Sentence("doControl", "{count} more control points",
+                 {{"count", kLeastControl - static_cast<int>(count)}}),
+        Sentence("whyControl",
+                 "their coordinates place the photographs in the world: type or paste them"),
         "control")["where"]["table"] = "control_points";
   }
 
@@ -103,8 +124,7 @@ class List {
     if (Count("control_points") < kLeastControl) return;
     for (const Json::Value& left : input_.adjusted["left_out"]) {
       if (left["kind"] != "photo" || NeedsLens(left)) continue;
-      Add(left["name"].asString() + ": " + left["reason"].asString(),
-          "the photo is not oriented yet", "control")["where"]["photo"] = left["name"];
+      Add(NamedWithReason(left), Sentence("whyPhoto", "the photo is not oriented yet"), "control")["where"]["photo"] = left["name"];
     }
   }
 
@@ -118,19 +138,22 @@ class List {
       }
       const std::string kind = left["kind"].asString(), name = left["name"].asString();
       Json::Value& item =
-          Add(name + ": " + left["reason"].asString(), kind + " takes no part in the adjustment",
+          Add(NamedWithReason(left),
+              Sentence("whyLeftOut", "it takes no part in the adjustment"),
               kind == "polygon" ? "polygons" : "control");
       if (kind == "point" || kind == "observation") item["where"]["point"] = name;
       if (left.isMember("photo")) item["where"]["photo"] = left["photo"];
     }
-    if (more > 0)
-      Add(Formatted("and %d more that take no part", static_cast<int>(more)), "", "control");
+    if (more == 0) return;
+    Add(Sentence("doMore", "and {count} more that take no part", {{"count", more}}), {},
+        "control");
   }
 
   void Shapes() {
     if (Count("polygons") == 0) {
-      Add("outline the ground and the buildings as polygons",
-          "shadows, occlusion and light need to know what stands there", "polygons");
+      Add(Sentence("doPolygons", "outline the ground and the buildings as polygons"),
+          Sentence("whyPolygons", "shadows, occlusion and light need to know what stands there"),
+          "polygons");
       return;
     }
     std::vector<std::string> without;
@@ -138,55 +161,65 @@ class List {
       if (!polygon["photo"].isString()) without.push_back(polygon["name"].asString());
     }
     if (without.empty()) return;
-    Advise(Listing("polygons without a photo that shows them", without, 4),
-           "their colour is taken from a photograph", "polygons");
+    Advise(Sentence("doImages", "polygons without a photo that shows them ({count}): {names}",
+                    {{"count", static_cast<int>(without.size())}, {"names", FirstOf(without)}}),
+           Sentence("whyImages", "their colour is taken from a photograph"), "polygons");
   }
 
   void Directions() {
     if (Count("zenith") == 0) {
-      Advise("a vertical edge: bottom, then top",
-             "which way is up is else taken from the coordinates' z axis", "sun");
+      Advise(Sentence("doZenith", "a vertical edge: bottom, then top"),
+             Sentence("whyZenith", "which way is up is else taken from the coordinates' z axis"),
+             "sun");
     }
     if (Count("sun") == 0) {
-      Advise("a sun pair: a point, then its shadow",
-             "without one the sky is taken as overcast and no shadow is cast", "sun");
+      Advise(Sentence("doSun", "a sun pair: a point, then its shadow"),
+             Sentence("whySun", "without one the sky is taken as overcast and no shadow is cast"),
+             "sun");
     }
   }
 
   void Light() {
     if (Count("horizon") == 0) {
-      Add("a sample of the sky at the horizon", "what haze fades to", "light");
+      Add(Sentence("doHorizon", "a sample of the sky at the horizon"),
+          Sentence("whyHorizon", "what haze fades to"), "light");
     }
     if (Count("haze") == 0) {
-      Advise("haze: one material at two distances or more", "else the air is taken as clear",
-             "light");
+      Advise(Sentence("doHaze", "haze: one material at two distances or more"),
+             Sentence("whyHaze", "else the air is taken as clear"), "light");
     }
     if (Count("daylight") < 3) {
-      Add(Formatted("%d more daylight samples of one material, in sun and in shade",
-                    3 - static_cast<int>(Count("daylight"))),
-          "sun, sky and ambient light are told apart by them", "light");
+      Add(Sentence("doDaylight",
+                   "{count} more daylight samples of one material, in sun and in shade",
+                   {{"count", 3 - static_cast<int>(Count("daylight"))}}),
+          Sentence("whyDaylight", "sun, sky and ambient light are told apart by them"), "light");
     }
     const bool has_card = !input_.tables["light"].empty() &&
                           input_.tables["light"][0].isMember("daylight_reflectance_rgb");
     if (Count("daylight") > 0 && !has_card) {
-      Advise("the reflectance of the daylight samples' material",
-             "from a grey card or a table: else the building comes out too dark", "light");
+      Advise(Sentence("doReflectance", "the reflectance of the daylight samples' material"),
+             Sentence("whyReflectance",
+                      "from a grey card or a table: else the building comes out too dark"),
+             "light");
     }
-    for (const Json::Value& text : input_.light["left_out"]) {
-      Advise(text.asString(), "the sample takes no part", "light");
+    for (const Json::Value& fault : input_.light["left_out"]) {
+      Advise(Sentence::SaidIn(fault, "text"), Sentence("whySample", "the sample takes no part"),
+             "light");
     }
   }
 
   void Site() {
     const Json::Value& site = input_.tables["site"];
     if (site.empty() || !site[0].isMember("latitude") || !site[0].isMember("local_time")) {
-      Advise("place and time of the photographs", "to check the sun against the almanac",
-             "")["run"] = "exif-site";
+      Advise(Sentence("doSite", "place and time of the photographs"),
+             Sentence("whySite", "to check the sun against the almanac"), "")["run"] = "exif-site";
     }
     if (!Has(input_.site.building())) {
-      Add("put the planned building's model into building/", "nothing is planned yet", "");
+      Add(Sentence("doBuilding", "put the planned building's model into building/"),
+          Sentence("whyBuilding", "nothing is planned yet"), "");
     } else if (!Has(input_.site.artificial())) {
-      Advise("convert the building's model", "its wireframe then stands in every photo",
+      Advise(Sentence("doConvert", "convert the building's model"),
+             Sentence("whyConvert", "its wireframe then stands in every photo"),
              "")["run"] = "convert";
     }
   }

@@ -40,7 +40,7 @@ double Edge(const Eigen::Vector2d& at) { return at.x() < kCorner.x() ? 1 : 0; }
 TEST(RefineCorner, FindsACornerToATwentiethOfAPixel) {
   const auto found =
       RefineCorner(PatchOf(Quadrants, {101, 81}), kCorner + Eigen::Vector2d(0.9, -0.7));
-  ASSERT_TRUE(std::holds_alternative<MarkProposal>(found)) << std::get<NoProposal>(found);
+  ASSERT_TRUE(std::holds_alternative<MarkProposal>(found)) << std::get<NoProposal>(found).text();
   const auto& proposal = std::get<MarkProposal>(found);
   EXPECT_LT((proposal.pixel - kCorner).norm(), 0.05);
   EXPECT_NEAR(proposal.shift_px, std::hypot(0.9, 0.7), 0.05);
@@ -49,10 +49,10 @@ TEST(RefineCorner, FindsACornerToATwentiethOfAPixel) {
 
 TEST(RefineCorner, TellsAnEdgeAndAnEvenSurface) {
   const Eigen::Vector2d near_edge(100.5, 81);
-  EXPECT_EQ(std::get<NoProposal>(RefineCorner(PatchOf(Edge, {100, 81}), near_edge)),
+  EXPECT_EQ(std::get<NoProposal>(RefineCorner(PatchOf(Edge, {100, 81}), near_edge)).text(),
             "an edge, no corner");
   const auto even = [](const Eigen::Vector2d&) { return 0.5; };
-  EXPECT_EQ(std::get<NoProposal>(RefineCorner(PatchOf(even, {100, 81}), near_edge)),
+  EXPECT_EQ(std::get<NoProposal>(RefineCorner(PatchOf(even, {100, 81}), near_edge)).text(),
             "an even surface");
 }
 
@@ -89,7 +89,7 @@ TEST(MatchPatch, FindsAPlaceThatIsTurnedAndStretched) {
   };
   const auto found = MatchPatch(PatchOf(texture, {200, 191}), here, PatchOf(in_other, {153, 119}),
                                 there + Eigen::Vector2d(3, -2), other_from_photo, 8);
-  ASSERT_TRUE(std::holds_alternative<MarkProposal>(found)) << std::get<NoProposal>(found);
+  ASSERT_TRUE(std::holds_alternative<MarkProposal>(found)) << std::get<NoProposal>(found).text();
   EXPECT_LT((std::get<MarkProposal>(found).pixel - there).norm(), 0.15);
   EXPECT_GT(std::get<MarkProposal>(found).quality, 0.95);
 }
@@ -100,7 +100,7 @@ TEST(MatchPatch, RefusesWhatLooksAlikeNowhereOrTwice) {
     const auto found = MatchPatch(PatchOf(scene, {200, 200}), here, PatchOf(other, {200, 200}),
                                   here, Eigen::Matrix2d::Identity(), 12);
     const auto* proposal = std::get_if<MarkProposal>(&found);
-    return proposal ? "quality " + std::to_string(proposal->quality) : std::get<NoProposal>(found);
+    return proposal ? "quality " + std::to_string(proposal->quality) : std::get<NoProposal>(found).text();
   };
   EXPECT_EQ(refusal(Texture(1), Texture(2)), "nothing there looks alike");
   const auto windows = [](const Eigen::Vector2d& at) {  // every 8 pixels another one

@@ -4,7 +4,7 @@
 import {ask, isReport, reportAddress} from "../site/api.js";
 import {showSite} from "./site_table.js";
 import {button, byId, select} from "../words/dom.js";
-import {emptied, newId, unconfirmed} from "../site/outbox.js";
+import {emptied, keptCount, newId, unconfirmed} from "../site/outbox.js";
 import {on} from "../site/signals.js";
 import {adjustedMark, mark, prediction, raysOf, state} from "../site/state.js";
 import {settle} from "../points/marking.js";
@@ -91,12 +91,14 @@ function drawSaved() {
   const waiting = unconfirmed().length + state.asking,
     made = byId("saved");
   made.className = waiting > 0 || state.notSaved ? "review" : "pass";
-  keepText(made, state.notSaved ? t("notSaved") : waiting > 0 ? t("saving") : t("saved"));
+  const isKept = state.asking === 0 && keptCount() === waiting;
+  keepText(made, t(state.notSaved ? "notSaved" : waiting === 0 ? "saved" : isKept ? "kept" : "saving"));
   made.title = t("savedNote", {revision: state.saved});
   const data = document.body.dataset;
   data.revision = String(state.revision);
   data.saved = String(state.saved);
   data.pending = String(waiting);
+  data.kept = String(keptCount());
   data.mode = ui.mode;
   data.adjusted = String(state.adjusted?.revision ?? "");
 }

@@ -17,7 +17,7 @@ import {
 } from "../site/ui.js";
 import {chooseSample, offText, samples} from "../light/samples.js";
 import {runStage} from "./stages.js";
-import {t} from "../words/words.js";
+import {said, t} from "../words/words.js";
 
 const kSigns = {control: "▲", check: "■", vertex: "◆", tie: "●"};
 const kNames = ["points", "photos", "polygons", "pairs", "samples"];
@@ -96,14 +96,14 @@ const act = what => () => {
 /** Reasons why something was left out, by what it is. */
 function reasons(kind) {
   const all = new Map();
-  for (const one of state.adjusted?.left_out ?? []) if (one.kind === kind) all.set(one.name, one.reason);
+  for (const one of state.adjusted?.left_out ?? []) if (one.kind === kind) all.set(one.name, said(one, "reason"));
   return all;
 }
 
 function pointList() {
   const leftOut = reasons("point"),
     found = new Map();
-  for (const one of state.adjusted?.diagnoses ?? []) if (one.point) found.set(one.point, one.text);
+  for (const one of state.adjusted?.diagnoses ?? []) if (one.point) found.set(one.point, said(one));
   for (const one of state.adjusted?.control ?? []) {
     if (one.role === "check")
       found.set(one.name, `Δ ${one.difference.map(d => shown(1000 * d, 0)).join(" ")} mm`);
@@ -143,7 +143,7 @@ function photoList() {
         String(marks),
         about?.oriented ? shown(about.rms_px, 2) : "–",
         about?.oriented ? shown(about.sigma_mm, 0) : "–",
-        about && !about.oriented ? (about.why ?? "") : `${photo.width} × ${photo.height}`
+        about && !about.oriented ? said(about, "why") : `${photo.width} × ${photo.height}`
       ],
       class: `${photo === activePane()?.photo ? "current" : ""}${about && !about.oriented ? " noted" : ""}`,
       act: () => showPhoto(photo.name)
@@ -178,9 +178,12 @@ function pairList() {
     cells: [
       `${a} → ${b}`,
       t(kind),
-      (state.adjusted?.left_out ?? []).find(
-        one => one.kind === kind && (one.name === a || one.name === b || one.name === `${a} ${b}`)
-      )?.reason ?? ""
+      said(
+        (state.adjusted?.left_out ?? []).find(
+          one => one.kind === kind && (one.name === a || one.name === b || one.name === `${a} ${b}`)
+        ),
+        "reason"
+      )
     ],
     act: act(() => choosePoint(a))
   });
@@ -240,12 +243,12 @@ function drawTodo() {
       ...state.todo.map(item =>
         node(
           "li",
-          {title: item.why ?? ""},
-          button(item.text, () => goTo(item.where ?? {})),
+          {title: said(item, "why")},
+          button(said(item), () => goTo(item.where ?? {})),
           item.run
             ? button(t("run"), () => runStage(item.run), {class: "small", "data-run": item.run})
             : null,
-          item.why ? node("span", {class: "faint", text: item.why}) : null
+          item.why ? node("span", {class: "faint", text: said(item, "why")}) : null
         )
       )
     ),
@@ -264,7 +267,7 @@ function finding(one) {
   return node(
     "li",
     {class: one.kind === "fault" ? "fail" : "review"},
-    button(one.text, () => goTo({point: one.point, photo: one.photo})),
+    button(said(one), () => goTo({point: one.point, photo: one.photo})),
     node("span", {class: "faint", text: place})
   );
 }

@@ -13,7 +13,7 @@ import {emit, redraw} from "../site/signals.js";
 import {relit, stepLight} from "./relit.js";
 import {fetchTiles, kTile, tileIfHere, wishTile} from "./tiles.js";
 import {activePane, placeOf, stepLines, ui} from "../site/ui.js";
-import {t} from "../words/words.js";
+import {said, t} from "../words/words.js";
 
 const clamp = (value, low, high) => Math.min(Math.max(value, low), high);
 
@@ -381,6 +381,6 @@ const kCross = "M-16 0H-3M3 0H16M0 -16V-3M0 3V16";
 
 function noteOf(name, about) {
   if (!about) return "";
-  if (!about.oriented) return about.why || t("notOriented");
+  if (!about.oriented) return said(about, "why") || t("notOriented");
   return t("orientedNote", {rms: about.rms_px === undefined ? "–" : about.rms_px.toFixed(2)});
 }

@@ -5,7 +5,7 @@
 import {getBlob, getJson} from "../site/api.js";
 import {on, redraw} from "../site/signals.js";
 import {shown} from "../words/numbers.js";
-import {said, t} from "../words/words.js";
+import {nearPlace, said, t} from "../words/words.js";
 
 /** @typedef {"photo"|"none"|"sun"} Light */
 /** @typedef {{picture: ImageBitmap|null, text: string, isFault: boolean}} Relit */
@@ -69,7 +69,7 @@ async function fetchRelit(key, photo, light) {
 
 const textOf = about =>
   about.error
-    ? t("relitNot", {why: said(about, "error")})
+    ? t("relitNot", {why: nearPlace(said(about, "error"))})
     : t("relitNote", {times: shown(about.exposure, 1), percent: Math.round(100 * about.share)});
 
 function keep(key, made) {

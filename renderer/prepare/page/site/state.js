@@ -249,7 +249,7 @@ async function load() {
 /** The first load; then the live connection, which loads again each time it comes back. */
 export async function start() {
   await load();
-  openOutbox(state.siteFolder, {
+  await openOutbox(state.siteFolder, {
     confirmed: (operation, revision) => {
       if (!seen.has(operation.id) && !(revision <= base)) applyEdits(confirmed, operation.edits);
       seen.add(operation.id);

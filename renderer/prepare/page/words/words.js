@@ -33,6 +33,9 @@ export function t(key, values = {}) {
   return texts ? filled(texts[language === "de" ? 1 : 0], values) : key;
 }
 
+/** Without the folders before the site's own. */
+export const nearPlace = text => text.replace(/\S*?(?=survey\/)/, "");
+
 const filled = (text, values) =>
   text.replace(/\{(\w+)\}/g, (whole, name) => (values[name] === undefined ? whole : String(values[name])));
 
