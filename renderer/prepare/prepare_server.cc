@@ -50,7 +50,7 @@ class PrepareService {
   PrepareService(const SitePaths& site, std::function<void(std::string)> send)
       : site_(site),
         paths_(ListPhotographs(site)),
-        tiles_(paths_),
+        tiles_(paths_, site.root / "work/prepare/overviews"),
         send_(std::move(send)),
         session_(site, send_),
         relit_(paths_, [this] { return session_.live(); }),

@@ -108,10 +108,9 @@ struct RelitPhotos::Parts {
   // Why there is no light to relight by; its status is 202 while there may be one soon.
   static Answer NoLight(const LiveState& state) {
     if (!state.is_lit && state.result.scene) return Soon();
-    const Json::Value& failed = state.light["failed"];
-    if (failed.isString()) {
+    if (state.light["failed"].isString()) {
       return Refused(409, Sentence("relitFailed", "the light is not measured: {why}",
-                                   {{"why", failed.asString()}}));
+                                   {{"why", Sentence::SaidIn(state.light, "failed").ToJson()}}));
     }
     return Refused(409, Sentence("relitNoLight",
                                  "no light is measured yet: it needs oriented photographs, "

@@ -190,7 +190,7 @@ class List {
     }
     if (Count("daylight") < 3) {
       Add(Sentence("doDaylight",
-                   "{count} more daylight samples of one material, in sun and in shade",
+                   "daylight samples of one material, in sun and in shade: {count} more",
                    {{"count", 3 - static_cast<int>(Count("daylight"))}}),
           Sentence("whyDaylight", "sun, sky and ambient light are told apart by them"), "light");
     }

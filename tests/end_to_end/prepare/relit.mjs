@@ -65,7 +65,7 @@ await page.reload();
 await page.waitForSelector("body[data-ready]");
 await person.photo("right");
 await person.press("3");
-await person.sees(`${pane} .relit.fault`, "ohne Sonne: geht nicht: das Licht ist nicht gemessen");
+await person.sees(`${pane} .relit.fault`, "Tageslicht: 0 brauchbare Proben");
 report("without samples it says why not, in German", true, await page.textContent(`${pane} .relit`));
 report("a photo or light that is not there is refused", (await server.ask("GET", "/api/relit?photo=9&light=none")).status === 404 &&
   (await server.ask("GET", "/api/relit?photo=0&light=moon")).status === 404);

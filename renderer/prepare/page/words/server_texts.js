@@ -19,7 +19,7 @@ export const kServerTexts = {
   doLens:
     "Aufnahmen einer Tafel oder eine Kameradatei nach calibration/ legen; oder für einen ersten Blick " +
     "die Brennweite aus EXIF nehmen",
-  doControl: "noch {count} Passpunkte",
+  doControl: "Passpunkte: noch {count}",
   whyControl: "ihre Koordinaten stellen die Fotos in die Welt: eintippen oder einfügen",
   whyPhoto: "das Foto ist noch nicht orientiert",
   whyLeftOut: "macht in der Ausgleichung nicht mit",
@@ -36,7 +36,7 @@ export const kServerTexts = {
   whyHorizon: "worin der Dunst sich verliert",
   doHaze: "Dunst: ein Material in zwei oder mehr Entfernungen",
   whyHaze: "sonst gilt die Luft als klar",
-  doDaylight: "noch {count} Tageslichtproben eines Materials, in Sonne und Schatten",
+  doDaylight: "Tageslichtproben eines Materials, in Sonne und Schatten: noch {count}",
   whyDaylight: "sie trennen Sonne, Himmel und Umgebungslicht",
   doReflectance: "die Albedo des Materials der Tageslichtproben",
   whyReflectance: "von einer Graukarte oder aus einer Tabelle: sonst wird der Bau zu dunkel",
