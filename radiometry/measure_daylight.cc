@@ -87,8 +87,8 @@ AtmosphereFit MeasureAir(const LightSamples& samples, const SpectralBasis& spect
                          std::vector<Sentence>* warnings) {
   const Spectrum horizon = HorizonColor(samples.horizon, spectra);
   if (samples.haze.empty()) {
-    warnings->push_back(Sentence(
-        "lightNoHaze", "samples.json has no haze samples: the air is taken as clear"));
+    warnings->push_back(
+        Sentence("lightNoHaze", "samples.json has no haze samples: the air is taken as clear"));
     AtmosphereFit clear;
     clear.air.horizon = horizon;
     return clear;
@@ -164,8 +164,8 @@ void WarnOfWeakSamples(const LightMeasurement& measured, bool has_sun,
   const bool any_sun = std::any_of(samples.begin(), samples.end(),
                                    [](const auto& sample) { return sample.geometry.sun > 0; });
   if (!has_sun) {
-    warnings->push_back(Sentence("lightOvercast",
-                                 "no sun direction was measured: the sky is taken as overcast"));
+    warnings->push_back(
+        Sentence("lightOvercast", "no sun direction was measured: the sky is taken as overcast"));
   }
   if (has_sun && !any_sun) {
     warnings->push_back(
@@ -234,14 +234,13 @@ LightMeasurement WithoutSamples(const SitePaths& site, SceneGeometry scene,
 }
 
 // Haze that cannot be told is left out; light needs the others.
-void RequireEnough(const SitePaths& site, LightSamples* samples,
-                   std::vector<Sentence>* left_out) {
+void RequireEnough(const SitePaths& site, LightSamples* samples, std::vector<Sentence>* left_out) {
   const std::filesystem::path file = site.survey() / "samples.json";
   const auto require = [&](const Sentence& list, size_t count, size_t at_least) {
     if (count >= at_least) return;
-    const Sentence message("lightTooFew",
-                           "{list}: {count} usable samples, expected at least {least}",
-                           {{"list", list.ToJson()}, {"count", int(count)}, {"least", int(at_least)}});
+    const Sentence message(
+        "lightTooFew", "{list}: {count} usable samples, expected at least {least}",
+        {{"list", list.ToJson()}, {"count", int(count)}, {"least", int(at_least)}});
     throw SaidError(InputError(file, message.text()), {file}, message);
   };
   require(Sentence("nameHorizon", "horizon"), samples->horizon.size(), 1);
@@ -250,8 +249,8 @@ void RequireEnough(const SitePaths& site, LightSamples* samples,
       std::minmax_element(samples->haze.begin(), samples->haze.end(),
                           [](const auto& a, const auto& b) { return a.distance < b.distance; });
   if (samples->haze.empty() || nearest->distance < farthest->distance) return;
-  left_out->push_back(Sentence("lightOneDistance",
-                               "haze: all samples at one distance, expected different ones"));
+  left_out->push_back(
+      Sentence("lightOneDistance", "haze: all samples at one distance, expected different ones"));
   samples->haze.clear();
 }
 

@@ -39,7 +39,8 @@ int RunPrepare(int argc, char** argv) {
   std::string colleague;
   bool no_browser = false;
   AddSite(&app, &site);
-  app.add_option("--port", options.port, "of 127.0.0.1; 0: the site's last one, else any that is free")
+  app.add_option("--port", options.port,
+                 "of 127.0.0.1; 0: the site's last one, else any that is free")
       ->check(CLI::Range(0, 65535));
   app.add_flag("--no-browser", no_browser, "only print the address");
   app.add_option("--merge", colleague,

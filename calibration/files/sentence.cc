@@ -68,10 +68,10 @@ std::vector<std::string> TextsOf(const std::vector<Sentence>& sentences) {
 SaidError::SaidError(const InputError& english, const FilePlace& place, const Sentence& message)
     : InputError(english) {
   const std::string line = place.line > 0 ? ":" + std::to_string(place.line) : "";
-  Json::Value said = Sentence("atPlace", "{place}: {message}",
-                              {{"place", place.path.filename().string() + line},
-                               {"message", message.ToJson()}})
-                         .ToJson();
+  Json::Value said =
+      Sentence("atPlace", "{place}: {message}",
+               {{"place", place.path.filename().string() + line}, {"message", message.ToJson()}})
+          .ToJson();
   said["text"] = english.what();
   sentence_ = Sentence::SaidIn(said, "text");
 }

@@ -67,8 +67,7 @@ std::array<std::pair<cv::Range, cv::Range>, 2> Halvings(int size) {
 cv::Mat ReadShownPhotograph(const std::filesystem::path& path) {
   if (IsJpeg(path)) return DecodedJpeg(path, ReadWhole(path), cv::IMREAD_COLOR);
   CodedPhotograph photo = ReadCodedPhotograph(path);
-  return std::visit([&](auto& samples) { return BlueFirst(photo, samples); },
-                    photo.samples);
+  return std::visit([&](auto& samples) { return BlueFirst(photo, samples); }, photo.samples);
 }
 
 cv::Mat ReadEighthOfPhotograph(const std::filesystem::path& path) {

@@ -128,9 +128,10 @@ PixelSample ReadPixel(const JsonNode& node, const PhotographedScene& scene) {
   const Raster& image = scene.photo(sample.photo).linear;
   const Eigen::Vector2i rounded = sample.pixel.array().round().cast<int>();
   if (!IsInside(image, rounded.x(), rounded.y())) {
-    throw Fault(node, Sentence("sampleOutside",
-                               "lies outside the photograph, expected a pixel of {width} x {height}",
-                               {{"width", image.width}, {"height", image.height}}));
+    throw Fault(node,
+                Sentence("sampleOutside",
+                         "lies outside the photograph, expected a pixel of {width} x {height}",
+                         {{"width", image.width}, {"height", image.height}}));
   }
   return sample;
 }
@@ -168,9 +169,9 @@ PixelSample ReadSurfaceSample(const JsonNode& node, const PhotographedScene& sce
 PixelSample ReadHorizonSample(const JsonNode& node, const PhotographedScene& scene, int radius) {
   PixelSample sample = ReadPixel(node, scene);
   if (const auto first = scene.First(sample.photo, sample.pixel)) {
-    throw Fault(node, Sentence("sampleNoSky",
-                               "lies on polygon \"{polygon}\", expected a pixel of the sky",
-                               {{"polygon", scene.geometry().polygons[first->polygon].name}}));
+    throw Fault(
+        node, Sentence("sampleNoSky", "lies on polygon \"{polygon}\", expected a pixel of the sky",
+                       {{"polygon", scene.geometry().polygons[first->polygon].name}}));
   }
   MeasureColor(scene, node, radius, &sample);
   return sample;

@@ -8,6 +8,7 @@
 #include "calibration/files/error.h"
 #include "reconstruction/adjustment/planarity.h"
 #include "reconstruction/adjustment/start_growth.h"
+#include "reconstruction/live/left_out_reasons.h"
 
 namespace insitu {
 namespace {
@@ -25,23 +26,6 @@ std::string MessageAt(const InputError& error, const FilePlace& place) {
   const std::string start = InputError(place.path, place.line, "").what();
   const std::string text = error.what();
   return text.compare(0, start.size(), start) == 0 ? text.substr(start.size()) : text;
-}
-
-Sentence ReasonOfPhoto(const StartGrowth& growth, size_t photo) {
-  const StartGrowth::PhotoMarks marks = growth.MarksOf(photo);
-  if (marks.known.empty()) return Sentence("photoThree", "three control points");
-  if (marks.known.size() == 1) return Sentence("photoTwo", "two more control points");
-  if (marks.known.size() == 2) return Sentence("photoOne", "one more control point");
-  const std::string count = std::to_string(marks.known.size());
-  if (!growth.CanResect(photo)) {
-    return Sentence("photoOnLine",
-                    "its {count} known points lie on one line, one more well beside it",
-                    {{"count", count}});
-  }
-  return Sentence("photoNoPlace",
-                  "no place of the camera explains its {count} known points: is one marked in the "
-                  "wrong place or under the wrong name?",
-                  {{"count", count}});
 }
 
 // Prunes a copy of a survey. Every pass grows the start values anew, for what is left out may have
@@ -137,7 +121,8 @@ class PartFinder {
     try {
       growth->PlaceByTiePoints();
     } catch (const InputError& contradiction) {
-      LeaveOut({LeftOut::Kind::kObservation, "tie points", "", SentenceOf(contradiction), {}, true});
+      LeaveOut(
+          {LeftOut::Kind::kObservation, "tie points", "", SentenceOf(contradiction), {}, true});
       part_.survey.tie_points.reset();
     }
   }
@@ -191,39 +176,26 @@ class PartFinder {
     for (size_t photo = 0; photo < photos_.size(); ++photo) {
       if (growth.IsPosed(photo) || is_left_out_[photo]) continue;
       const auto place = place_of_photo_.find(photos_[photo]);
-      LeaveOut({LeftOut::Kind::kPhoto, photos_[photo], "", ReasonOfPhoto(growth, photo),
+      LeaveOut({LeftOut::Kind::kPhoto, photos_[photo], "",
+                ReasonOfPhoto(growth.MarksOf(photo).known.size(), growth.CanResect(photo)),
                 place == place_of_photo_.end() ? FileOfObservations(part_.survey) : place->second,
                 growth.CanResect(photo)});
       is_left_out_[photo] = true;
     }
   }
 
-  Sentence ReasonOfPoint(const StartGrowth& growth, const std::string& name) const {
-    const size_t rays = growth.Rays(name);
-    if (rays == 1) return Sentence("pointOneRay", "one ray, needs a second photograph");
-    if (rays > 1) {
-      return Sentence("pointHardlyMeets",
-                      "its rays hardly meet, needs a photograph from another side");
-    }
-    const auto photos = photos_of_point_.find(name);
-    if (photos == photos_of_point_.end()) {
-      return Sentence("pointNoRay", "no ray, needs two photographs");
-    }
-    const std::string first = *photos->second.begin();
-    if (photos->second.size() == 1) {
-      return Sentence("pointPhotoOut", "one ray, and its photo {photo} is not placed",
-                      {{"photo", first}});
-    }
-    return Sentence("pointPhotosOut", "none of its {count} photos is placed",
-                    {{"count", static_cast<int>(photos->second.size())}});
+  Sentence ReasonOf(const StartGrowth& growth, const std::string& point) const {
+    const auto photos = photos_of_point_.find(point);
+    return ReasonOfPoint(growth.Rays(point), photos == photos_of_point_.end()
+                                                 ? std::set<std::string>()
+                                                 : photos->second);
   }
 
   void LeaveOutPoints(const StartGrowth& growth) {
     const std::set<std::string>& unknown = growth.unknown();
     for (const std::string& name : unknown) {
       if (!points_told_.insert(name).second) continue;
-      LeaveOut(
-          {LeftOut::Kind::kPoint, name, "", ReasonOfPoint(growth, name), place_of_point_.at(name)});
+      LeaveOut({LeftOut::Kind::kPoint, name, "", ReasonOf(growth, name), place_of_point_.at(name)});
     }
   }
 
@@ -256,19 +228,7 @@ class PartFinder {
     });
   }
 
-  // What is said of something that is needed and not determined.
-  using ReasonOf = Sentence (*)(const std::string& needed);
-  static Sentence NoVertex(const std::string& needed) {
-    return Sentence("noVertex", "its vertex {name} is not determined", {{"name", needed}});
-  }
-  static Sentence NoPoint(const std::string& needed) {
-    return Sentence("noPoint", "its point {name} is not determined", {{"name", needed}});
-  }
-  static Sentence NoEnd(const std::string& needed) {
-    return Sentence("noEnd", "its end {name} is not determined", {{"name", needed}});
-  }
-
-  static std::optional<LeftOut> Undetermined(LeftOut::Kind kind, ReasonOf reason,
+  static std::optional<LeftOut> Undetermined(LeftOut::Kind kind, ReasonByName* reason,
                                              const std::string& name,
                                              const std::vector<std::string>& names,
                                              const FilePlace& place, const Points& points) {
@@ -310,10 +270,7 @@ class PartFinder {
       const std::string name = Joined(c.polygons.empty() ? c.points : c.polygons);
       for (const std::string& polygon : c.polygons) {
         if (polygons.contains(polygon)) continue;
-        return LeftOut{LeftOut::Kind::kConstraint, name, "",
-                       Sentence("noPolygon", "its polygon {name} is not determined",
-                                {{"name", polygon}}),
-                       c.place};
+        return LeftOut{LeftOut::Kind::kConstraint, name, "", NoPolygon(polygon), c.place};
       }
       return Undetermined(LeftOut::Kind::kConstraint, NoPoint, name, c.points, c.place, points);
     });
@@ -328,24 +285,33 @@ class PartFinder {
         RequirePlanar(one, points, options_.plane_sigma);
         return std::nullopt;
       } catch (const InputError& error) {
-        return LeftOut{LeftOut::Kind::kPolygon,         polygon.name,  "",
-                       Sentence::Verbatim(MessageAt(error, polygon.place)), polygon.place, true};
+        return LeftOut{LeftOut::Kind::kPolygon,
+                       polygon.name,
+                       "",
+                       Sentence::Verbatim(MessageAt(error, polygon.place)),
+                       polygon.place,
+                       true};
       }
     });
     PruneOpposingPairs(LeftOut::Kind::kSun, points, &part_.survey.sun_pairs);
     PruneOpposingPairs(LeftOut::Kind::kZenith, points, &part_.survey.zenith_pairs);
     Prune(&part_.survey.edges, [&](const EdgeMark& edge) -> std::optional<LeftOut> {
       if (Step(edge.from, edge.to, points).norm() > kApart) return std::nullopt;
-      return LeftOut{LeftOut::Kind::kEdge, Joined({edge.from, edge.to}),
-                     edge.photo,           Sentence("edgeOnePlace", "its ends lie in the same place"),
-                     edge.place,           true};
+      return LeftOut{
+          LeftOut::Kind::kEdge, Joined({edge.from, edge.to}),
+          edge.photo,           Sentence("edgeOnePlace", "its ends lie in the same place"),
+          edge.place,           true};
     });
     Prune(&part_.survey.constraints, [&](const GeometricConstraint& c) -> std::optional<LeftOut> {
       if (c.kind == GeometricConstraint::Kind::kHeight) return std::nullopt;
       for (size_t i = 0; i + 1 < c.points.size(); i += 2) {
         if (Step(c.points[i], c.points[i + 1], points).norm() > kApart) continue;
-        return LeftOut{LeftOut::Kind::kConstraint,         Joined(c.points), "",
-                       Sentence("constraintOnePlace", "its points lie in the same place"), c.place,          true};
+        return LeftOut{LeftOut::Kind::kConstraint,
+                       Joined(c.points),
+                       "",
+                       Sentence("constraintOnePlace", "its points lie in the same place"),
+                       c.place,
+                       true};
       }
       return std::nullopt;
     });
@@ -362,10 +328,13 @@ class PartFinder {
     for (const DirectionPair& pair : *pairs) sum += Step(pair.from, pair.to, points);
     Prune(pairs, [&](const DirectionPair& pair) -> std::optional<LeftOut> {
       if (Step(pair.from, pair.to, points).dot(sum) > 0) return std::nullopt;
-      return LeftOut{kind,       Joined({pair.from, pair.to}),
-                     "",         Sentence("pairOpposed",
-                              "points away from the other pairs: are its ends exchanged?"),
-                     pair.place, true};
+      return LeftOut{
+          kind,
+          Joined({pair.from, pair.to}),
+          "",
+          Sentence("pairOpposed", "points away from the other pairs: are its ends exchanged?"),
+          pair.place,
+          true};
     });
   }
 

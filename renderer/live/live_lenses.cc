@@ -17,8 +17,7 @@ LivePhoto ReadLivePhoto(const SitePaths& site, const std::filesystem::path& path
   LivePhoto photo{path.stem().string(), {}};
   if (!camera.empty()) photo.lens.camera = camera;
   if (!std::filesystem::exists(site.camera(camera))) {
-    photo.no_lens_because = 
-        Sentence("noLens", "its lens is not known yet: run insitu-calibrate");
+    photo.no_lens_because = Sentence("noLens", "its lens is not known yet: run insitu-calibrate");
     return photo;
   }
   try {

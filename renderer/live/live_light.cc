@@ -114,8 +114,8 @@ Json::Value AdviceJson(const LightMeasurement& measured) {
                       .ToJson());
   }
   AdviseOnHaze(measured, &advice);
-  AdviseOnResiduals(Sentence("nameHaze", "haze"), measured.samples.haze,
-                    measured.air_fit.residuals, scene, &advice);
+  AdviseOnResiduals(Sentence("nameHaze", "haze"), measured.samples.haze, measured.air_fit.residuals,
+                    scene, &advice);
   AdviseOnResiduals(Sentence("nameDaylight", "daylight"), measured.samples.daylight,
                     measured.daylight_fit.residuals, scene, &advice);
   return advice;

@@ -230,13 +230,13 @@ class Solver {
     return std::erase_if(survey_.observations, [&](const ImageObservation& mark) {
              if (!points.contains(mark.point)) return false;
              if (is_behind && mark.photo != error.photo) return false;
-             unsolvable_.push_back({LeftOut::Kind::kObservation, mark.point, mark.photo,
-                                    is_behind ? Sentence("markBehind",
-                                                         "its point would lie behind the photo")
-                                              : Sentence("markWeak",
-                                                         "the marks do not determine its point: "
-                                                         "one more photograph, from another side"),
-                                    mark.place, is_behind});
+             unsolvable_.push_back(
+                 {LeftOut::Kind::kObservation, mark.point, mark.photo,
+                  is_behind ? Sentence("markBehind", "its point would lie behind the photo")
+                            : Sentence("markWeak",
+                                       "the marks do not determine its point: "
+                                       "one more photograph, from another side"),
+                  mark.place, is_behind});
              return true;
            }) > 0;
   }
@@ -291,10 +291,9 @@ class Solver {
       if (!what.is_contradiction) continue;
       told.append(teller.Tell(
           "misfit",
-          Sentence("leftOut", "{kind} '{name}' is left out: {reason}",
-                   {{"kind", Word(what.kind)},
-                    {"name", what.name},
-                    {"reason", what.reason.ToJson()}}),
+          Sentence(
+              "leftOut", "{kind} '{name}' is left out: {reason}",
+              {{"kind", Word(what.kind)}, {"name", what.name}, {"reason", what.reason.ToJson()}}),
           what.place));
     }
     for (const std::string& photo : part_.placed_by_points) {

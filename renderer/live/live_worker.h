@@ -19,11 +19,11 @@ namespace insitu {
 
 // The newest results.
 struct LiveState {
-  LiveResult result;                     // its message holds type and revision
-  Json::Value light, building;           // messages, maybe null
-  bool is_lit = false;                   // false: light and building are still to come
+  LiveResult result;            // its message holds type and revision
+  Json::Value light, building;  // messages, maybe null
+  bool is_lit = false;          // false: light and building are still to come
   std::shared_ptr<const NaturalEnvironment> environment;  // what `light` tells of; null: nothing
-  std::vector<std::string> file_faults;  // files that took no part
+  std::vector<std::string> file_faults;                   // files that took no part
 };
 
 // Not safe for several threads at once.

@@ -109,8 +109,7 @@ class Relighting {
   }
 
   Eigen::Vector3d Seen(const Spectrum& color, double distance) const {
-    return environment_.spectra.RgbFromSpectrum(
-        ApparentColor(color, environment_.air, distance));
+    return environment_.spectra.RgbFromSpectrum(ApparentColor(color, environment_.air, distance));
   }
 
   const NaturalEnvironment& environment_;
@@ -134,8 +133,7 @@ std::optional<RelitPhoto> RelightPhoto(const NaturalEnvironment& environment, in
     if (is_stopped && is_stopped()) return std::nullopt;
     if (y % kSkyBlock == 0) std::fill(skies.begin(), skies.end(), SkySeen());
     for (int x = 0; x < photo.width; ++x) {
-      const Eigen::Vector2d pixel =
-          (step * Eigen::Array2d(x + 0.5, y + 0.5) - 0.5).matrix();
+      const Eigen::Vector2d pixel = (step * Eigen::Array2d(x + 0.5, y + 0.5) - 0.5).matrix();
       Eigen::Vector3d without_sun, sun_alone;
       if (!relighting.Relight(pixel, photo.Rgb(x, y), &skies[x / kSkyBlock], &without_sun,
                               &sun_alone)) {

@@ -103,7 +103,8 @@ std::variant<MarkProposal, NoProposal> RefineCorner(const GreyPatch& patch,
 std::variant<MarkProposal, NoProposal> MatchPatch(
     const GreyPatch& patch, const Eigen::Vector2d& pixel, const GreyPatch& other,
     const Eigen::Vector2d& predicted, const Eigen::Matrix2d& other_from_photo, double radius) {
-  if (std::abs(other_from_photo.determinant()) < 0.04) return Sentence("matchOblique", "seen too obliquely there");
+  if (std::abs(other_from_photo.determinant()) < 0.04)
+    return Sentence("matchOblique", "seen too obliquely there");
   const cv::Mat pattern = WarpedPattern(patch, pixel, other_from_photo);
   const Eigen::Vector2i middle = ToPatch(other, predicted).array().round().cast<int>();
   const int reach = kHalfPattern + static_cast<int>(std::ceil(radius));
@@ -119,7 +120,8 @@ std::variant<MarkProposal, NoProposal> MatchPatch(
   cv::Point at;
   cv::minMaxLoc(scores, nullptr, &best, nullptr, &at);
   if (!(best >= kLeastMatch)) return Sentence("matchNothing", "nothing there looks alike");
-  if (SecondPeak(scores, at) > kSecondBest * best) return Sentence("matchTwo", "two places look alike");
+  if (SecondPeak(scores, at) > kSecondBest * best)
+    return Sentence("matchTwo", "two places look alike");
   if (at.x == 0 || at.y == 0 || at.x + 1 == scores.cols || at.y + 1 == scores.rows) {
     return Sentence("matchUncertain", "nothing looks alike within its uncertainty");
   }

@@ -157,8 +157,8 @@ class PrepareService {
 
   WebResponse Relit(const WebRequest& request, bool is_picture) {
     const auto light = request.query.find("light");
-    const RelitPhotos::Answer answer =
-        relit_.Ask(QueryInteger(request, "photo"), light == request.query.end() ? "" : light->second);
+    const RelitPhotos::Answer answer = relit_.Ask(
+        QueryInteger(request, "photo"), light == request.query.end() ? "" : light->second);
     if (!is_picture || !answer.jpeg) return JsonResponse(answer.body, answer.status);
     WebResponse response;
     response.type = "image/jpeg";
@@ -243,7 +243,8 @@ class PrepareService {
     const auto here =
         std::find_if(live.result.cameras.begin(), live.result.cameras.end(),
                      [&](const PosedCamera& camera) { return camera.photo == photo; });
-    if (here == live.result.cameras.end()) return ProposalJson(Sentence("matchNotOriented", "not oriented"));
+    if (here == live.result.cameras.end())
+      return ProposalJson(Sentence("matchNotOriented", "not oriented"));
     const Eigen::Vector3d normal = (Center(here->cam_from_world) - world).normalized() +
                                    (Center(other.cam_from_world) - world).normalized();
     const Eigen::Vector2d predicted(seen["x"].asDouble(), seen["y"].asDouble());
@@ -333,9 +334,7 @@ std::unique_ptr<LoopbackServer> MakeServer(const SitePaths& site, const PrepareO
 }
 
 // Not a fault if it cannot be written: then the next port is another one.
-void NotePort(const SitePaths& site, int port) {
-  std::ofstream(PortFile(site)) << port << "\n";
-}
+void NotePort(const SitePaths& site, int port) { std::ofstream(PortFile(site)) << port << "\n"; }
 
 }  // namespace
 
@@ -347,9 +346,9 @@ void ServePrepare(const SitePaths& site, const PrepareOptions& options, const Te
     if (LoopbackServer* server = windows) server->Send(std::move(text));
   });
   std::string remark;
-  const auto made = MakeServer(
-      site, options, token,
-      {.on_request = [&](const WebRequest& r) { return service.Answer(r); }}, &remark);
+  const auto made =
+      MakeServer(site, options, token,
+                 {.on_request = [&](const WebRequest& r) { return service.Answer(r); }}, &remark);
   LoopbackServer& server = *made;
   NotePort(site, server.port());
   windows = &server;  // what was told before that, the page asks for when it comes

@@ -17,12 +17,13 @@
 #include "calibration/files/error.h"
 #include "calibration/files/sentence.h"
 #include "calibration/photo/photograph.h"
+#include "radiometry/natural_environment.h"
 #include "renderer/live/relit_photo.h"
 
 namespace insitu {
 namespace {
 
-constexpr int kLongestSide = 800;    // [px]
+constexpr int kLongestSide = 800;  // [px]
 constexpr double kMostExposure = 16;
 constexpr double kGreyLevel = 0.25;  // of pixels that nothing is known of, in linear light
 constexpr size_t kMostKept = 12;     // photographs made smaller, 8 MB each at most
@@ -183,9 +184,8 @@ struct RelitPhotos::Parts {
       const int photo = wanted.front();
       const std::shared_ptr<const NaturalEnvironment> by = environment;
       lock.unlock();
-      Lights lights = Make(*by, photo, [&] {
-        return stop.stop_requested() || live()->environment != by;
-      });
+      Lights lights =
+          Make(*by, photo, [&] { return stop.stop_requested() || live()->environment != by; });
       lock.lock();
       if (environment != by) continue;
       if (!wanted.empty() && wanted.front() == photo) wanted.pop_front();

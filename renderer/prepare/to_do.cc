@@ -53,9 +53,9 @@ class List {
     return list->append(item);
   }
   static Sentence NamedWithReason(const Json::Value& left) {
-    return Sentence("named", "{name}: {reason}",
-                    {{"name", left["name"]},
-                     {"reason", Sentence::SaidIn(left, "reason").ToJson()}});
+    return Sentence(
+        "named", "{name}: {reason}",
+        {{"name", left["name"]}, {"reason", Sentence::SaidIn(left, "reason").ToJson()}});
   }
   // The first few names.
   static std::string FirstOf(const std::vector<std::string>& names) {
@@ -83,9 +83,8 @@ class List {
     }
     for (const Json::Value& diagnosis : input_.adjusted["diagnoses"]) {
       if (diagnosis["kind"] == "question") continue;
-      Json::Value& item =
-          Add(Sentence::SaidIn(diagnosis, "text"),
-              Sentence("whyDiagnosis", "found in what was measured"), "control");
+      Json::Value& item = Add(Sentence::SaidIn(diagnosis, "text"),
+                              Sentence("whyDiagnosis", "found in what was measured"), "control");
       for (const char* what : {"photo", "point"}) {
         if (diagnosis.isMember(what)) item["where"][what] = diagnosis[what];
       }
@@ -124,7 +123,8 @@ class List {
     if (Count("control_points") < kLeastControl) return;
     for (const Json::Value& left : input_.adjusted["left_out"]) {
       if (left["kind"] != "photo" || NeedsLens(left)) continue;
-      Add(NamedWithReason(left), Sentence("whyPhoto", "the photo is not oriented yet"), "control")["where"]["photo"] = left["name"];
+      Add(NamedWithReason(left), Sentence("whyPhoto", "the photo is not oriented yet"),
+          "control")["where"]["photo"] = left["name"];
     }
   }
 
@@ -138,15 +138,13 @@ class List {
       }
       const std::string kind = left["kind"].asString(), name = left["name"].asString();
       Json::Value& item =
-          Add(NamedWithReason(left),
-              Sentence("whyLeftOut", "it takes no part in the adjustment"),
+          Add(NamedWithReason(left), Sentence("whyLeftOut", "it takes no part in the adjustment"),
               kind == "polygon" ? "polygons" : "control");
       if (kind == "point" || kind == "observation") item["where"]["point"] = name;
       if (left.isMember("photo")) item["where"]["photo"] = left["photo"];
     }
     if (more == 0) return;
-    Add(Sentence("doMore", "and {count} more that take no part", {{"count", more}}), {},
-        "control");
+    Add(Sentence("doMore", "and {count} more that take no part", {{"count", more}}), {}, "control");
   }
 
   void Shapes() {
@@ -219,8 +217,8 @@ class List {
           Sentence("whyBuilding", "nothing is planned yet"), "");
     } else if (!Has(input_.site.artificial())) {
       Advise(Sentence("doConvert", "convert the building's model"),
-             Sentence("whyConvert", "its wireframe then stands in every photo"),
-             "")["run"] = "convert";
+             Sentence("whyConvert", "its wireframe then stands in every photo"), "")["run"] =
+          "convert";
     }
   }
 

@@ -113,8 +113,8 @@ TEST_F(PhotoTilesTest, KeepsOverviewsUntilThePhotographIsAnotherOne) {
   const cv::Mat other = 255 - image;
   Write("a.png", other);
   const cv::Mat tile = Decoded(PhotoTiles({path}, kept).Tile(0, 3, 0, 0));
-  EXPECT_LE(Difference(tile(cv::Rect(0, 0, 512, 75)), HalvedImage(HalvedImage(HalvedImage(other)))(
-                                                          cv::Rect(0, 0, 512, 75))),
+  EXPECT_LE(Difference(tile(cv::Rect(0, 0, 512, 75)),
+                       HalvedImage(HalvedImage(HalvedImage(other)))(cv::Rect(0, 0, 512, 75))),
             20);
   EXPECT_EQ(std::distance(std::filesystem::directory_iterator(kept), {}), 1);
 }

@@ -184,7 +184,8 @@ TEST_F(Part, KeepsAVertexOfOneRayOnAPlane) {
   EXPECT_THAT(NamesOf(part, Kind::kPoint), UnorderedElementsAre("buried", "single"));
   EXPECT_EQ(Of(part, Kind::kPoint, "buried").reason.text(), "no ray, needs two photographs");
   EXPECT_EQ(Of(part, Kind::kPoint, "single").reason.text(), "one ray, needs a second photograph");
-  EXPECT_EQ(Of(part, Kind::kPolygon, "ground").reason.text(), "its vertex buried is not determined");
+  EXPECT_EQ(Of(part, Kind::kPolygon, "ground").reason.text(),
+            "its vertex buried is not determined");
   Solve(part);
 }
 
@@ -227,7 +228,8 @@ TEST_F(Part, TellsContradictionsAndGoesOn) {
   const DeterminedPart part = Find();
   ASSERT_EQ(part.left_out.size(), 3u);
   EXPECT_THAT(Of(part, Kind::kObservation, off).reason.text(), HasSubstr("outside the photograph"));
-  EXPECT_THAT(Of(part, Kind::kPolygon, "bent").reason.text(), HasSubstr("'bent' is far from planar"));
+  EXPECT_THAT(Of(part, Kind::kPolygon, "bent").reason.text(),
+              HasSubstr("'bent' is far from planar"));
   EXPECT_EQ(Of(part, Kind::kPolygon, "bent").reason.text().find("p.json"), std::string::npos);
   EXPECT_EQ(Of(part, Kind::kPolygon, "bent").place.line, 99);
   EXPECT_EQ(Of(part, Kind::kZenith, "c5 c1").place.line, line);

@@ -29,9 +29,8 @@ class RelitPhotoTest : public testing::Test {
     }
     Scene().polygons.push_back(roof);
     Light().sky_radiance.setZero();
-    site_.natural.air.transmittance =
-        Spectrum::Constant(0.999) * site_.natural.spectra.Ones() +
-        (1 - site_.natural.spectra.Ones());
+    site_.natural.air.transmittance = Spectrum::Constant(0.999) * site_.natural.spectra.Ones() +
+                                      (1 - site_.natural.spectra.Ones());
     PaintPhoto();
   }
 
@@ -55,9 +54,8 @@ class RelitPhotoTest : public testing::Test {
   }
 
   Eigen::Vector3d Seen(const Spectrum& irradiance, const Eigen::Vector3d& point) const {
-    return site_.natural.spectra.RgbFromSpectrum(
-        ApparentColor(ReflectedRadiance(1, brdf_, irradiance), site_.natural.air,
-                      DistanceOf(point)));
+    return site_.natural.spectra.RgbFromSpectrum(ApparentColor(
+        ReflectedRadiance(1, brdf_, irradiance), site_.natural.air, DistanceOf(point)));
   }
   Spectrum Sun() const { return Daylit().sun_radiance * Daylit().sun_solid_angle / std::sqrt(2.); }
   Spectrum Ambient() const { return kPi * Daylit().ambient_radiance; }
@@ -97,7 +95,8 @@ TEST_F(RelitPhotoTest, WithoutTheSunBothHalvesAreAlike) {
   const auto relit = RelightPhoto(site_.natural, 0, site_.photo);
   ForLawn([&](int x, int y, const Eigen::Vector3d& point) {
     const Eigen::Vector3d expected = Seen(Ambient(), point);
-    EXPECT_LT((relit->without_sun.Rgb(x, y) - expected).norm(), 0.01 * expected.norm()) << x << " " << y;
+    EXPECT_LT((relit->without_sun.Rgb(x, y) - expected).norm(), 0.01 * expected.norm())
+        << x << " " << y;
     EXPECT_TRUE(relit->is_relit[y * site_.photo.width + x]);
   });
 }

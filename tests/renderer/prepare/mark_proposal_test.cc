@@ -100,7 +100,8 @@ TEST(MatchPatch, RefusesWhatLooksAlikeNowhereOrTwice) {
     const auto found = MatchPatch(PatchOf(scene, {200, 200}), here, PatchOf(other, {200, 200}),
                                   here, Eigen::Matrix2d::Identity(), 12);
     const auto* proposal = std::get_if<MarkProposal>(&found);
-    return proposal ? "quality " + std::to_string(proposal->quality) : std::get<NoProposal>(found).text();
+    return proposal ? "quality " + std::to_string(proposal->quality)
+                    : std::get<NoProposal>(found).text();
   };
   EXPECT_EQ(refusal(Texture(1), Texture(2)), "nothing there looks alike");
   const auto windows = [](const Eigen::Vector2d& at) {  // every 8 pixels another one
