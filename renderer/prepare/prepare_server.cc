@@ -36,6 +36,7 @@ constexpr int kPatchRadius = 40;      // [px], of what proposals look at
 constexpr double kSearchSigmas = 3;   // of a prediction
 constexpr double kWidestSearch = 25;  // [px]
 constexpr int kHighestPort = 65535;
+constexpr int kMostPanes = 4;
 
 WebResponse JsonResponse(const Json::Value& json, int status = 200) {
   WebResponse response;
@@ -59,6 +60,7 @@ class PrepareService {
           if (message.isMember("status")) session_.Reload();
         }) {
     AddRoutes();
+    overviews_ = std::jthread([this](const std::stop_token& stop) { MakeFirstOverviews(stop); });
   }
 
   WebResponse Answer(const WebRequest& request) const {
@@ -112,6 +114,16 @@ class PrepareService {
     routes_["POST /api/" + name] = [answer](const WebRequest& request) {
       return answer(ParseJson("request", request.body));
     };
+  }
+
+  // What the page shows first, while the browser opens.
+  void MakeFirstOverviews(const std::stop_token& stop) {
+    for (int i = 0; i < std::min(tiles_.count(), kMostPanes) && !stop.stop_requested(); ++i) {
+      try {
+        tiles_.Tile(i, tiles_.SizeOf(i).levels - 1, 0, 0);
+      } catch (const std::exception&) {  // the page is told when it asks
+      }
+    }
   }
 
   static WebResponse Told(const PrepareSession::Answer& answer) {
@@ -275,6 +287,7 @@ class PrepareService {
   RelitPhotos relit_;
   StageRuns runs_;
   std::map<std::string, Route> routes_;
+  std::jthread overviews_;
 };
 
 // Where the port stands under which the site's page was served last. What the page could not send
