@@ -13,7 +13,7 @@
 //   POST /api/run {stage}, /api/stop   stages of the site; exif-camera and exif-site:
 //   site_from_exif.h GET  /api/live                     WebSocket: op, saved, not_saved, adjusted,
 //   light, building,
-//                                      todo, run, outside, fault
+//                                      film (film_message.h), todo, run, outside, fault
 #pragma once
 
 #include <functional>
