@@ -208,10 +208,11 @@ void CheckCertified(const FilmCamera& film, const std::filesystem::path& fiducia
   for (const Fiducial& fiducial : marks) {
     const auto listed = film.fiducials.find(fiducial.mark);
     if (listed != film.fiducials.end() && listed->second == fiducial.image_mm) continue;
-    throw InputError(fiducials, "mark " + fiducial.mark +
-                                    (listed == film.fiducials.end() ? " is not among those of "
-                                                                    : " has other millimetres in ") +
-                                    film.path.string());
+    throw InputError(fiducials,
+                     "mark " + fiducial.mark +
+                         (listed == film.fiducials.end() ? " is not among those of "
+                                                         : " has other millimetres in ") +
+                         film.path.string());
   }
 }
 

@@ -46,8 +46,8 @@ std::optional<FilmMap> FitFilmMap(const std::vector<Fiducial>& marks,
                                   FilmTransformation transformation);
 
 // film.json: {"focal_mm", "principal_point_mm": [x, y], "distortion": [[radius_mm, distortion_mm],
-// ...], "transformation": "affine" | "projective", "fiducials": [{"mark", "x_mm", "y_mm"}, ...]}; all
-// but the first may be missing. A certificate's distortion is the measured radius less the
+// ...], "transformation": "affine" | "projective", "fiducials": [{"mark", "x_mm", "y_mm"}, ...]};
+// all but the first may be missing. A certificate's distortion is the measured radius less the
 // undistorted one, positive outwards, at the measured radius about the principal point.
 struct FilmCamera {
   double focal_mm = 0;  // calibrated focal length

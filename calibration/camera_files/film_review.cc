@@ -18,7 +18,7 @@ using Certified = std::map<std::string, Eigen::Vector2d>;
 constexpr double kUnchecked = 0.01;      // redundancy below which a residual says nothing
 constexpr double kShrinks = 0.005;       // film and scanners, of a length, at most
 constexpr double kFits_px = 1;           // sigma of marks that fit
-constexpr double kMisfit_px = 1.5;       // sigma from which a mistake is looked for
+constexpr double kBad_w = 3.29;          // one good mark in a thousand gets there
 constexpr double kSamePlace_px = 2;      // two marks cannot stand nearer
 constexpr double kExplains = 5;          // by which an explanation must bring sigma down
 constexpr double kSameMark_mm = 1;       // a mark seen there is the one of the certificate
@@ -163,14 +163,11 @@ class Reviewer {
   void Explain() {
     const FilmMap& map = *review_.map;
     const bool is_mirrored = IsMirrored(map.bitmap_from_image);
-    if (!map.sigma_px || *map.sigma_px < kMisfit_px) {
+    if (!map.sigma_px || !IsMisfit()) {
       if (is_mirrored) {
-        Suspect("the scan is mirrored against its marks: x and y of the certificate exchanged, "
-                "y counted down, two opposite marks exchanged, or the film scanned from its back");
-      } else if (map.sigma_px && *map.sigma_px > kFits_px) {
-        Suspect(Formatted("the marks fit to %.2f px only: measure them again; of old or buckled "
-                          "film try projective",
-                          *map.sigma_px));
+        Suspect(
+            "the scan is mirrored against its marks: x and y of the certificate exchanged, "
+            "y counted down, two opposite marks exchanged, or the film scanned from its back");
       } else {
         SuspectShape();
       }
@@ -180,7 +177,17 @@ class Reviewer {
     WrongMark();
     WrongMillimetres();
     if (explained_.empty()) LeftOut();
-    TellExplanations();
+    if (explained_.empty()) {
+      Unexplained();
+    } else {
+      TellExplanations();
+    }
+  }
+
+  bool IsMisfit() const {
+    return *review_.map->sigma_px > kFits_px ||
+           std::any_of(review_.marks.begin(), review_.marks.end(),
+                       [](const FiducialReview& mark) { return mark.w.value_or(0) > kBad_w; });
   }
 
   // Without redundancy a wrong mark still shows as a scan that is stretched or sheared.
@@ -189,9 +196,10 @@ class Reviewer {
     const Eigen::Vector2d scales = Eigen::JacobiSVD<Eigen::Matrix2d>(linear).singularValues();
     const double stretch = scales[0] / scales[1] - 1;
     if (stretch < 2 * kShrinks) return;
-    Suspect(Formatted("the scan would be stretched by %.1f %% or sheared, which scanners do not do: "
-                      "a mark stands on the wrong fiducial, or x or y of one is wrong",
-                      100 * stretch));
+    Suspect(
+        Formatted("the scan would be stretched by %.1f %% or sheared, which scanners do not do: "
+                  "a mark stands on the wrong fiducial, or x or y of one is wrong",
+                  100 * stretch));
   }
 
   // Takes an explanation if with it the marks fit far better, as a scan from the front does.
@@ -256,24 +264,30 @@ class Reviewer {
     }
   }
 
-  void TellExplanations() {
-    std::sort(explained_.begin(), explained_.end());
-    const double sigma = *review_.map->sigma_px;
-    if (explained_.empty()) {
+  void Unexplained() {
+    const FilmMap& map = *review_.map;
+    if (LargestResidual(map) > limit_px_) {
       const bool is_too_few = review_.redundancy < 3;
-      Suspect(Formatted("the marks do not fit, off by up to %.1f px: ",
-                        LargestResidual(*review_.map)) +
+      Suspect(Formatted("the marks do not fit, off by up to %.1f px: ", LargestResidual(map)) +
               (is_too_few ? "with so few marks it cannot be told which is wrong; place more"
                           : "several are wrong; begin with the worst"));
-      return;
+    } else if (*map.sigma_px > kFits_px) {
+      Suspect(
+          Formatted("the marks fit to %.2f px only: measure them again; of old or buckled "
+                    "film try projective",
+                    *map.sigma_px));
     }
+  }
+
+  void TellExplanations() {
+    std::sort(explained_.begin(), explained_.end());
     const double alike = 2 * std::max(explained_.front().first, kFiducialSigma_px);
     std::erase_if(explained_, [&](const auto& each) { return each.first > alike; });
     if (explained_.size() > kMostExplanations) explained_.resize(kMostExplanations);
     std::string text;
     for (const auto& each : explained_) text += (text.empty() ? "" : ", or ") + each.second;
     Suspect(text + Formatted(": without that they fit to %.2f px instead of %.2f px",
-                             explained_.front().first, sigma));
+                             explained_.front().first, *review_.map->sigma_px));
   }
 
   const Marks& marks_;

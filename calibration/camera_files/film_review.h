@@ -22,13 +22,13 @@ struct FiducialReview {
 };
 
 struct ScanReview {
-  int needed = 3;              // marks without which there is no map
-  std::optional<FilmMap> map;  // nullopt: fewer, or on one line
-  int redundancy = 0;          // coordinates more than the map's elements
-  double px_per_mm = 0, turn_deg = 0;           // how the scan lay; counter-clockwise on the screen
-  std::vector<FiducialReview> marks;            // worst first
+  int needed = 3;                      // marks without which there is no map
+  std::optional<FilmMap> map;          // nullopt: fewer, or on one line
+  int redundancy = 0;                  // coordinates more than the map's elements
+  double px_per_mm = 0, turn_deg = 0;  // how the scan lay; counter-clockwise on the screen
+  std::vector<FiducialReview> marks;   // worst first
   std::map<std::string, Eigen::Vector2d> predicted;  // [px], of certified marks not placed here
-  std::vector<std::string> suspicions;          // with what to do, for people
+  std::vector<std::string> suspicions;               // with what to do, for people
 };
 
 // The sigma [px] of a coordinate that w refers to: a careful hand on a scan.

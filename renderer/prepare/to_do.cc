@@ -111,8 +111,8 @@ class List {
                    Formatted("%d more tie the scan to its camera", lacking)));
     }
     for (const Json::Value& text : scan["suspicions"]) {
-      AddOfFilm(photo + ": " + text.asString(), "the scan's fiducials do not agree")["where"]
-               ["photo"] = photo;
+      AddOfFilm(photo + ": " + text.asString(),
+                "the scan's fiducials do not agree")["where"]["photo"] = photo;
     }
     if (lacking > 0 || scan["suspicions"].size() > 0) return;
     if (scan["redundancy"] == 0) {

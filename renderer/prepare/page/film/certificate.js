@@ -25,6 +25,7 @@ function accept(field) {
   field.setAttribute("aria-invalid", "false");
   const told = byId("certificate-says");
   if (told) told.textContent = "";
+  say("");
 }
 
 /** @param {Record<string, any>} changes members of film.json */

@@ -168,13 +168,13 @@ function remove() {
   edit(t("opDelete", {point: ui.fiducial, photo}), [{table: "fiducials", before: old, after: null}]);
 }
 
-/** The crosshair to the corner or cross that it is near; Enter takes it. */
+/** The crosshair to the centre of the cross, dot or ring that it is near; Enter takes it. */
 async function refine(pane) {
   if (!pane?.photo) return;
   settle();
   const photo = pane.photo.name,
     {x, y} = pane.cursor;
-  const answer = await ask("/api/refine", {photo, x, y});
+  const answer = await ask("/api/refine", {photo, x, y, fiducial: true});
   if (answer.error) return say(t("notRefined", {why: answer.error}));
   if (pane.photo?.name !== photo) return;
   pane.moveCursor(answer.x, answer.y);

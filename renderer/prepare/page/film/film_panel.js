@@ -61,7 +61,7 @@ function* about(photo, review) {
       node(
         "tr",
         {},
-        ...["fiducial", "vMicrons", "vPixels", "rHead", "wHead"].map(head => node("th", {text: t(head)}))
+        ...["markHead", "vMicrons", "vPixels", "rHead", "wHead"].map(head => node("th", {text: t(head)}))
       )
     ),
     node("tbody", {}, ...(review?.marks ?? []).map(placedLine), ...unplacedLines(photo, review))
