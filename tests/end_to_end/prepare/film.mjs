@@ -115,6 +115,26 @@ const missed = Math.hypot(refined[0] - scan["8"][0], refined[1] - scan["8"][1]);
 report("F finds the cross's centre, Enter takes it", missed < 0.15 && missed > 0, `${said} ${missed.toFixed(3)} px from the truth`);
 await place("8", scan["8"]);
 await person.photo("middle");
+const click = async at => {
+  const {x, y} = await person.at("middle", ...at);
+  await page.mouse.click(x, y);
+  await person.drawn();
+};
+await person.point("1");
+await click(truth.scans.middle["1"]); // from far away it zooms in first
+await click(truth.scans.middle["1"]);
+await person.settled();
+const clicked = async () => fs.readFileSync(`${site}/calibration/fiducials.csv`, "utf8").match(/^1,.*,middle,(.*),(.*)$/m)?.slice(1).map(Number) ?? [];
+const [x1, y1] = await clicked();
+report("a click places a mark", Math.hypot(x1 - truth.scans.middle["1"][0], y1 - truth.scans.middle["1"][1]) < 1, `${x1} ${y1}`);
+await person.point("1");
+const from = await person.at("middle", x1, y1);
+await page.mouse.move(from.x, from.y);
+await page.mouse.down();
+await page.mouse.move(from.x + 8, from.y - 6, {steps: 4});
+await page.mouse.up();
+await person.settled();
+report("a drag moves it", Math.hypot((await clicked())[0] - x1 - 8, (await clicked())[1] - y1 + 6) < 1, await clicked());
 for (const name of names) await place(name, truth.scans.middle[name]);
 await person.photo("right");
 await place("1", truth.scans.right["1"]);

@@ -61,12 +61,15 @@ function* about(photo, review) {
       node(
         "tr",
         {},
-        ...["markHead", "vMicrons", "vPixels", "rHead", "wHead"].map(head => node("th", {text: t(head)}))
+        ...["markHead", "vFilm", "vPixels", "rHead", "wHead"].map(head => node("th", {text: t(head)}))
       )
     ),
     node("tbody", {}, ...(review?.marks ?? []).map(placedLine), ...unplacedLines(photo, review))
   );
 }
+
+/** A length on the film [mm]: micrometres, of blunders millimetres. */
+const onFilm = mm => (Math.abs(mm) < 1 ? `${shown(1000 * mm, 1)} µm` : `${shown(mm, 2)} mm`);
 
 const isUnchecked = review => review?.px_per_mm && review.redundancy === 0;
 
@@ -81,7 +84,7 @@ function mapText(photo, review) {
       ? t("filmSigma", {
           ...values,
           px: shown(review.sigma_px, 2),
-          microns: shown(1000 * review.sigma_mm, 1)
+          film: onFilm(review.sigma_mm)
         })
       : t("filmUnchecked", values);
   const scan = t("filmScan", {scale: shown(review.px_per_mm, 2), turn: shown(review.turn_deg, 2)});
@@ -94,13 +97,17 @@ const nameCell = (mark, level) =>
     activePane()?.focus();
   }, {class: "small"}));
 
+const brief = px => shown(px, Math.abs(px) < 10 ? 2 : 0);
+
 function placedLine(one) {
   const level = grade(one.w);
   const cells = [
-    `${shown(1000 * one.vx_mm, 1)} ${shown(1000 * one.vy_mm, 1)}`,
-    `${shown(one.vx, 2)} ${shown(one.vy, 2)}`,
+    Math.hypot(one.vx_mm, one.vy_mm) < 1
+      ? `${shown(1000 * one.vx_mm, 1)} ${shown(1000 * one.vy_mm, 1)} µm`
+      : `${shown(one.vx_mm, 2)} ${shown(one.vy_mm, 2)} mm`,
+    `${brief(one.vx)} ${brief(one.vy)}`,
     shown(one.r, 2),
-    one.w === null ? "–" : shown(one.w, 1)
+    one.w === null ? "–" : shown(one.w, one.w < 100 ? 1 : 0)
   ];
   const title =
     one.off_px === null ? t("cannotCheck") : t("offOthers", {px: shown(one.off_px, 2)});

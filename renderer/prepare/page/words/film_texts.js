@@ -64,8 +64,8 @@ export const kFilmTexts = {
     "{photo}: {n} von {all} Marken gesetzt; {needed} geben eine Abbildung."
   ],
   filmSigma: [
-    "{photo}: {kind} map from {n} marks, redundancy {r}: σ0 {px} px = {microns} µm.",
-    "{photo}: Abbildung {kind} aus {n} Marken, Redundanz {r}: σ0 {px} px = {microns} µm."
+    "{photo}: {kind} map from {n} marks, redundancy {r}: σ0 {px} px = {film}.",
+    "{photo}: Abbildung {kind} aus {n} Marken, Redundanz {r}: σ0 {px} px = {film}."
   ],
   filmUnchecked: [
     "{photo}: {kind} map from {n} marks, redundancy 0: cannot be checked.",
@@ -74,8 +74,8 @@ export const kFilmTexts = {
   filmScan: ["{scale} px/mm, turned by {turn}°.", "{scale} px/mm, um {turn}° gedreht."],
   offOthers: ["{px} px from where the others put it", "{px} px von dort, wo die andern sie haben"],
   markHead: ["mark", "Marke"],
-  vMicrons: ["v x y [µm]", "v x y [µm]"],
-  vPixels: ["x y [px]", "x y [px]"],
+  vFilm: ["v x y on the film", "v x y im Film"],
+  vPixels: ["v x y [px]", "v x y [px]"],
   rHead: ["r", "r"],
   wHead: ["|w|", "|w|"],
   opCertificate: ["film certificate", "Kalibrierschein"],
