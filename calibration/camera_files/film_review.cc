@@ -93,7 +93,8 @@ class Reviewer {
     review_.redundancy = static_cast<int>(2 * marks_.size()) - elements;
     Describe();
     ReviewMarks();
-    Explain();
+    const bool is_mistaken = !review_.suspicions.empty();
+    review_.is_usable = Explain() && !is_mistaken;
     return std::move(review_);
   }
 
@@ -110,14 +111,17 @@ class Reviewer {
     }
   }
 
+  bool IsPlaced(const std::string& name) const {
+    return std::any_of(marks_.begin(), marks_.end(),
+                       [&](const Fiducial& mark) { return mark.mark == name; });
+  }
+
   void Predict() {
     const auto similarity = FitSimilarity(marks_);
     if (!review_.map && !similarity) return;
     const Eigen::Matrix3d map = review_.map ? review_.map->bitmap_from_image : *similarity;
     for (const auto& [name, image_mm] : certified_) {
-      const bool is_placed = std::any_of(marks_.begin(), marks_.end(),
-                                         [&](const Fiducial& mark) { return mark.mark == name; });
-      if (!is_placed) review_.predicted[name] = At(map, image_mm);
+      if (!IsPlaced(name)) review_.predicted[name] = At(map, image_mm);
     }
   }
 
@@ -160,28 +164,24 @@ class Reviewer {
 
   // ---- what may have been mixed up ----
 
-  void Explain() {
-    const FilmMap& map = *review_.map;
-    const bool is_mirrored = IsMirrored(map.bitmap_from_image);
-    if (!map.sigma_px || !IsMisfit()) {
-      if (is_mirrored) {
-        Suspect(
-            "the scan is mirrored against its marks: x and y of the certificate exchanged, "
-            "y counted down, two opposite marks exchanged, or the film scanned from its back");
-      } else {
-        SuspectShape();
-      }
-      return;
-    }
+  // False: a mistake is found.
+  bool Explain() {
+    if (!review_.map->sigma_px || !IsMisfit()) return !SuspectMirrored() && HasShapeOfScan();
     Exchanged();
     WrongMark();
     WrongMillimetres();
     if (explained_.empty()) LeftOut();
-    if (explained_.empty()) {
-      Unexplained();
-    } else {
-      TellExplanations();
-    }
+    if (explained_.empty()) return !SuspectMirrored() && FitsUnexplained();
+    TellExplanations();
+    return false;
+  }
+
+  bool SuspectMirrored() {
+    if (!IsMirrored(review_.map->bitmap_from_image)) return false;
+    Suspect(
+        "the scan is mirrored against its marks: x and y of the certificate exchanged, y counted "
+        "down, two opposite marks exchanged, or the film scanned from its back");
+    return true;
   }
 
   bool IsMisfit() const {
@@ -191,15 +191,16 @@ class Reviewer {
   }
 
   // Without redundancy a wrong mark still shows as a scan that is stretched or sheared.
-  void SuspectShape() {
+  bool HasShapeOfScan() {
     const Eigen::Matrix2d linear = review_.map->bitmap_from_image.topLeftCorner<2, 2>();
     const Eigen::Vector2d scales = Eigen::JacobiSVD<Eigen::Matrix2d>(linear).singularValues();
     const double stretch = scales[0] / scales[1] - 1;
-    if (stretch < 2 * kShrinks) return;
+    if (stretch < 2 * kShrinks) return true;
     Suspect(
         Formatted("the scan would be stretched by %.1f %% or sheared, which scanners do not do: "
                   "a mark stands on the wrong fiducial, or x or y of one is wrong",
                   100 * stretch));
+    return false;
   }
 
   // Takes an explanation if with it the marks fit far better, as a scan from the front does.
@@ -225,9 +226,7 @@ class Reviewer {
   // One that stands where a mark not placed yet must be.
   void WrongMark() {
     for (const auto& [name, image_mm] : certified_) {
-      const bool is_placed =
-          std::any_of(marks_.begin(), marks_.end(),
-                      [&wanted = name](const Fiducial& mark) { return mark.mark == wanted; });
+      const bool is_placed = IsPlaced(name);
       for (size_t i = 0; !is_placed && i < marks_.size(); ++i) {
         Marks marks = marks_;
         marks[i].image_mm = image_mm;
@@ -264,19 +263,23 @@ class Reviewer {
     }
   }
 
-  void Unexplained() {
+  // Whether insitu-calibrate takes them.
+  bool FitsUnexplained() {
     const FilmMap& map = *review_.map;
     if (LargestResidual(map) > limit_px_) {
       const bool is_too_few = review_.redundancy < 3;
       Suspect(Formatted("the marks do not fit, off by up to %.1f px: ", LargestResidual(map)) +
               (is_too_few ? "with so few marks it cannot be told which is wrong; place more"
                           : "several are wrong; begin with the worst"));
-    } else if (*map.sigma_px > kFits_px) {
+      return false;
+    }
+    if (*map.sigma_px > kFits_px) {
       Suspect(
           Formatted("the marks fit to %.2f px only: measure them again; of old or buckled "
                     "film try projective",
                     *map.sigma_px));
     }
+    return true;
   }
 
   void TellExplanations() {

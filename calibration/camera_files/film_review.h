@@ -28,7 +28,8 @@ struct ScanReview {
   double px_per_mm = 0, turn_deg = 0;  // how the scan lay; counter-clockwise on the screen
   std::vector<FiducialReview> marks;   // worst first
   std::map<std::string, Eigen::Vector2d> predicted;  // [px], of certified marks not placed here
-  std::vector<std::string> suspicions;               // with what to do, for people
+  bool is_usable = false;               // no mistake is found, and insitu-calibrate takes it
+  std::vector<std::string> suspicions;  // with what to do, for people
 };
 
 // The sigma [px] of a coordinate that w refers to: a careful hand on a scan.

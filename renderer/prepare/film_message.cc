@@ -8,6 +8,7 @@
 #include "calibration/camera_files/camera_file.h"
 #include "calibration/camera_files/film.h"
 #include "calibration/camera_files/film_review.h"
+#include "calibration/files/error.h"
 #include "calibration/files/wording.h"
 
 namespace insitu {
@@ -51,6 +52,7 @@ class Message {
     message_["photos"] = Json::Value(Json::objectValue);
     TakeCertificate();
     TakeMarks();
+    Files();
     Folders();
     for (const auto& [photo, marks] : marks_) TellPhoto(photo, marks);
     return std::move(message_);
@@ -63,6 +65,7 @@ class Message {
     const Json::Value& film = tables_["film"][0];
     if (film["transformation"] == "projective") transformation_ = FilmTransformation::kProjective;
     for (const Json::Value& row : tables_["film_marks"]) {
+      if (!row["x_mm"].isNumeric() || !row["y_mm"].isNumeric()) continue;  // the reader says it
       if (certified_.emplace(row["mark"].asString(), Millimetres(row)).second) continue;
       Fault("the certificate lists mark " + row["mark"].asString() + " twice");
     }
@@ -84,13 +87,23 @@ class Message {
     }
     for (const Json::Value& row : tables_["fiducials"]) {
       const std::string mark = row["mark"].asString();
-      if (Millimetres(row) != certified_.at(mark)) {
+      if (is_listed_ && Millimetres(row) != certified_.at(mark)) {
         Fault("mark " + mark + " of " + row["photo"].asString() +
-              (is_listed_ ? " has other millimetres than the certificate"
-                          : " has other millimetres than further up"));
+              " has other millimetres than the certificate");
       }
       marks_[row["photo"].asString()].push_back(
           {mark, Millimetres(row), {row["x"].asDouble(), row["y"].asDouble()}});
+    }
+  }
+
+  // What the programs' readers object to in the files as they are.
+  void Files() {
+    const fs::path film = folder_ / "film.json", fiducials = folder_ / "fiducials.csv";
+    try {
+      if (tables_["film"][0]["focal_mm"].isNumeric() && fs::exists(film)) ReadFilmCamera(film);
+      if (fs::exists(fiducials)) ReadFiducials(fiducials);
+    } catch (const InputError& error) {
+      Fault(error.what());
     }
   }
 
@@ -110,6 +123,7 @@ class Message {
     Json::Value& told = message_["photos"][photo];
     told["needed"] = review.needed;
     told["placed"] = static_cast<int>(marks.size());
+    told["usable"] = review.is_usable;
     told["kind"] = transformation_ == FilmTransformation::kAffine ? "affine" : "projective";
     told["unplaced"] = Unplaced(marks);
     told["suspicions"] = told["marks"] = Json::Value(Json::arrayValue);

@@ -15,12 +15,12 @@ namespace insitu {
 // Whether an operation on this table changes what FilmMessage says.
 bool IsOfFilm(const std::string& table);
 
-// {type: film, folder, missing: [text], faults: [text], photos: {NAME: {needed, placed, unplaced:
-// [mark], kind, redundancy, sigma_px, sigma_mm (null: cannot be checked), px_per_mm, turn_deg
-// (null: no map), marks: [{mark, vx, vy, vx_mm, vy_mm, r, w, off_px}] worst first, predicted:
-// {MARK: [x, y]}, suspicions: [text]}}}; null where the site has no film. `tables` as SiteEdit has
-// them, `sizes` of the photographs [px]. Photos are those with marks, of a site without other
-// cameras all.
+// {type: film, folder, missing: [text], faults: [text], photos: {NAME: {needed, placed, usable,
+// unplaced: [mark], kind, redundancy, sigma_px, sigma_mm (null: cannot be checked), px_per_mm,
+// turn_deg (null: no map), marks: [{mark, vx, vy, vx_mm, vy_mm, r, w, off_px}] worst first,
+// predicted: {MARK: [x, y]}, suspicions: [text]}}}; null where the site has no film. `tables` as
+// SiteEdit has them, `sizes` of the photographs [px]. Photos are those with marks, of a site
+// without other cameras all.
 Json::Value FilmMessage(const SitePaths& site, const Json::Value& tables,
                         const std::map<std::string, Eigen::Vector2i>& sizes);
 

@@ -110,9 +110,12 @@ class List {
       at(AddOfFilm(photo + ": " + Listing("fiducials to be placed", unplaced),
                    Formatted("%d more tie the scan to its camera", lacking)));
     }
+    const std::string why = "the scan's fiducials do not agree";
     for (const Json::Value& text : scan["suspicions"]) {
-      AddOfFilm(photo + ": " + text.asString(),
-                "the scan's fiducials do not agree")["where"]["photo"] = photo;
+      const std::string told = photo + ": " + text.asString();
+      Json::Value& item =
+          scan["usable"].asBool() ? Advise(told, why, "film") : AddOfFilm(told, why);
+      item["where"]["photo"] = photo;
     }
     if (lacking > 0 || scan["suspicions"].size() > 0) return;
     if (scan["redundancy"] == 0) {

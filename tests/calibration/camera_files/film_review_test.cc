@@ -57,6 +57,7 @@ TEST(FilmReview, AKnownMapIsFound) {
   EXPECT_NEAR(review.px_per_mm, 40, 1e-9);
   EXPECT_NEAR(review.turn_deg, 1, 1e-9);
   EXPECT_THAT(review.suspicions, IsEmpty());
+  EXPECT_TRUE(review.is_usable);
   double sum = 0;
   for (const Eigen::Vector2d& each : review.map->redundancies) sum += each.sum();
   EXPECT_NEAR(sum, 10, 1e-9);  // redundancies add up to that of the whole
@@ -92,6 +93,18 @@ TEST(FilmReview, ABlunderStandsOut) {
   EXPECT_NEAR(*review.marks[0].off_px, 15, 1e-6);
   EXPECT_THAT(review.suspicions,
               ElementsAre(HasSubstr("mark 6 lies 15.0 px (0.37 mm) from where the others put it")));
+  EXPECT_FALSE(review.is_usable);
+}
+
+// Old film, whose marks fit badly without one being wrong, is told of and taken.
+TEST(FilmReview, BuckledFilmIsUsable) {
+  std::vector<Fiducial> marks = Placed(kAll);
+  for (size_t i = 0; i < marks.size(); ++i) {
+    marks[i].bitmap_px += Eigen::Vector2d(i % 2 ? 1.6 : -1.4, (i / 2) % 2 ? -1.5 : 1.7);
+  }
+  const ScanReview review = Review(marks);
+  EXPECT_THAT(review.suspicions, ElementsAre(HasSubstr("px only")));
+  EXPECT_TRUE(review.is_usable);
 }
 
 TEST(FilmReview, ThreeMarksCheckNothing) {
@@ -133,6 +146,7 @@ TEST(FilmReview, ExchangedMarksOfFour) {
   marks = Placed(kCorners);
   std::swap(marks[0].bitmap_px, marks[2].bitmap_px);
   EXPECT_THAT(Review(marks).suspicions, ElementsAre(HasSubstr("two opposite marks exchanged")));
+  EXPECT_FALSE(Review(marks).is_usable);
 }
 
 TEST(FilmReview, AMarkOnTheWrongFiducial) {

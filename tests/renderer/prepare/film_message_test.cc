@@ -130,6 +130,17 @@ TEST_F(FilmMessageTest, AFileAtFaultIsReadOnlyAndNamedWithItsLine) {
       HasSubstr("calibration/fiducials.csv:2:"));
 }
 
+// What the tables allow and the programs' reader does not.
+TEST_F(FilmMessageTest, WhatTheReaderObjectsToIsTold) {
+  folder_.Write("calibration/film.json",
+                "{\"focal_mm\": 60,\n \"fiducials\": [{\"mark\": \"1\", \"x_mm\": \"a\"}]}");
+  Reopen();
+  EXPECT_THAT(Message()["faults"][0].asString(), HasSubstr("film.json:2:"));
+  folder_.Write("calibration/film.json", "{\"focal_mm\": 60, \"transformation\": \"helmert\"}");
+  Reopen();
+  EXPECT_THAT(Message()["faults"][0].asString(), HasSubstr("expected affine or projective"));
+}
+
 TEST_F(FilmMessageTest, WhatNoReaderTakesIsRefused) {
   const std::string nan = R"({"mark": "1", "x_mm": "nan", "y_mm": 2})";
   EXPECT_EQ(Put("film_marks", nan).refused, "film_marks: x_mm is no number");

@@ -93,11 +93,14 @@ TEST_F(ToDoTest, FilmAsksForItsCertificateThenForTheMarksOfEachScan) {
       "A": {"needed": 3, "placed": 1, "unplaced": ["2", "3", "4"], "suspicions": [], "redundancy": 0},
       "B": {"needed": 3, "placed": 3, "unplaced": ["4"], "suspicions": [], "redundancy": 0},
       "C": {"needed": 3, "placed": 4, "unplaced": [], "redundancy": 2,
-            "suspicions": ["marks 1 and 2 are exchanged"]}}})");
+            "suspicions": ["marks 1 and 2 are exchanged"]},
+      "D": {"needed": 3, "placed": 4, "unplaced": [], "redundancy": 2, "usable": true,
+            "suspicions": ["the marks fit to 1.20 px only"]}}})");
   const Json::Value items = ToDo(input_);
   EXPECT_THAT(Texts(), ElementsAre("the film's certificate lacks (1): the principal distance",
                                    "A: fiducials to be placed (3): 2, 3, 4",
-                                   "C: marks 1 and 2 are exchanged", "B: one more fiducial"));
+                                   "C: marks 1 and 2 are exchanged", "B: one more fiducial",
+                                   "D: the marks fit to 1.20 px only"));
   EXPECT_EQ(items[0]["where"]["table"], "film");
   EXPECT_EQ(items[1]["where"]["photo"], "A");
   EXPECT_EQ(items[1]["where"]["fiducial"], "2");
