@@ -34,6 +34,12 @@ struct GreyPatch {
 std::variant<MarkProposal, NoProposal> RefineCorner(const GreyPatch& patch,
                                                     const Eigen::Vector2d& pixel);
 
+// The centre of a point-symmetric figure near the middle: a cross, dot or ring, as fiducial marks
+// are. By the correlation of 21 x 21 pixels with themselves turned by 180 degrees. None: it lies
+// more than 4 px away, or a line or an even surface is there.
+std::variant<MarkProposal, NoProposal> RefineSymmetric(const GreyPatch& patch,
+                                                       const Eigen::Vector2d& pixel);
+
 // The place in `other`, within `radius` [px] of `predicted`, that looks like the surroundings of
 // `pixel`: `other_from_photo` is how offsets there [px] follow from offsets here. By normalised
 // cross-correlation of 21 x 21 pixels. None: nothing reaches 0.8, two places look alike.

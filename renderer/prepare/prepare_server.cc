@@ -221,7 +221,9 @@ class PrepareService {
 
   Json::Value Refine(const Json::Value& question) {
     const Eigen::Vector2d pixel(question["x"].asDouble(), question["y"].asDouble());
-    return ProposalJson(RefineCorner(GreyAround(question["photo"].asString(), pixel), pixel));
+    const GreyPatch patch = GreyAround(question["photo"].asString(), pixel);
+    const bool is_fiducial = question["fiducial"].asBool();
+    return ProposalJson(is_fiducial ? RefineSymmetric(patch, pixel) : RefineCorner(patch, pixel));
   }
 
   // The point on all photos that lack it and where it is predicted.

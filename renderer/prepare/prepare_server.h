@@ -11,11 +11,11 @@
 //   POST /api/op                       an operation (operation.h): 200 {revision}, 409 {conflicts}
 //   POST /api/undo, /api/redo {id}     200 {revision, operation}
 //   POST /api/epipolar, /api/measure, /api/best_photo, /api/polygon_at, /api/import   questions.h
-//   POST /api/refine {photo, x, y}, /api/match {photo, point}    mark_proposal.h
+//   POST /api/refine {photo, x, y, fiducial}, /api/match {photo, point}    mark_proposal.h
 //   POST /api/run {stage}, /api/stop   stages of the site; exif-camera and exif-site:
 //   site_from_exif.h GET  /api/live                     WebSocket: op, saved, not_saved, adjusted,
 //   light, building,
-//                                      todo, run, outside, fault
+//                                      film (film_message.h), todo, run, outside, fault
 #pragma once
 
 #include <functional>

@@ -19,6 +19,7 @@ class List {
 
   Json::Value Fill() {
     Files();
+    Film();
     Lens();
     Control();
     Photos();
@@ -91,7 +92,92 @@ class List {
     }
   }
 
+  // Until the scans' cameras can be made of it.
+  void Film() {
+    if (input_.film.isNull()) return;
+    for (const Json::Value& text : input_.film["faults"]) {
+      AddOfFilm(Sentence::Verbatim(text.asString()),
+                Sentence("whyFilmFault", "the scans' cameras cannot be made of this"));
+    }
+    std::vector<std::string> missing;
+    for (const Json::Value& text : input_.film["missing"]) missing.push_back(text.asString());
+    if (!missing.empty()) {
+      AddOfFilm(
+          Sentence("doCertificate", "the film's certificate lacks ({count}): {names}",
+                   {{"count", static_cast<int>(missing.size())}, {"names", FirstOf(missing)}}),
+          Sentence("whyCertificate",
+                   "it ties the scans to the camera's lens: type it"))["where"]["table"] = "film";
+    }
+    const Json::Value& photos = input_.film["photos"];
+    for (const std::string& photo : photos.getMemberNames()) Scan(photo, photos[photo]);
+    if (needs_film_ || !IsOutdated(photos)) return;
+    Add(Sentence("doScans", "calibrate the scans"), Sentence("whyScans", "their film is complete"),
+        "")["run"] = "calibrate";
+  }
+
+  Json::Value& AddOfFilm(const Sentence& text, const Sentence& why) {
+    needs_film_ = true;
+    return Add(text, why, "film");
+  }
+
+  void Scan(const std::string& photo, const Json::Value& scan) {
+    std::vector<std::string> unplaced;
+    for (const Json::Value& mark : scan["unplaced"]) unplaced.push_back(mark.asString());
+    const int lacking = scan["needed"].asInt() - scan["placed"].asInt();
+    const auto at = [&](Json::Value& item) {
+      item["where"]["photo"] = photo;
+      if (!unplaced.empty()) item["where"]["fiducial"] = unplaced.front();
+    };
+    if (lacking > 0) {
+      at(AddOfFilm(Sentence("doFiducials", "{photo}: fiducials to be placed ({count}): {names}",
+                            {{"photo", photo},
+                             {"count", static_cast<int>(unplaced.size())},
+                             {"names", FirstOf(unplaced)}}),
+                   Sentence("whyFiducials", "{count} more tie the scan to its camera",
+                            {{"count", lacking}})));
+    }
+    const Sentence why("whyDisagree", "the scan's fiducials do not agree");
+    for (const Json::Value& text : scan["suspicions"]) {
+      const Sentence told(
+          "named", "{name}: {reason}",
+          {{"name", photo}, {"reason", Sentence::Verbatim(text.asString()).ToJson()}});
+      Json::Value& item =
+          scan["usable"].asBool() ? Advise(told, why, "film") : AddOfFilm(told, why);
+      item["where"]["photo"] = photo;
+    }
+    if (lacking > 0 || scan["suspicions"].size() > 0) return;
+    if (scan["redundancy"] == 0) {
+      at(Advise(Sentence("doOneFiducial", "{photo}: one more fiducial", {{"photo", photo}}),
+                Sentence("whyOneFiducial",
+                         "the film map cannot be checked: an error of a mark would not be seen"),
+                "film"));
+    } else if (!unplaced.empty()) {
+      at(Advise(Sentence("doMoreFiducials", "{photo}: fiducials not placed ({count}): {names}",
+                         {{"photo", photo},
+                          {"count", static_cast<int>(unplaced.size())},
+                          {"names", FirstOf(unplaced)}}),
+                Sentence("whyMoreFiducials", "each is a check of the others"), "film"));
+    }
+  }
+
+  // Whether a scan has no camera, or an older one than its film.
+  bool IsOutdated(const Json::Value& photos) const {
+    namespace fs = std::filesystem;
+    std::error_code none;
+    const fs::path folder = input_.site.root / input_.film["folder"].asString();
+    for (const std::string& photo : photos.getMemberNames()) {
+      const auto made = fs::last_write_time(input_.site.camera(photo), none);
+      if (none) return true;
+      for (const char* file : {"film.json", "fiducials.csv"}) {
+        const auto written = fs::last_write_time(folder / file, none);
+        if (none || written > made) return true;
+      }
+    }
+    return false;
+  }
+
   void Lens() {
+    if (!input_.film.isNull()) return LensBesideFilm();
     Sentence why;
     for (const Json::Value& left : input_.adjusted["left_out"]) {
       if (NeedsLens(left)) why = Sentence::SaidIn(left, "reason");
@@ -106,7 +192,21 @@ class List {
                    "put photographs of a board, or a camera file, into calibration/; or take the "
                    "focal length from EXIF for a first look"),
           why, "")["run"] = "exif-camera";
+      Add(Sentence("doFilm", "or, of scanned film, type the camera's certificate"),
+          Sentence("whyFilm", "its fiducial marks then tie each scan to the lens"),
+          "film")["where"]["table"] = "film";
     }
+  }
+
+  // Photos of other cameras than the film's.
+  void LensBesideFilm() {
+    Sentence why;
+    for (const Json::Value& left : input_.adjusted["left_out"]) {
+      const bool is_scan = input_.film["photos"].isMember(left["name"].asString());
+      if (NeedsLens(left) && !is_scan) why = Sentence::SaidIn(left, "reason");
+    }
+    if (why.empty() || needs_film_) return;
+    Add(Sentence("doCameras", "calibrate the cameras"), why, "")["run"] = "calibrate";
   }
 
   void Control() {
@@ -223,6 +323,7 @@ class List {
   }
 
   const ToDoInput& input_;
+  bool needs_film_ = false;  // something of the film keeps the scans from being calibrated
   Json::Value items_ = Json::Value(Json::arrayValue), advice_ = items_;
 };
 

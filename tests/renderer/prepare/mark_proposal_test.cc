@@ -56,6 +56,40 @@ TEST(RefineCorner, TellsAnEdgeAndAnEvenSurface) {
             "an even surface");
 }
 
+// Fiducial marks: a cross of thick lines, a dot, a ring.
+double Cross(const Eigen::Vector2d& at) {
+  const Eigen::Array2d off = (at - kCorner).array().abs();
+  return off.minCoeff() < 1.4 && off.maxCoeff() < 14 ? 1 : 0;
+}
+double Dot(const Eigen::Vector2d& at) { return (at - kCorner).norm() < 5 ? 1 : 0; }
+double Ring(const Eigen::Vector2d& at) { return std::abs((at - kCorner).norm() - 7) < 1 ? 1 : 0; }
+
+TEST(RefineSymmetric, FindsTheCentreOfAFiducialMark) {
+  for (const auto& scene : {Cross, Dot, Ring}) {
+    const auto found =
+        RefineSymmetric(PatchOf(scene, {101, 81}), kCorner + Eigen::Vector2d(2.2, -1.7));
+    ASSERT_TRUE(std::holds_alternative<MarkProposal>(found)) << std::get<NoProposal>(found);
+    const auto& proposal = std::get<MarkProposal>(found);
+    EXPECT_LT((proposal.pixel - kCorner).norm(), 0.06);
+    EXPECT_NEAR(proposal.shift_px, std::hypot(2.2, 1.7), 0.06);
+  }
+}
+
+TEST(RefineSymmetric, TellsALineAndAnEvenSurface) {
+  const Eigen::Vector2d near(100.5, 81);
+  const auto line = [](const Eigen::Vector2d& at) {
+    return std::abs(at.x() - 100) < 1.5 ? 1.0 : 0;
+  };
+  EXPECT_EQ(std::get<NoProposal>(RefineSymmetric(PatchOf(line, {100, 81}), near)),
+            "no centre of a mark within 4 px, or a line");
+  const auto even = [](const Eigen::Vector2d&) { return 0.5; };
+  EXPECT_EQ(std::get<NoProposal>(RefineSymmetric(PatchOf(even, {100, 81}), near)),
+            "an even surface, or too near the edge");
+  EXPECT_EQ(std::get<NoProposal>(
+                RefineSymmetric(PatchOf(Dot, {101, 81}), kCorner + Eigen::Vector2d(6, 3))),
+            "no centre of a mark within 4 px, or a line");
+}
+
 // Blurred noise that looks alike nowhere.
 class Texture {
  public:

@@ -129,6 +129,27 @@ TEST_F(PrepareSessionTest, ACameraPositionIsNoPixel) {
   EXPECT_EQ(session_->Apply(operation).status, 200);
 }
 
+TEST_F(PrepareSessionTest, FilmIsToldAtOnceWithEachMark) {
+  Start();
+  EXPECT_TRUE(session_->Site()["film"].isNull());
+  const Json::Value row =
+      RowOf(R"({"mark": "1", "x_mm": -28, "y_mm": 28, "photo": "A", "x": 1, "y": 1})");
+  EXPECT_EQ(session_->Apply(ToJson(OneEdit("1", "fiducials", Json::Value(), row))).status, 200);
+  EXPECT_EQ(Wait("film", 0)["photos"]["A"]["placed"], 1);
+  Wait("saved", 1);
+  EXPECT_EQ(ReadWhole(site_.boards() / "fiducials.csv"),
+            "mark,x_mm,y_mm,photo,x,y\n1,-28,28,A,1,1\n");
+}
+
+TEST_F(PrepareSessionTest, FilmBesideAnotherCameraIsRefused) {
+  folder_.Write("calibration/board_01.jpg", "");
+  Start();
+  const Json::Value row = RowOf(R"({"focal_mm": 60})");
+  const auto answer = session_->Apply(ToJson(OneEdit("1", "film", Json::Value(), row)));
+  EXPECT_EQ(answer.status, 400);
+  EXPECT_THAT(answer.body["error"].asString(), HasSubstr("board_01.jpg is of another camera"));
+}
+
 TEST_F(PrepareSessionTest, UndoAndRedoAreToldAsSuch) {
   Start();
   session_->Apply(Mark("1", Json::nullValue, MarkOn("A", "p", 3, 2)));

@@ -10,16 +10,18 @@ import {adjustedMark, mark, prediction, raysOf, state} from "../site/state.js";
 import {settle} from "../points/marking.js";
 import {shown} from "../words/numbers.js";
 import {say} from "./notices.js";
+import {fiducial, reviewedMark} from "../film/certified.js";
 import {offText, samples} from "../light/samples.js";
 import {activePane, setMode, ui} from "../site/ui.js";
 import {kLanguages, language, setLanguage, raysText, t} from "../words/words.js";
 
-/** @type {["control"|"polygons"|"sun"|"light", string][]} */
+/** @type {[import("../site/ui.js").Mode, string][]} */
 export const kModes = [
   ["control", "1"],
   ["polygons", "2"],
   ["sun", "3"],
-  ["light", "4"]
+  ["light", "4"],
+  ["film", "5"]
 ];
 
 /** Takes the last operation back, whoever did it. */
@@ -137,8 +139,20 @@ function drawStatus() {
   const parts = [`${photo}  x ${shown(place.x, 2)}  y ${shown(place.y, 2)}`];
   const sample = ui.mode === "light" && samples().find(one => one.key === ui.sample);
   if (sample) parts.push(`${t(sample.kind)} ${sample.row.polygon ?? ""}`, `${t("off100")} ${offText(sample)}`);
+  else if (ui.mode === "film") parts.push(...fiducialParts(photo, ui.fiducial));
   else if (point !== null) parts.push(...pointParts(photo, point));
   keepText(made, parts.join("  |  "));
+}
+
+function fiducialParts(photo, name) {
+  if (name === null) return [];
+  const about = reviewedMark(photo, name);
+  if (!about) return [name, t(fiducial(photo, name) ? "placedOnly" : "notPlaced")];
+  return [
+    name,
+    `v ${shown(about.vx, 2)} ${shown(about.vy, 2)} px`,
+    about.w === null ? t("cannotCheck") : `w ${shown(about.w, 1)}  r ${shown(about.r, 2)}`
+  ];
 }
 
 function pointParts(photo, point) {

@@ -2,6 +2,8 @@
 // Lists: points by worst |w|, photos, polygons, pairs, samples; and what is to be done.
 
 import {button, byId, first, node} from "../words/dom.js";
+import {showCertificate} from "../film/certificate.js";
+import {chooseFiducial} from "../film/fiducials.js";
 import {raysOf, rows, state} from "../site/state.js";
 import {on} from "../site/signals.js";
 import {shown} from "../words/numbers.js";
@@ -45,7 +47,7 @@ export function buildLists() {
   byId("lists").replaceChildren(tabs, field, node("div", {id: "list", role: "tabpanel"}));
   on("draw", draw);
   on("mode", () =>
-    showList({control: "points", polygons: "polygons", sun: "pairs", light: "samples"}[ui.mode])
+    showList({control: "points", polygons: "polygons", sun: "pairs", light: "samples", film: "photos"}[ui.mode])
   );
 }
 
@@ -277,6 +279,8 @@ function goTo(where) {
   if (where.mode) setMode(where.mode);
   if (where.point) choosePoint(where.point);
   if (where.photo) showPhoto(where.photo);
+  if (where.fiducial) chooseFiducial(where.fiducial);
+  if (where.table === "film") return showCertificate();
   if (where.table === "control_points") first("[data-menu=controlTable]")?.click();
   backToPane();
 }

@@ -3,6 +3,7 @@
 // screen = k (p + 1/2) + t in CSS pixels, p a pixel coordinate, (0, 0) being a pixel's centre.
 
 import {button, node, svg} from "../words/dom.js";
+import {drawFiducials} from "../film/fiducial_drawing.js";
 import {drawFigures} from "./figures.js";
 import {listenTo} from "./gestures.js";
 import {Loupe} from "./loupe.js";
@@ -12,7 +13,7 @@ import {photoOf, state} from "../site/state.js";
 import {emit, redraw} from "../site/signals.js";
 import {relit, stepLight} from "./relit.js";
 import {fetchTiles, kTile, tileIfHere, wishTile} from "./tiles.js";
-import {activePane, placeOf, stepLines, ui} from "../site/ui.js";
+import {activePane, currentPlace, hands, placeOf, stepLines, ui} from "../site/ui.js";
 import {said, t} from "../words/words.js";
 
 const clamp = (value, low, high) => Math.min(Math.max(value, low), high);
@@ -58,7 +59,8 @@ export class Pane {
       svg("path", {class: "casing", d: kCross}),
       svg("path", {d: kCross})
     );
-    const layers = [this.figures, this.markLayer, this.sampleLayer];
+    this.fiducialLayer = svg("g", {class: "fiducials"});
+    const layers = [this.figures, this.markLayer, this.sampleLayer, this.fiducialLayer];
     this.overlay = svg("svg", {class: "overlay", "aria-hidden": false}, ...layers);
     const crossLayer = svg("svg", {class: "overlay still"}, this.cross);
     this.stage = node(
@@ -109,7 +111,7 @@ export class Pane {
     this.stage.setAttribute("aria-label", t("paneLabel", {photo: photo.name}));
     this.root.dataset.photo = photo.name;
     this.fit();
-    if (ui.point !== null) this.goTo(ui.point, false);
+    this.toCurrent(false);
   }
 
   focus() {
@@ -202,7 +204,16 @@ export class Pane {
 
   /** The crosshair to a point, if its place is known; the view along, if asked. */
   goTo(point, moves) {
-    const place = this.photo && placeOf(this.photo.name, point);
+    this.goToPlace(this.photo && placeOf(this.photo.name, point), moves);
+  }
+
+  /** The same to what is to be placed. */
+  toCurrent(moves) {
+    if (!this.photo || (ui.point === null && !hands())) return;
+    this.goToPlace(currentPlace(this.photo.name), moves);
+  }
+
+  goToPlace(place, moves) {
     this.isMoved = false;
     if (!place) return;
     this.cursor = place;
@@ -213,8 +224,7 @@ export class Pane {
 
   /** The crosshair stays on the point, wherever that is now. */
   stay() {
-    const isBusy = this.isMoved || ui.tool || ui.point === null || !this.photo;
-    const place = isBusy ? null : placeOf(this.photo.name, ui.point);
+    const place = this.isMoved || ui.tool || !this.photo ? null : currentPlace(this.photo.name);
     if (place) this.cursor = place;
   }
 
@@ -264,6 +274,7 @@ export class Pane {
       this.drawn = {k: this.k, tx: this.tx, ty: this.ty};
       drawMarks(this);
       drawSamples(this);
+      drawFiducials(this);
     }
     const shift = `translate(${this.tx - this.drawn.tx}px, ${this.ty - this.drawn.ty}px)`;
     if (this.overlay.style.transform !== shift) this.overlay.style.transform = shift;

@@ -2,6 +2,7 @@
 // Every text of the page: English, German (Swiss). Control point = Passpunkt, check point =
 // Kontrollpunkt, mark = Bildmessung, tie point = Verknüpfungspunkt, residual = Verbesserung.
 
+import {kFilmTexts} from "./film_texts.js";
 import {kKeyTexts} from "./key_texts.js";
 import {kPanelTexts} from "./panel_texts.js";
 
@@ -352,5 +353,6 @@ export const kTexts = {
   stage_render: ["render", "rechnen"],
   stage_montage: ["montage", "Montage"],
   ...kPanelTexts,
-  ...kKeyTexts
+  ...kKeyTexts,
+  ...kFilmTexts
 };
