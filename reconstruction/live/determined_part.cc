@@ -224,7 +224,7 @@ class PartFinder {
     std::erase_if(*rows, [&](const Row& row) {
       std::optional<LeftOut> found = fault(row);
       if (!found) return false;
-      LeaveOut(*std::move(found));
+      LeaveOut(std::move(*found));
       return true;
     });
   }

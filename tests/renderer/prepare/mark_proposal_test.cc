@@ -20,8 +20,8 @@ GreyPatch PatchOf(const Scene& scene, const Eigen::Vector2i& center) {
     for (int u = 0; u < patch.grey.cols; ++u) {
       double sum = 0;
       for (int i = 0; i < kFine * kFine; ++i) {
-        const Eigen::Vector2d within((i % kFine + 0.5) / kFine - 0.5,
-                                     (i / kFine + 0.5) / kFine - 0.5);
+        const int column = i % kFine, row = i / kFine;
+        const Eigen::Vector2d within((column + 0.5) / kFine - 0.5, (row + 0.5) / kFine - 0.5);
         sum += scene(Eigen::Vector2d(u - kRadius + center.x(), v - kRadius + center.y()) + within);
       }
       patch.grey.at<uchar>(v, u) = cv::saturate_cast<uchar>(40 + 170 * sum / (kFine * kFine));
