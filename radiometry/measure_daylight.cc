@@ -16,11 +16,11 @@ namespace insitu {
 namespace {
 
 constexpr double kPoorCondition = 100;
-constexpr int kDirections = 4096;      // in which a sample's surroundings are looked at
+constexpr int kDirections = 4096;        // in which a sample's surroundings are looked at
 constexpr double kPieceAtSample = 0.15;  // [m], of what surrounds it
-constexpr int kRounds = 4;             // of light and unseen surroundings; each gains a digit
-constexpr double kUnseenSigma = 0.5;   // of what unseen surroundings are taken to send
-constexpr double kMuchUnseen = 0.2;    // of a sample's hemisphere
+constexpr int kRounds = 4;               // of light and unseen surroundings; each gains a digit
+constexpr double kUnseenSigma = 0.5;     // of what unseen surroundings are taken to send
+constexpr double kMuchUnseen = 0.2;      // of a sample's hemisphere
 
 // For a site as it stands.
 struct NothingPlanned {
@@ -212,12 +212,9 @@ void SetSurroundings(const Interreflection& interreflection,
     sample.surroundings = around.surroundings_before;
     sample.geometry.sky = around.sky;
     unseen->push_back(around.unseen / std::numbers::pi);
-    if (getenv("DBG")) { const Eigen::Vector3d b = (Spectrum(sample.true_color / brdf)).segment<3>(7); const Eigen::Vector3d e = around.surroundings_before.segment<3>(7); const Eigen::Vector3d sg=(Spectrum(sample.sigma/brdf)).segment<3>(7);
-      fprintf(stderr, "%2zu E_meas %.3f sig %.3f sun %.2e sky %.3f Esurr %.3f unseen %.3f inside %.3f near %.3f pos %.1f %.1f %.1f n %.2f %.2f %.2f patches %d\n", i, b[1], sg[1], sample.geometry.sun, around.sky, e[1], around.unseen, around.inside, around.nearness, points[i].position[0], points[i].position[1], points[i].position[2], points[i].normal[0], points[i].normal[1], points[i].normal[2], interreflection.patches()); }
     // What no photograph shows is known to about half of what it may send.
-    const Spectrum guess =
-        kUnseenSigma * brdf * around.surroundings_before * (around.unseen / std::max(
-            std::numbers::pi - around.sky, 1e-9));
+    const Spectrum guess = kUnseenSigma * brdf * around.surroundings_before *
+                           (around.unseen / std::max(std::numbers::pi - around.sky, 1e-9));
     sample.sigma = (sample.sigma.square() + guess.square()).sqrt();
   }
 }
@@ -235,8 +232,10 @@ void WarnOfUnseen(const LightMeasurement& measured, const std::vector<double>& u
     names += std::to_string(std::lround(pixel.pixel.y())) + ")";
   }
   if (names.empty()) return;
-  warnings->push_back("daylight samples that receive much light from surfaces no photograph shows, "
-                      "which weigh less: " + names);
+  warnings->push_back(
+      "daylight samples that receive much light from surfaces no photograph shows, "
+      "which weigh less: " +
+      names);
 }
 
 // Eq. (9) with photographed surroundings: what no photograph shows of them depends on the light,
@@ -293,11 +292,10 @@ void MeasureLightComponents(const std::vector<Photograph>& photos, const LightOp
   const bool has_sun = environment.scene.sun.has_value();
   const Spectrum brdf = SampleBrdf(measured->samples, environment.spectra, &measured->warnings);
   DaylightFit& fit = measured->daylight_fit;
-  fit = options.uniform_ambient
-            ? FitDaylight(samples, brdf, has_sun, environment.spectra.bins(),
-                          {options.average_over_wavelength})
-            : FitInSurroundings(*measured, photos, points, brdf, options, samples,
-                                &measured->warnings);
+  fit = options.uniform_ambient ? FitDaylight(samples, brdf, has_sun, environment.spectra.bins(),
+                                              {options.average_over_wavelength})
+                                : FitInSurroundings(*measured, photos, points, brdf, options,
+                                                    samples, &measured->warnings);
   light.sun_radiance = fit.sun_radiance;
   light.ambient_radiance = fit.ambient_radiance;
   light.sky_radiance = fit.sky_radiance;

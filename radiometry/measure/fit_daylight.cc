@@ -134,9 +134,8 @@ Solution Solve(const Equations& equations) {
 DaylightFit SolveBins(const std::vector<DaylightSample>& samples, const Spectrum& brdf,
                       bool has_sun, const SpectralBins& bins, const std::vector<double>& weights) {
   DaylightFit fit;
-  for (Spectrum* part :
-       {&fit.sun_radiance, &fit.ambient_radiance, &fit.sky_radiance, &fit.sun_sigma,
-        &fit.ambient_sigma, &fit.sky_sigma}) {
+  for (Spectrum* part : {&fit.sun_radiance, &fit.ambient_radiance, &fit.sky_radiance,
+                         &fit.sun_sigma, &fit.ambient_sigma, &fit.sky_sigma}) {
     part->setZero();
   }
   for (int bin = 0; bin < bins.count; ++bin) {

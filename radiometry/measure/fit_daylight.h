@@ -42,9 +42,9 @@ struct DaylightFit {
 // Departure: Eq. (4) gives every point the same ambient light, but a sunlit wall faces sunlit
 // ground and a shaded one does not, so the sun would take its share. With `surroundings`, which the
 // photographs show in the samples' own unit, sun and sky are the only unknowns: nothing is left for
-// a uniform light to soak up. Handed on in the terms of Eqs. (4) and (5): k_u L is the mean radiance
-// of the surroundings, and k_h L what the sky sends beyond that, for E = sky s + around (pi - s) =
-// (sky - around) s + around pi.
+// a uniform light to soak up. Handed on in the terms of Eqs. (4) and (5): k_u L is the mean
+// radiance of the surroundings, and k_h L what the sky sends beyond that, for E = sky s + around
+// (pi - s) = (sky - around) s + around pi.
 DaylightFit FitDaylight(const std::vector<DaylightSample>& samples, const Spectrum& brdf,
                         bool has_sun, const SpectralBins& bins,
                         const DaylightFitOptions& options = {});

@@ -21,7 +21,8 @@ constexpr double kPi = std::numbers::pi;
 constexpr double kCoincidence = 0.01;  // [m]
 constexpr double kSettled = 1e-3;      // relative change of light that is none
 constexpr int kMostSweeps = 64;
-constexpr double kMostAlbedo = 0.97;  // of a piece: more is an error of the photograph or of the light
+constexpr double kMostAlbedo =
+    0.97;  // of a piece: more is an error of the photograph or of the light
 
 Eigen::AlignedBox3d BoxOf(const TriangleMesh& mesh) {
   Eigen::AlignedBox3d box;
@@ -72,42 +73,66 @@ Interreflection::Interreflection(const TransportScene& scene, const Daylight& li
                                  const PatchGrid& grid, const InterreflectionOptions& options)
     : scene_(scene),
       options_(options),
+      patch_directions_(options.patch_directions),
+      point_directions_(options.point_directions),
       planned_box_(BoxOf(scene.planned.mesh)),
       zenith_(light.zenith_direction),
       ground_(GroundOf(scene.site.scene, grid)),
       patches_(grid) {
   options_.Check();
   if (options_.bounces == 0) return;
-  patches_ = MakePatches(scene.site, scene.natural, scene.planned, ground_, light,
-                         patches_.grid());
+  patches_ = MakePatches(scene.site, scene.natural, scene.planned, ground_, light, patches_.grid());
   GatherMeetings();
 }
 
-Interreflection::Meeting Interreflection::Meet(const Eigen::Vector3d& origin,
-                                               const Eigen::Vector3d& direction) const {
-  Meeting meeting;
-  meeting.before = meeting.after = direction.dot(zenith_) > 0 ? kSky : kBeyond;
-  double far = std::numeric_limits<double>::infinity();
-  if (const auto hit = scene_.site.rays.Nearest({origin, direction})) {
+void Interreflection::MeetSite(const Ray& ray, const std::optional<RayHit>& hit,
+                               Meeting* meeting) const {
+  meeting->before = ray.direction.dot(zenith_) > 0 ? kSky : kBeyond;
+  if (hit) {
     const int polygon = scene_.site.polygon_of_triangle[hit->triangle];
-    meeting.is_back = scene_.site.scene.polygons[polygon].normal.dot(direction) > 0;
-    meeting.distance = hit->distance;
-    meeting.before = meeting.after =
-        patches_.OfPolygon(polygon, meeting.is_back, origin + hit->distance * direction);
-    far = hit->distance + kCoincidence;
-  } else if (meeting.before == kBeyond && ground_) {
-    meeting.before = meeting.after = GroundBeyond({origin, direction});
+    meeting->is_back = scene_.site.scene.polygons[polygon].normal.dot(ray.direction) > 0;
+    meeting->distance = hit->distance;
+    meeting->before =
+        patches_.OfPolygon(polygon, meeting->is_back, ray.origin + hit->distance * ray.direction);
+  } else if (meeting->before == kBeyond && ground_) {
+    meeting->before = GroundBeyond(ray);
   }
-  if (!MayMeet(planned_box_, origin, direction)) return meeting;
-  if (const auto hit = scene_.planned.rays.Nearest({origin, direction, 0, far})) {
-    const Eigen::Vector3d& normal = scene_.planned.normals[hit->triangle];
-    meeting.is_back = normal.dot(direction) > 0;
-    meeting.distance = hit->distance;
-    meeting.material = scene_.planned.material_of_triangle[hit->triangle];
-    meeting.after = patches_.OfPlanned(meeting.is_back ? Eigen::Vector3d(-normal) : normal,
-                                       origin + hit->distance * direction);
+  meeting->after = meeting->before;
+}
+
+void Interreflection::MeetPlanned(const Ray& ray, const RayHit& hit, Meeting* meeting) const {
+  const Eigen::Vector3d& normal = scene_.planned.normals[hit.triangle];
+  meeting->is_back = normal.dot(ray.direction) > 0;
+  meeting->distance = hit.distance;
+  meeting->material = scene_.planned.material_of_triangle[hit.triangle];
+  meeting->after = patches_.OfPlanned(meeting->is_back ? Eigen::Vector3d(-normal) : normal,
+                                      ray.origin + hit.distance * ray.direction);
+}
+
+std::vector<Interreflection::Meeting> Interreflection::Meet(
+    const SurfacePoint& surface, const CosineDirections& directions) const {
+  const Eigen::Vector3d origin = surface.position + kSurveyClearance * surface.normal;
+  const std::vector<Eigen::Vector3d> all = directions.About(surface.normal);
+  std::vector<Meeting> meetings(all.size());
+  std::array<double, kPacketSize> far;
+  for (size_t first = 0; first < all.size(); first += kPacketSize) {
+    const size_t size = std::min<size_t>(kPacketSize, all.size() - first);
+    const std::span<const Eigen::Vector3d> packet(&all[first], size);
+    far.fill(std::numeric_limits<double>::infinity());
+    const auto on_site = scene_.site.rays.NearestOfPacket(origin, packet, {far.data(), size});
+    bool may_meet = false;
+    for (size_t i = 0; i < size; ++i) {
+      MeetSite({origin, packet[i]}, on_site[i], &meetings[first + i]);
+      if (on_site[i]) far[i] = on_site[i]->distance + kCoincidence;
+      may_meet = may_meet || MayMeet(planned_box_, origin, packet[i]);
+    }
+    if (!may_meet) continue;
+    const auto on_planned = scene_.planned.rays.NearestOfPacket(origin, packet, {far.data(), size});
+    for (size_t i = 0; i < size; ++i) {
+      if (on_planned[i]) MeetPlanned({origin, packet[i]}, *on_planned[i], &meetings[first + i]);
+    }
   }
-  return meeting;
+  return meetings;
 }
 
 int Interreflection::GroundBeyond(const Ray& ray) const {
@@ -119,14 +144,8 @@ int Interreflection::GroundBeyond(const Ray& ray) const {
 void Interreflection::GatherMeetings() {
   const std::vector<Patch>& all = patches_.all();
   meetings_.resize(all.size());
-  tbb::parallel_for(size_t{0}, all.size(), [&](size_t i) {
-    const SurfacePoint& point = all[i].point;
-    const Eigen::Vector3d origin = point.position + kSurveyClearance * point.normal;
-    for (const Eigen::Vector3d& direction :
-         CosineDirections(point.normal, options_.patch_directions)) {
-      meetings_[i].push_back(Meet(origin, direction));
-    }
-  });
+  tbb::parallel_for(size_t{0}, all.size(),
+                    [&](size_t i) { meetings_[i] = Meet(all[i].point, patch_directions_); });
 }
 
 Spectrum Interreflection::RadianceBefore(int patch) const {
@@ -265,12 +284,9 @@ void Interreflection::SolveAfter(const Daylight& light) {
 }
 
 GatheredLight Interreflection::At(const SurfacePoint& surface) const {
-  const Eigen::Vector3d origin = surface.position + kSurveyClearance * surface.normal;
   GatheredLight light;
   int skies = 0, unseen = 0, backs = 0;
-  for (const Eigen::Vector3d& direction :
-       CosineDirections(surface.normal, options_.point_directions)) {
-    const Meeting meeting = Meet(origin, direction);
+  for (const Meeting& meeting : Meet(surface, point_directions_)) {
     if (meeting.distance > 0) light.nearness += 1 / meeting.distance;
     backs += meeting.is_back;
     skies += meeting.before == kSky;

@@ -16,14 +16,15 @@
 
 #include "radiometry/light/daylight.h"
 #include "radiometry/light/photographed_color.h"
+#include "radiometry/transport/cosine_directions.h"
 #include "radiometry/transport/patches.h"
 
 namespace insitu {
 
 struct InterreflectionOptions {
-  std::optional<int> bounces;  // at most; nullopt: until they change nothing. 0: the sky alone
-  int patch_directions = 256;  // gathered at a piece
-  int point_directions = 1024; // gathered at a point that is asked for
+  std::optional<int> bounces;   // at most; nullopt: until they change nothing. 0: the sky alone
+  int patch_directions = 256;   // gathered at a piece
+  int point_directions = 1024;  // gathered at a point that is asked for
 
   void Check() const;  // throws CheckError that names the field that is wrong
 };
@@ -41,10 +42,10 @@ struct GatheredLight {
   Spectrum sky_before = Spectrum::Zero();  // as if the planned building did not stand
   Spectrum surroundings_before = Spectrum::Zero();
   Spectrum change = Spectrum::Zero();  // what the building adds and takes; exactly zero without any
-  double sky = 0;             // projected solid angle of the sky before [sr], at most pi
-  double unseen = 0;          // of what no photograph shows, before [sr]
-  double inside = 0;          // share of directions that end on the back of a face: 1 within a solid
-  double nearness = 0;        // mean of 1 / distance over all directions, the sky's 0 [1/m]
+  double sky = 0;                      // projected solid angle of the sky before [sr], at most pi
+  double unseen = 0;                   // of what no photograph shows, before [sr]
+  double inside = 0;    // share of directions that end on the back of a face: 1 within a solid
+  double nearness = 0;  // mean of 1 / distance over all directions, the sky's 0 [1/m]
 };
 
 class Interreflection {
@@ -72,12 +73,15 @@ class Interreflection {
   static constexpr int kDark = -1, kSky = -2, kBeyond = -3;
   struct Meeting {
     int before = kDark, after = kDark;
-    int material = -1;  // of the planned face met after; -1: none is met
+    int material = -1;    // of the planned face met after; -1: none is met
     double distance = 0;  // after [m]; 0: none
     bool is_back = false;
   };
 
-  Meeting Meet(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction) const;
+  // Of all directions in turn.
+  std::vector<Meeting> Meet(const SurfacePoint& surface, const CosineDirections& directions) const;
+  void MeetSite(const Ray& ray, const std::optional<RayHit>& hit, Meeting* meeting) const;
+  void MeetPlanned(const Ray& ray, const RayHit& hit, Meeting* meeting) const;
   int GroundBeyond(const Ray& ray) const;
   void GatherMeetings();
   void SolveBefore(const Daylight& light);
@@ -93,6 +97,7 @@ class Interreflection {
 
   const TransportScene& scene_;
   InterreflectionOptions options_;
+  CosineDirections patch_directions_, point_directions_;
   Eigen::AlignedBox3d planned_box_;
   Eigen::Vector3d zenith_;
   std::optional<GroundPlane> ground_;
@@ -100,8 +105,8 @@ class Interreflection {
   std::vector<std::vector<Meeting>> meetings_;  // of each piece
 
   Spectrum sky_ = Spectrum::Zero(), beyond_ = Spectrum::Zero();  // radiances
-  std::vector<Spectrum> before_;      // radiance of each natural piece
-  std::vector<Spectrum> brdf_;        // of each natural piece [1/sr]
+  std::vector<Spectrum> before_;                                 // radiance of each natural piece
+  std::vector<Spectrum> brdf_;                                   // of each natural piece [1/sr]
   std::vector<Spectrum> change_;      // of the radiance of each natural piece
   std::vector<Spectrum> irradiance_;  // of each planned piece
   std::vector<Spectrum> brdf_of_polygon_;

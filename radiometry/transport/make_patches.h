@@ -8,8 +8,8 @@
 namespace insitu {
 
 // Both sides of every polygon of `site`, whose triangles are `natural`, and of every face of
-// `planned`, and the ground beyond its polygon if there is one. The sun's share and the photographed
-// radiance are means over several points of a piece.
+// `planned`, and the ground beyond its polygon if there is one. The sun's share and the
+// photographed radiance are means over several points of a piece.
 Patches MakePatches(const PhotographedSite& site, const TriangleMesh& natural,
                     const PlannedFaces& planned, const std::optional<GroundPlane>& ground,
                     const Daylight& light, const PatchGrid& grid);

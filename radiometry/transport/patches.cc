@@ -23,11 +23,12 @@ uint64_t Scrambled(uint64_t state) {
 
 uint64_t VoxelKey(const PatchGrid& grid, uint64_t face, const Eigen::Vector3d& position) {
   const double size = grid.SizeAt(position);
-  uint64_t key = Scrambled(face ^ static_cast<uint64_t>(std::ilogb(size / grid.size)) << 56);
+  const Eigen::Array3d cell = (position.array() / size).floor();
+  uint64_t key = Scrambled(face + (static_cast<uint64_t>(std::ilogb(size / grid.size)) << 56));
   for (int i = 0; i < 3; ++i) {
-    key = Scrambled(key ^ static_cast<uint64_t>(std::llround(std::floor(position[i] / size))));
+    key = (key ^ static_cast<uint64_t>(static_cast<int64_t>(cell[i]))) * 0x9e3779b97f4a7c15u;
   }
-  return key;
+  return Scrambled(key);
 }
 
 uint64_t FaceOf(int face, bool is_back) { return 2 * static_cast<uint64_t>(face) + is_back; }
@@ -65,17 +66,16 @@ uint64_t FaceLooking(const Eigen::Vector3d& normal) {
 }  // namespace
 
 double PatchGrid::SizeAt(const Eigen::Vector3d& position) const {
-  double distance = std::numeric_limits<double>::infinity();
+  double squared = std::numeric_limits<double>::infinity();
   for (const Eigen::AlignedBox3d& focus : foci) {
-    distance = std::min(distance, focus.squaredExteriorDistance(position));
+    squared = std::min(squared, focus.squaredExteriorDistance(position));
   }
-  distance = std::sqrt(distance);
-  const double level = std::ceil(std::log2(std::max(1.0, distance / (kReachOfSize * size))));
-  return size * std::exp2(level);
+  int level = 0;
+  for (double reach = kReachOfSize * size; squared > reach * reach; reach *= 2) ++level;
+  return std::ldexp(size, level);
 }
 
-std::optional<Eigen::Vector3d> GroundPlane::Meet(const SceneGeometry& scene,
-                                                 const Ray& ray) const {
+std::optional<Eigen::Vector3d> GroundPlane::Meet(const SceneGeometry& scene, const Ray& ray) const {
   const Eigen::Vector3d& normal = scene.polygons[polygon].normal;
   const double distance = normal.dot(center - ray.origin) / normal.dot(ray.direction);
   if (!(distance > 0)) return std::nullopt;
@@ -102,24 +102,47 @@ std::optional<GroundPlane> GroundOf(const SceneGeometry& scene, const PatchGrid&
   return ground;
 }
 
+size_t VoxelTable::SlotOf(uint64_t key) const {
+  const size_t mask = slots_.size() - 1;
+  size_t slot = key & mask;
+  while (slots_[slot].second >= 0 && slots_[slot].first != key) slot = (slot + 1) & mask;
+  return slot;
+}
+
+int VoxelTable::Find(uint64_t key) const { return slots_[SlotOf(key)].second; }
+
+int VoxelTable::Insert(uint64_t key, int number) {
+  std::pair<uint64_t, int>& slot = slots_[SlotOf(key)];
+  if (slot.second >= 0) return slot.second;
+  slot = {key, number};
+  if (2 * ++used_ > slots_.size()) Grow();
+  return number;
+}
+
+void VoxelTable::Grow() {
+  const auto old = std::exchange(slots_, decltype(slots_)(2 * slots_.size(), {0, -1}));
+  for (const auto& entry : old) {
+    if (entry.second >= 0) slots_[SlotOf(entry.first)] = entry;
+  }
+}
+
 int Patches::Find(uint64_t face, const Eigen::Vector3d& position) const {
-  const auto voxel = of_voxel_.find(VoxelKey(grid_, face, position));
-  if (voxel != of_voxel_.end()) return voxel->second;
+  const int own = of_voxel_.Find(VoxelKey(grid_, face, position));
+  if (own >= 0) return own;
   const auto same = of_face_.find(face);
   if (same == of_face_.end()) return -1;
-  return *std::ranges::min_element(same->second, {}, [&](int i) {
-    return (all_[i].point.position - position).squaredNorm();
-  });
+  return *std::ranges::min_element(
+      same->second, {}, [&](int i) { return (all_[i].point.position - position).squaredNorm(); });
 }
 
 int Patches::Add(uint64_t face, const Eigen::Vector3d& position) {
-  const auto [voxel, is_new] =
-      of_voxel_.try_emplace(VoxelKey(grid_, face, position), static_cast<int>(all_.size()));
-  if (is_new) {
-    of_face_[face].push_back(voxel->second);
+  const int next = static_cast<int>(all_.size());
+  const int index = of_voxel_.Insert(VoxelKey(grid_, face, position), next);
+  if (index == next) {
+    of_face_[face].push_back(index);
     all_.emplace_back();
   }
-  return voxel->second;
+  return index;
 }
 
 int Patches::OfPolygon(int face, bool is_back, const Eigen::Vector3d& position) const {

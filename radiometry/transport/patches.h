@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Surfaces in pieces, small near the planned building and larger away from it: what light comes back
-// from. A piece is known by the face and the voxel that it lies in, so that a point finds its own
-// at once, however many triangles there are.
+// Surfaces in pieces, small near the planned building and larger away from it: what light comes
+// back from. A piece is known by the face and the voxel that it lies in, so that a point finds its
+// own at once, however many triangles there are.
 #pragma once
 
 #include <Eigen/Core>
@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <optional>
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
 #include "radiometry/light/photographed_color.h"
@@ -25,10 +26,10 @@ struct PlannedFaces {
 };
 
 struct Patch {
-  SurfacePoint point;    // where its light is gathered
-  int polygon = -1;      // of the site; -1: planned faces
-  double area = 0;       // [m^2]
-  bool is_seen = false;  // by a photograph
+  SurfacePoint point;                        // where its light is gathered
+  int polygon = -1;                          // of the site; -1: planned faces
+  double area = 0;                           // [m^2]
+  bool is_seen = false;                      // by a photograph
   Spectrum photographed = Spectrum::Zero();  // mean radiance, if seen
   double sun_before = 0, sun_after = 0;  // n.d_s Omega_s of what the sun sees of it, without and
                                          // with the planned building [sr]
@@ -44,9 +45,9 @@ struct PatchGrid {
 
 // The plane of the ground beyond its polygon: what is there, photographs may show.
 struct GroundPlane {
-  int polygon = 0;           // of the site, whose plane and material it shares
-  Eigen::Vector3d center;    // [m], local, on the plane, below the focus
-  double reach = 0;          // [m]; what is farther counts as its edge
+  int polygon = 0;         // of the site, whose plane and material it shares
+  Eigen::Vector3d center;  // [m], local, on the plane, below the focus
+  double reach = 0;        // [m]; what is farther counts as its edge
 
   // Where a ray meets it, or its edge in that direction; nullopt if it looks away.
   std::optional<Eigen::Vector3d> Meet(const SceneGeometry& scene, const Ray& ray) const;
@@ -54,6 +55,22 @@ struct GroundPlane {
 
 // On the largest polygon that lies level; nullopt if none does.
 std::optional<GroundPlane> GroundOf(const SceneGeometry& scene, const PatchGrid& grid);
+
+// Numbers by key, for many more look-ups than entries: open addressing in one block of memory.
+class VoxelTable {
+ public:
+  // -1 if there is none.
+  int Find(uint64_t key) const;
+  // The number under the key, `number` if there was none.
+  int Insert(uint64_t key, int number);
+
+ private:
+  size_t SlotOf(uint64_t key) const;  // where it stands, or the empty one where it would
+  void Grow();
+
+  std::vector<std::pair<uint64_t, int>> slots_ = std::vector<std::pair<uint64_t, int>>(64, {0, -1});
+  size_t used_ = 0;
+};
 
 class Patches {
  public:
@@ -79,7 +96,7 @@ class Patches {
 
   PatchGrid grid_;
   std::vector<Patch> all_;
-  std::unordered_map<uint64_t, int> of_voxel_;
+  VoxelTable of_voxel_;
   std::unordered_map<uint64_t, std::vector<int>> of_face_;
 };
 

@@ -8,10 +8,10 @@
 namespace insitu {
 namespace {
 
-constexpr double kPiecesAcross = 48;     // the building
-constexpr double kSmallestPiece = 0.1;   // [m]
-constexpr double kSmallestOf = 1e-3;     // of the building's size: edge of the finest triangles
-constexpr double kCalmOf = 1.0 / 40;     // of the building's size
+constexpr double kPiecesAcross = 48;    // the building
+constexpr double kSmallestPiece = 0.1;  // [m]
+constexpr double kSmallestOf = 1e-3;    // of the building's size: edge of the finest triangles
+constexpr double kCalmOf = 1.0 / 40;    // of the building's size
 
 std::vector<Spectrum> DiffuseBrdfs(const MontageScene& scene) {
   std::vector<Spectrum> brdfs;

@@ -64,8 +64,8 @@ struct Node {
 
 double LargestError(const GatheredPoint& a, const GatheredPoint& b, const GatheredPoint& middle) {
   const Spectrum before = (a.before + b.before) / 2, change = (a.change + b.change) / 2;
-  const double unit = std::max(1e-300, std::max((middle.before + middle.change).maxCoeff(),
-                                                (before + change).maxCoeff()));
+  const double unit = std::max(
+      1e-300, std::max((middle.before + middle.change).maxCoeff(), (before + change).maxCoeff()));
   return std::max((before - middle.before).abs().maxCoeff(),
                   (change - middle.change).abs().maxCoeff()) /
          unit;
@@ -74,8 +74,8 @@ double LargestError(const GatheredPoint& a, const GatheredPoint& b, const Gather
 }  // namespace irradiance_map
 
 using irradiance_map::GatheredPoint, irradiance_map::kCalmShare, irradiance_map::kMostInside,
-    irradiance_map::KeyOf, irradiance_map::LargestError,
-    irradiance_map::Node, irradiance_map::PointKey, irradiance_map::PointKeyHash;
+    irradiance_map::KeyOf, irradiance_map::LargestError, irradiance_map::Node,
+    irradiance_map::PointKey, irradiance_map::PointKeyHash;
 
 void IrradianceMapOptions::Check() const {
   INSITU_CHECK(tolerance > 0);
@@ -160,17 +160,21 @@ struct IrradianceMap::Tree {
     double longest = -1;
     int from = 0;
     for (int i = 0; i < 3; ++i) {
-      const double edge =
-          (node.corners[(i + 1) % 3]->position - node.corners[i]->position).norm();
+      const double edge = (node.corners[(i + 1) % 3]->position - node.corners[i]->position).norm();
       if (edge <= longest) continue;
       longest = edge;
       from = i;
     }
     const int to = (from + 1) % 3;
     const GatheredPoint &a = *node.corners[from], &b = *node.corners[to];
-    const GatheredPoint* middle = PointAt({(a.position + b.position) / 2, normal});
-    const bool is_leaf = longest < options.smallest || IsCalm(node, *middle, longest, a, b);
-    const std::lock_guard lock(growing[reinterpret_cast<uintptr_t>(&node) / sizeof(Node) % kShards]);
+    const GatheredPoint* middle = nullptr;
+    bool is_leaf = longest < options.smallest || IsEven(node, longest);
+    if (!is_leaf) {
+      middle = PointAt({(a.position + b.position) / 2, normal});
+      is_leaf = IsCalm(node, *middle, longest, a, b);
+    }
+    const std::lock_guard lock(
+        growing[reinterpret_cast<uintptr_t>(&node) / sizeof(Node) % kShards]);
     if (node.kind.load(std::memory_order_acquire) != Node::Kind::kUnknown) return;
     node.from = from;
     node.to = to;
@@ -182,6 +186,17 @@ struct IrradianceMap::Tree {
       (*node.halves)[1].corners[from] = middle;
     }
     node.kind.store(is_leaf ? Node::Kind::kLeaf : Node::Kind::kHalved, std::memory_order_release);
+  }
+
+  // Corners so alike that what lies between is, too.
+  bool IsEven(const Node& node, double edge) const {
+    for (const GatheredPoint* corner : node.corners) {
+      if (!corner->is_open || edge > corner->calm) return false;
+    }
+    const auto& [a, b, c] = node.corners;
+    return LargestError(*a, *a, *b) < options.tolerance &&
+           LargestError(*b, *b, *c) < options.tolerance &&
+           LargestError(*c, *c, *a) < options.tolerance;
   }
 
   bool IsCalm(const Node& node, const GatheredPoint& middle, double edge, const GatheredPoint& a,
@@ -235,7 +250,8 @@ SmoothLight IrradianceMap::At(const FacePlace& place) const {
       tree_->Grow(*node, tree_->NormalOf(place));
       kind = node->kind.load(std::memory_order_acquire);
     }
-    if (kind == Node::Kind::kLeaf) return tree_->Interpolate(*node, weights, tree_->NormalOf(place));
+    if (kind == Node::Kind::kLeaf)
+      return tree_->Interpolate(*node, weights, tree_->NormalOf(place));
     // A point w_f F + w_t T + ..., with M = (F + T) / 2, is (w_f - w_t) F + 2 w_t M + ...
     const bool near_from = weights[node->from] >= weights[node->to];
     const int kept = near_from ? node->from : node->to, left = near_from ? node->to : node->from;

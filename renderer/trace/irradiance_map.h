@@ -14,10 +14,10 @@
 namespace insitu {
 
 struct IrradianceMapOptions {
-  double tolerance = 0.006;  // of interpolated irradiance, relative
-  double smallest = 0.02;    // edge of a triangle that is not halved any more [m]
-  double calm = 0.5;         // edge of one that may be interpolated anywhere [m]
-  double reach = 0.004;      // relative change of irradiance that is none
+  double tolerance = 0.01;  // of interpolated irradiance, relative
+  double smallest = 0.02;   // edge of a triangle that is not halved any more [m]
+  double calm = 0.5;        // edge of one that may be interpolated anywhere [m]
+  double reach = 0.004;     // relative change of irradiance that is none
 
   void Check() const;  // throws CheckError that names the field that is wrong
 };

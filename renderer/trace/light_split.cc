@@ -143,8 +143,7 @@ SplitLight SplitDaylight(const MontageScene& scene, const SurfacePoint& surface,
   SplitLight light;
   const Eigen::Vector3d origin = surface.position + kSurveyClearance * surface.normal;
   const FacetSet hidden = FacetsBehindBuilding(scene, surface, origin, directions);
-  const SplitSun sun =
-      SplitSunlight(scene, surface, directions, natural_needed || hidden.any());
+  const SplitSun sun = SplitSunlight(scene, surface, directions, natural_needed || hidden.any());
   light.natural.sun = sun.natural;
   light.blocked.sun = sun.blocked;
   if (!natural_needed && sun.blocked == 0 && hidden.none()) return {};

@@ -76,8 +76,8 @@ struct MontageScene {
   // Mean BRDF of each polygon's material over the photographs, for polygons that none shows.
   std::vector<Spectrum> mean_brdf_of_polygon;
 
-  // Light among surfaces; null: the paper's uniform ambient light [Durisch92, Eq. (4)]. It refers to
-  // this scene, which must not be moved once it has it.
+  // Light among surfaces; null: the paper's uniform ambient light [Durisch92, Eq. (4)]. It refers
+  // to this scene, which must not be moved once it has it.
   std::shared_ptr<const InterreflectedLight> interreflected;
 
   PhotographedSite Photographed() const {

@@ -20,7 +20,7 @@ struct SceneHit {
   bool is_building = false;
   int index = 0;  // triangle of the building, or polygon of the site
   double distance = 0;
-  SurfacePoint surface;  // normal on the side the ray comes from
+  SurfacePoint surface;                 // normal on the side the ray comes from
   std::optional<FacePlace> place = {};  // nullopt: on the ground beyond its polygon
 };
 
@@ -189,8 +189,7 @@ Spectrum BuildingColor(const MontageScene& scene, const SurfacePoint& surface,
 
 Spectrum DiffuseChange(const MontageScene& scene, const SurfacePoint& surface,
                        const Spectrum& true_color, double diffuse_weight,
-                       const LightDirections& light,
-                       const std::optional<SmoothLight>& around) {
+                       const LightDirections& light, const std::optional<SmoothLight>& around) {
   const Spectrum E_lamps =
       scene.lamps.empty() ? Spectrum::Zero().eval() : LampIrradiance(scene, surface);
   const bool lit = (E_lamps > 0).any();
