@@ -227,7 +227,7 @@ void SetSurroundings(const Interreflection& interreflection,
 }
 
 void WarnOfUnseen(const LightMeasurement& measured, const std::vector<double>& unseen,
-                  std::vector<std::string>* warnings) {
+                  std::vector<Sentence>* warnings) {
   const std::vector<PixelSample>& pixels = measured.samples.daylight;
   std::string names;
   for (size_t i = 0; i < unseen.size(); ++i) {
@@ -239,10 +239,10 @@ void WarnOfUnseen(const LightMeasurement& measured, const std::vector<double>& u
     names += std::to_string(std::lround(pixel.pixel.y())) + ")";
   }
   if (names.empty()) return;
-  warnings->push_back(
-      "daylight samples that receive much light from surfaces no photograph shows, "
-      "which weigh less: " +
-      names);
+  warnings->push_back(Sentence("lightUnseen",
+                               "daylight samples that receive much light from surfaces no "
+                               "photograph shows, which weigh less: {samples}",
+                               {{"samples", names}}));
 }
 
 // Eq. (9) with photographed surroundings: what no photograph shows of them depends on the light,
@@ -251,7 +251,7 @@ DaylightFit FitInSurroundings(const LightMeasurement& measured,
                               const std::vector<Photograph>& photos,
                               const std::vector<SurfacePoint>& points, const Spectrum& brdf,
                               const LightOptions& options, std::vector<DaylightSample> samples,
-                              std::vector<std::string>* warnings) {
+                              std::vector<Sentence>* warnings) {
   const NaturalEnvironment& environment = measured.environment;
   const PolygonMesh polygons = MeshOfPolygons(environment.scene);
   const RayScene rays(polygons.mesh);

@@ -12,14 +12,13 @@
 namespace insitu {
 namespace {
 
-constexpr int kHalfWindow = 3;          // [px], larger ones are drawn to other edges
-constexpr double kFarthestShift = 2.5;  // [px]
-constexpr double kLeastSigma = 0.3;     // [px]
-constexpr double kWeakCorner = 0.05;    // smaller over larger eigenvalue of the gradients
-constexpr double kEvenSurface = 25;     // [codes^2], mean squared gradient along the weaker axis
-constexpr int kHalfPattern = 10;        // [px]
-constexpr int kSymmetricShift = 4;      // [px]
-constexpr char kNoCentre[] = "no centre of a mark within 4 px, or a line";
+constexpr int kHalfWindow = 3;           // [px], larger ones are drawn to other edges
+constexpr double kFarthestShift = 2.5;   // [px]
+constexpr double kLeastSigma = 0.3;      // [px]
+constexpr double kWeakCorner = 0.05;     // smaller over larger eigenvalue of the gradients
+constexpr double kEvenSurface = 25;      // [codes^2], mean squared gradient along the weaker axis
+constexpr int kHalfPattern = 10;         // [px]
+constexpr int kSymmetricShift = 4;       // [px]
 constexpr double kSymmetricSigma = 0.1;  // [px], of sharp crosses
 constexpr double kLeastBend = 0.01;      // of the symmetry's peak across half a pixel
 constexpr double kLeastMatch = 0.8;
@@ -136,7 +135,7 @@ std::variant<MarkProposal, NoProposal> RefineSymmetric(const GreyPatch& patch,
     for (int u = 0; u < scores.cols; ++u) {
       const cv::Point shift(u - 2 * kSymmetricShift, v - 2 * kSymmetricShift);
       const auto score = SymmetryAbout(patch.grey, middle + shift);
-      if (!score) return "an even surface, or too near the edge";
+      if (!score) return Sentence("markEvenOrEdge", "an even surface, or too near the edge");
       scores.at<float>(v, u) = static_cast<float>(*score);
     }
   }
@@ -144,10 +143,11 @@ std::variant<MarkProposal, NoProposal> RefineSymmetric(const GreyPatch& patch,
   cv::Point best;
   cv::minMaxLoc(scores, nullptr, &score, nullptr, &best);
   const cv::Rect inner(1, 1, scores.cols - 2, scores.rows - 2);
-  if (score < kLeastMatch || !inner.contains(best)) return kNoCentre;
+  const Sentence no_centre("markNoCentre", "no centre of a mark within 4 px, or a line");
+  if (score < kLeastMatch || !inner.contains(best)) return no_centre;
   const auto at = [&](int u, int v) { return scores.at<float>(best.y + v, best.x + u); };
   const double bend = std::max(at(-1, 0) + at(1, 0), at(0, -1) + at(0, 1)) - 2 * at(0, 0);
-  if (bend > -kLeastBend) return kNoCentre;
+  if (bend > -kLeastBend) return no_centre;
   const Eigen::Vector2d found(best.x + middle.x + ParabolaTop(at(-1, 0), at(0, 0), at(1, 0)),
                               best.y + middle.y + ParabolaTop(at(0, -1), at(0, 0), at(0, 1)));
   const Eigen::Vector2d shift = found / 2 - Eigen::Vector2d::Constant(kSymmetricShift) - start;

@@ -68,7 +68,7 @@ TEST(RefineSymmetric, FindsTheCentreOfAFiducialMark) {
   for (const auto& scene : {Cross, Dot, Ring}) {
     const auto found =
         RefineSymmetric(PatchOf(scene, {101, 81}), kCorner + Eigen::Vector2d(2.2, -1.7));
-    ASSERT_TRUE(std::holds_alternative<MarkProposal>(found)) << std::get<NoProposal>(found);
+    ASSERT_TRUE(std::holds_alternative<MarkProposal>(found)) << std::get<NoProposal>(found).text();
     const auto& proposal = std::get<MarkProposal>(found);
     EXPECT_LT((proposal.pixel - kCorner).norm(), 0.06);
     EXPECT_NEAR(proposal.shift_px, std::hypot(2.2, 1.7), 0.06);
@@ -80,13 +80,14 @@ TEST(RefineSymmetric, TellsALineAndAnEvenSurface) {
   const auto line = [](const Eigen::Vector2d& at) {
     return std::abs(at.x() - 100) < 1.5 ? 1.0 : 0;
   };
-  EXPECT_EQ(std::get<NoProposal>(RefineSymmetric(PatchOf(line, {100, 81}), near)),
+  EXPECT_EQ(std::get<NoProposal>(RefineSymmetric(PatchOf(line, {100, 81}), near)).text(),
             "no centre of a mark within 4 px, or a line");
   const auto even = [](const Eigen::Vector2d&) { return 0.5; };
-  EXPECT_EQ(std::get<NoProposal>(RefineSymmetric(PatchOf(even, {100, 81}), near)),
+  EXPECT_EQ(std::get<NoProposal>(RefineSymmetric(PatchOf(even, {100, 81}), near)).text(),
             "an even surface, or too near the edge");
   EXPECT_EQ(std::get<NoProposal>(
-                RefineSymmetric(PatchOf(Dot, {101, 81}), kCorner + Eigen::Vector2d(6, 3))),
+                RefineSymmetric(PatchOf(Dot, {101, 81}), kCorner + Eigen::Vector2d(6, 3)))
+                .text(),
             "no centre of a mark within 4 px, or a line");
 }
 

@@ -98,6 +98,8 @@ export const kServerTexts = {
   markEdge: "eine Kante, keine Ecke",
   markEven: "eine gleichmässige Fläche",
   markFar: "keine Ecke innerhalb von 2.5 px",
+  markEvenOrEdge: "eine gleichmässige Fläche, oder zu nahe am Rand",
+  markNoCentre: "keine Mitte einer Marke innert 4 px, oder eine Linie",
   matchOblique: "dort zu schräg gesehen",
   matchFrame: "zu nah am Bildrand",
   matchNothing: "nichts dort sieht ähnlich aus",
@@ -118,6 +120,8 @@ export const kServerTexts = {
     "die Albedo der Tageslichtproben fehlt: sie gilt als 1, und der Bau wird neben seiner Umgebung zu dunkel",
   lightOvercast: "keine Sonnenrichtung gemessen: der Himmel gilt als bedeckt",
   lightSunUnseen: "keine Tageslichtprobe sieht die Sonne: sie bleibt dunkel",
+  lightUnseen:
+    "Tageslichtproben, die viel Licht von Flächen erhalten, die kein Foto zeigt, und weniger zählen: {samples}",
   lightPoor:
     "die Tageslichtproben trennen Sonne, Himmel und Umgebungslicht kaum: einige in der Sonne, im offenen " +
     "und im tiefen Schatten wählen",
