@@ -82,7 +82,8 @@ class InterreflectionTest : public testing::Test {
 };
 
 TEST_F(InterreflectionTest, AWallReceivesHalfItsLightFromTheGround) {
-  EXPECT_LT(RelativeError(Gather({OnWall(0, 2)})[0], kPi / 2), 0.01);
+  // Of the far ground no photograph shows a part, which is dark here: no light is given.
+  EXPECT_LT(RelativeError(Gather({OnWall(0, 2)})[0], kPi / 2), 0.02);
 }
 
 TEST_F(InterreflectionTest, GroundReceivesWhatTheWallHidesOfTheSky) {
