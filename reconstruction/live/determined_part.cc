@@ -90,7 +90,7 @@ class PartFinder {
       place_of_point_.try_emplace(point.name, point.place);
     }
     for (const PolygonOutline& polygon : survey.polygons) {
-      for (const std::string& vertex : polygon.vertices) {
+      for (const std::string& vertex : AllVertices(polygon)) {
         place_of_point_.try_emplace(vertex, polygon.place);
       }
     }
@@ -258,7 +258,7 @@ class PartFinder {
     using Kind = LeftOut::Kind;
     Survey& survey = part_.survey;
     Prune(&survey.polygons, [&](const PolygonOutline& polygon) {
-      return Undetermined(Kind::kPolygon, "vertex", polygon.name, polygon.vertices, polygon.place,
+      return Undetermined(Kind::kPolygon, "vertex", polygon.name, AllVertices(polygon), polygon.place,
                           points);
     });
     const auto of_pairs = [&](Kind kind) {
