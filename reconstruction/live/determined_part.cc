@@ -28,8 +28,9 @@ std::string MessageAt(const InputError& error, const FilePlace& place) {
 }
 
 std::string ReasonOfPhoto(const StartGrowth& growth, size_t photo) {
-  static const char* const kMissing[] = {"three control points", "two more control points",
-                                         "one more control point"};
+  static const char* const kMissing[] = {"needs three control points",
+                                         "needs two more control points",
+                                         "needs one more control point"};
   const StartGrowth::PhotoMarks marks = growth.MarksOf(photo);
   if (marks.known.size() < 3) return kMissing[marks.known.size()];
   const std::string count = std::to_string(marks.known.size());
