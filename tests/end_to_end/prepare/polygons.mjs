@@ -20,6 +20,13 @@ const shot = async name => {
   await person.drawn();
   if (screenshots) await person.page.screenshot({path: `${screenshots}/${name}.png`});
 };
+/** Whether nothing in the panel of what is to be done is cut off; how many are left out. */
+const todoCut = () => person.page.evaluate(() => {
+  const root = document.querySelector("#todo"), bottom = root.getBoundingClientRect().bottom;
+  const seen = [...root.querySelectorAll("li, button")].filter(one => one.getClientRects().length > 0);
+  return {cut: seen.some(one => one.getBoundingClientRect().bottom > bottom), all: root.querySelectorAll("li").length,
+    shown: seen.filter(one => one.tagName === "LI").length, more: root.querySelector(".more")?.textContent};
+});
 const choose = name => person.click(`#list tr[data-key="${name}"] button`);
 await person.settled();
 await shot("to_do");
@@ -39,17 +46,19 @@ report("and the photo has the focus again", await person.page.evaluate(() => Boo
 
 const area = async () => (await adjusted()).polygons.block_w0?.area_m2;
 const pieces = () => person.page.evaluate(() =>
-  document.querySelector('.pane[data-photo="middle"] path[data-polygon="block_w0"]')?.getAttribute("d")?.split("M").length - 1);
-await person.photo("middle");
+  document.querySelector('.pane[data-photo="right"] path[data-polygon="block_w0"]')?.getAttribute("d")?.split("M").length - 1);
+await person.photo("right");
 await choose("block_w0");
 const whole = await area(), outline = await pieces();
 await person.press("Shift+B");
-for (const [x, y] of [[180, 270], [280, 270], [300, 300], [280, 340], [180, 340]]) {
+for (const [x, y] of [[660, 140], [740, 132], [770, 170], [742, 205], [660, 200]]) {
   await person.goTo(x, y);
   await person.press("Enter");
-  if (x === 300) await person.press("Backspace");
+  if (x === 770) await person.press("Backspace");
 }
 await shot("hole_drawn");
+const todo = await todoCut();
+report("what is to be done is shown in whole things, the others are counted", !todo.cut && todo.more === `${todo.all - todo.shown} more`, JSON.stringify(todo));
 await person.press("Enter");
 const pierced = await area(), {holes} = await polygon("block_w0");
 report("Shift+B draws a hole, vertex by vertex, Backspace takes one back", holes?.length === 1 && holes[0].length === 4, JSON.stringify(holes));
@@ -63,7 +72,7 @@ await person.press("Control+Z");
 report("undo takes it away", !(await polygon("block_w0")).holes && Math.abs((await area()) - whole) < 1e-6);
 await person.press("Control+Y");
 await person.settled();
-await person.goTo(230, 300);
+await person.goTo(700, 170);
 await person.press("Shift+X");
 await person.settled();
 report("Shift+X removes it", !(await polygon("block_w0")).holes);
@@ -78,19 +87,19 @@ await person.press("Escape");
 
 await person.press("Alt+1");
 await person.point("lone");
-await person.goTo(160, 260);
+await person.goTo(640, 215);
 await person.press("Shift+Enter");
 const {points, left_out: leftOut} = await adjusted();
-report("a point of one mark is predicted where it stands on a plane", points.lone?.plane === "block_w0" && points.lone.images.right?.major > 0,
-  `${points.lone?.plane}, ± ${points.lone?.images?.right?.major} px`);
+report("a point of one mark is predicted where it stands on a plane", points.lone?.plane === "block_w0" && points.lone.images.middle?.major > 0,
+  `${points.lone?.plane}, ± ${points.lone?.images?.middle?.major} px`);
 report("and still left out", leftOut.some(one => one.name === "lone"));
 await person.point("lone");
 await person.sees("#marks-of-point .plane", "block_w0");
 report("its panel says on which", true);
-await person.photo("right");
-await until("the band is drawn", () => person.page.$('.pane[data-photo="right"] .band:not(.casing)'));
+await person.photo("middle");
+await until("the band is drawn", () => person.page.$('.pane[data-photo="middle"] .band:not(.casing)'));
 report("the epipolar curve lies in its band", true);
-report("its place is shown on the other photo", Boolean(await person.page.$('.pane[data-photo="right"] .prediction.current')));
+report("its place is shown on the other photo", Boolean(await person.page.$('.pane[data-photo="middle"] .prediction.current')));
 await person.press("2", "c");
 await shot("band");
 

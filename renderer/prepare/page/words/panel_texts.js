@@ -46,6 +46,8 @@ export const kPanelTexts = {
     "one ray only: taken to stand on the plane of {polygon}",
     "nur ein Strahl: als auf der Ebene von {polygon} angenommen"
   ],
+  more: ["{n} more", "{n} weitere"],
+  fewer: ["fewer", "weniger"],
   // Holes
   drawHole: ["Draw hole", "Loch zeichnen"],
   hole: ["Hole {n}", "Loch {n}"],
