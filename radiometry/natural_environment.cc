@@ -202,7 +202,9 @@ Polygon ReadPolygon(const JsonNode& node, const SceneGeometry& scene) {
   if (const auto photo = node.Find("photo")) polygon.photo = PhotoIndex(*photo, scene);
   if (const auto holes = node.Find("holes")) polygon.holes = HolesFromJson(*holes);
   if (!polygon.holes.empty() && !HasInterior(polygon)) {
-    throw node.Error("polygon '" + polygon.name + "' has a hole that is not within it, expected those that insitu-reconstruct wrote");
+    throw node.Error(
+        "polygon '" + polygon.name +
+        "' has a hole that is not within it, expected those that insitu-reconstruct wrote");
   }
   polygon.material = node.At("material").Text();
   if (const auto covariance = node.Find("covariance")) {

@@ -183,8 +183,8 @@ std::vector<Diagnosis> DiagnoseRows(const Survey& survey) {
   for (const ControlPoint& point : survey.control_points) control.push_back(&point);
   std::vector<Diagnosis> diagnoses = TwoSystems(control);
   if (diagnoses.empty()) diagnoses = Degrees(control);
-  for (const auto& part : {SameMarks(survey), UnusedControl(survey), SameCoordinates(survey),
-                           LoneMarks(survey)}) {
+  for (const auto& part :
+       {SameMarks(survey), UnusedControl(survey), SameCoordinates(survey), LoneMarks(survey)}) {
     diagnoses.insert(diagnoses.end(), part.begin(), part.end());
   }
   return diagnoses;

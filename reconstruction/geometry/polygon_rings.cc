@@ -29,7 +29,8 @@ double TwiceAreaOf(const Points& points, const std::vector<int>& ring) {
 // Whether two segments have a point in common, ends included.
 bool Meet(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vector2d& c,
           const Eigen::Vector2d& d) {
-  const Eigen::AlignedBox2d first(a.cwiseMin(b), a.cwiseMax(b)), second(c.cwiseMin(d), c.cwiseMax(d));
+  const Eigen::AlignedBox2d first(a.cwiseMin(b), a.cwiseMax(b)),
+      second(c.cwiseMin(d), c.cwiseMax(d));
   return first.intersects(second) && TurnOf(a, b, c) * TurnOf(a, b, d) <= 0 &&
          TurnOf(c, d, a) * TurnOf(c, d, b) <= 0;
 }
@@ -112,7 +113,8 @@ class Bridges {
       const Eigen::Vector2d &c = points_[ring[i]], &d = points_[ring[(i + 1) % ring.size()]];
       if (IsWithin(a, b, c)) return true;
       if (c == a || c == b || d == a || d == b) continue;
-      if (TurnOf(a, b, c) * TurnOf(a, b, d) < 0 && TurnOf(c, d, a) * TurnOf(c, d, b) < 0) return true;
+      if (TurnOf(a, b, c) * TurnOf(a, b, d) < 0 && TurnOf(c, d, a) * TurnOf(c, d, b) < 0)
+        return true;
     }
     return false;
   }

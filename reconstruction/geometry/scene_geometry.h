@@ -22,7 +22,8 @@ struct Polygon {
   std::string material;                   // material attribute
   // 3n x 3n [m^2], joint, of AllVertices in their order; empty where nothing is known.
   Eigen::MatrixXd covariance = {};
-  std::vector<std::vector<Eigen::Vector3d>> holes = {};  // in its plane, within it, either way round
+  std::vector<std::vector<Eigen::Vector3d>> holes =
+      {};  // in its plane, within it, either way round
 };
 
 // The outline's vertices, then each hole's. [m], world

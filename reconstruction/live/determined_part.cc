@@ -259,8 +259,8 @@ class PartFinder {
     using Kind = LeftOut::Kind;
     Survey& survey = part_.survey;
     Prune(&survey.polygons, [&](const PolygonOutline& polygon) {
-      return Undetermined(Kind::kPolygon, "vertex", polygon.name, AllVertices(polygon), polygon.place,
-                          points);
+      return Undetermined(Kind::kPolygon, "vertex", polygon.name, AllVertices(polygon),
+                          polygon.place, points);
     });
     const auto of_pairs = [&](Kind kind) {
       return [&points, kind](const DirectionPair& pair) {

@@ -18,8 +18,8 @@ using Eigen::MatrixXd;
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-constexpr double kBand95 = 1.95996;   // sigmas, of what varies along one line
-constexpr double kGrazing = 1e-4;     // cosine, of a sight along a plane
+constexpr double kBand95 = 1.95996;  // sigmas, of what varies along one line
+constexpr double kGrazing = 1e-4;    // cosine, of a sight along a plane
 
 Matrix3d CrossBy(const Vector3d& v) {
   Matrix3d matrix;
@@ -28,7 +28,8 @@ Matrix3d CrossBy(const Vector3d& v) {
 }
 
 // Derivatives by all that is uncertain: a row for each component of a quantity; columns: the
-// unknowns, the parameters of each considered lens, the mark's x and y, the distance from the plane.
+// unknowns, the parameters of each considered lens, the mark's x and y, the distance from the
+// plane.
 class Uncertain {
  public:
   Uncertain(const SolvedSurvey& solved, double sigma_px, double plane_sigma)
@@ -156,9 +157,10 @@ class Ray {
   // The direction from a photo's centre to the place on the ray that a pixel of the photo shows.
   Value3 TowardsPlaceAt(int other, const Vector2d& pixel) const {
     const Value3 base = Base(other);
-    const Vector3d look = network_.photos[other].cam_from_local.conjugate() *
-                          LensOf(other).Unproject(pixel);
-    const double to_sight = look.cross(sight_.value).norm(), to_base = look.cross(base.value).norm();
+    const Vector3d look =
+        network_.photos[other].cam_from_local.conjugate() * LensOf(other).Unproject(pixel);
+    const double to_sight = look.cross(sight_.value).norm(),
+                 to_base = look.cross(base.value).norm();
     const double share = to_sight / (to_sight + to_base);  // 0: at infinity, 1: the other's centre
     return {(1 - share) * sight_.value + share * base.value,
             (1 - share) * sight_.by + share * base.by};
@@ -209,7 +211,7 @@ class Ray {
   MatrixXd PlaneShift(const PolygonOutline& polygon, const Vector3d& normal,
                       const Vector3d& point) const {
     MatrixXd shift = uncertain_.Nothing(1);
-    uncertain_.ByDistance(&shift)(0) = 1;
+    uncertain_.ByDistance (&shift)(0) = 1;
     const auto index = survey_network_.index_of_plane.find(polygon.name);
     if (index == survey_network_.index_of_plane.end()) {
       AddCornerShifts(polygon, normal, point, &shift);
@@ -225,8 +227,8 @@ class Ray {
   }
 
   // Of a triangle: each corner counts as its barycentric coordinate says.
-  void AddCornerShifts(const PolygonOutline& polygon, const Vector3d& normal,
-                       const Vector3d& point, MatrixXd* shift) const {
+  void AddCornerShifts(const PolygonOutline& polygon, const Vector3d& normal, const Vector3d& point,
+                       MatrixXd* shift) const {
     const auto corner = [&](int i) { return VertexOf(polygon.vertices[i % 3]); };
     const double whole = (corner(1) - corner(0)).cross(corner(2) - corner(0)).dot(normal);
     for (int i = 0; i < 3; ++i) {

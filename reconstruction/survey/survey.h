@@ -108,7 +108,7 @@ struct Survey {
   std::vector<EdgeMark> edges;
   std::vector<GeometricConstraint> constraints;
   std::optional<TiePoints> tie_points =
-      {};  // in their own frame; of insitu-tie-points, if it was run
+      {};                                 // in their own frame; of insitu-tie-points, if it was run
   std::vector<LoneMark> lone_marks = {};  // none of these is among the observations
 };
 

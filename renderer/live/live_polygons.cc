@@ -158,12 +158,12 @@ std::optional<size_t> PolygonSeenAt(const std::vector<Polygon>& polygons, const 
     seen.push_back({i, *point, (*point - Center(camera.cam_from_world)).norm()});
   }
   if (seen.empty()) return std::nullopt;
-  const auto first = std::min_element(
-      seen.begin(), seen.end(), [](const auto& a, const auto& b) { return a.distance < b.distance; });
+  const auto first = std::min_element(seen.begin(), seen.end(), [](const auto& a, const auto& b) {
+    return a.distance < b.distance;
+  });
   size_t smallest = first->polygon;
   for (const Seen& other : seen) {
-    const double apart =
-        std::abs(polygons[first->polygon].normal.dot(other.point - first->point));
+    const double apart = std::abs(polygons[first->polygon].normal.dot(other.point - first->point));
     const bool is_smaller = AreaOf(polygons[other.polygon]) < AreaOf(polygons[smallest]);
     if (apart <= kCoplanar && is_smaller) smallest = other.polygon;
   }

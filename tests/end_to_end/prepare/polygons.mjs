@@ -100,7 +100,7 @@ await person.photo("middle");
 await until("the band is drawn", () => person.page.$('.pane[data-photo="middle"] .band:not(.casing)'));
 report("the epipolar curve lies in its band", true);
 report("its place is shown on the other photo", Boolean(await person.page.$('.pane[data-photo="middle"] .prediction.current')));
-await person.press("2", "c");
+await person.press("2", "+", "+", "c");
 await shot("band");
 
 await person.click("[data-menu=controlTable]");

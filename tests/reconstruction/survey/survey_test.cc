@@ -186,7 +186,8 @@ TEST_F(SurveyFiles, RefuseHolesOfTwoVerticesOrOfVerticesTwice) {
   ExpectError("polygons.json", 4, "a hole of polygon 'wall' has 2 vertices");
   ReplaceLine("polygons.json", 4, start + R"( "holes": [["b0", "b1", "a2"]]},)");
   ExpectError("polygons.json", 4, "has vertex 'a2', which the polygon has already");
-  ReplaceLine("polygons.json", 4, start + R"( "holes": [["b0", "b1", "b2"], ["b2", "c0", "c1"]]},)");
+  ReplaceLine("polygons.json", 4,
+              start + R"( "holes": [["b0", "b1", "b2"], ["b2", "c0", "c1"]]},)");
   ExpectError("polygons.json", 4, "has vertex 'b2', which the polygon has already");
 }
 

@@ -229,8 +229,8 @@ TEST(LiveSolution, TakesAnyUnfinishedSurvey) {
   EXPECT_LE(failed, 2);
 }
 
-// What one ray shows on an adjusted polygon is predicted as the adjustment would find it there: as a
-// vertex of the polygon.
+// What one ray shows on an adjusted polygon is predicted as the adjustment would find it there: as
+// a vertex of the polygon.
 TEST(LiveSolution, PredictsAPointOfOneMarkFromThePolygonItStandsOn) {
   const SyntheticNetwork network = MakeSyntheticNetwork();
   Survey without = WithNoise(network.survey, 5);
