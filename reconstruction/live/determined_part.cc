@@ -238,8 +238,9 @@ class PartFinder {
   void Prune(std::vector<Row>* rows, const Fault& fault) {
     std::erase_if(*rows, [&](const Row& row) {
       std::optional<LeftOut> found = fault(row);
-      if (found) LeaveOut(*std::move(found));
-      return found.has_value();
+      if (!found) return false;
+      LeaveOut(*std::move(found));
+      return true;
     });
   }
 

@@ -48,14 +48,13 @@ void ReadHoles(const JsonNode& node, std::set<std::string> taken, PolygonOutline
   for (const JsonNode& hole : node.Items()) {
     polygon->holes.push_back(hole.Texts());
     const std::vector<std::string>& names = polygon->holes.back();
-    const std::string of = "a hole of polygon '" + polygon->name + "' ";
     if (names.size() < 3) {
-      throw hole.Error(of + "has " + std::to_string(names.size()) +
-                       " vertices, expected at least three");
+      throw hole.Error("a hole of polygon '" + polygon->name + "' has " +
+                       std::to_string(names.size()) + " vertices, expected at least three");
     }
     for (const std::string& name : names) {
       if (taken.insert(name).second) continue;
-      throw hole.Error(of + "has vertex '" + name +
+      throw hole.Error("a hole of polygon '" + polygon->name + "' has vertex '" + name +
                        "', which the polygon has already; expected each vertex once");
     }
   }

@@ -74,9 +74,7 @@ class PhotoCovariance {
 class Predictor {
  public:
   Predictor(const SolvedSurvey& solved, const std::vector<PosedCamera>& cameras)
-      : solved_(solved),
-        cameras_(cameras),
-        own_(CameraCovariances(solved.survey_network.network, solved.solution)) {
+      : cameras_(cameras), own_(CameraCovariances(solved.survey_network.network, solved.solution)) {
     for (size_t i = 0; i < cameras.size(); ++i) {
       views_.emplace_back(cameras[i].camera);
       covariances_.emplace_back(solved, i, own_[i]);
@@ -123,7 +121,6 @@ class Predictor {
     return point;
   }
 
-  const SolvedSurvey& solved_;
   const std::vector<PosedCamera>& cameras_;
   std::vector<Eigen::MatrixXd> own_;
   std::vector<LensView> views_;

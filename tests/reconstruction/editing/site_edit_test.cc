@@ -118,7 +118,8 @@ TEST_F(SiteEditTest, RefusesRowsThatNoProgramWouldRead) {
   EXPECT_THAT(holes(R"(["d", "e", "f"])"), HasSubstr("a hole has not three vertices"));
   EXPECT_THAT(holes(R"([["d", "e"]])"), HasSubstr("a hole has not three vertices"));
   EXPECT_THAT(holes(R"([["d", "e", "a"]])"), HasSubstr("vertex \"a\" occurs twice"));
-  EXPECT_THAT(holes(R"([["d", "e", "f"], ["g", "h", "d"]])"), HasSubstr("vertex \"d\" occurs twice"));
+  EXPECT_THAT(holes(R"([["d", "e", "f"], ["g", "h", "d"]])"),
+              HasSubstr("vertex \"d\" occurs twice"));
   EXPECT_THAT(holes(R"([["d", "e", 1]])"), HasSubstr("no name"));
   EXPECT_THAT(refusal("sun", R"({"shadow": "a", "object": "a"})"), HasSubstr("same point"));
   EXPECT_THAT(refusal("constraints", R"({"kind": "distance", "points": ["a", "b"], "value_m": -1,

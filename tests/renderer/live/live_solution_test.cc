@@ -42,7 +42,8 @@ TEST(LiveSolution, SaysWhatAdjustSays) {
   EXPECT_EQ(message["photos"]["P2"]["rms_px"].asDouble(), whole.poses[1].rms_px);
   EXPECT_EQ(message["marks"].size(), survey.observations.size());
   for (Json::ArrayIndex i = 0; i < message["marks"].size(); ++i) {  // the rows' first are the marks
-    const ObservationResidual &x = whole.residuals[2 * i], &y = whole.residuals[2 * i + 1];
+    const ObservationResidual &x = whole.residuals[size_t{2} * i],
+                              &y = whole.residuals[size_t{2} * i + 1];
     const Json::Value& mark = message["marks"][i];
     ASSERT_EQ(mark["point"].asString(), x.subject);
     EXPECT_EQ(mark["r"].asDouble(), std::min(x.redundancy, y.redundancy));
