@@ -159,7 +159,7 @@ warns() { "$INSITU_BIN/insitu-reconstruct" "$site" 2>&1 | grep -E "^warning: .*$
 fresh_site
 printf '%s,no_such_point,100.0,100.0,0.3\n' "$name" >>"$(survey observations.csv)"
 check 'a point of one mark is left out by name' warns \
-  "survey/observations\.csv:[0-9]+: point 'no_such_point': one ray only, .*left out"
+  "observations\.csv:[0-9]+: point 'no_such_point': one ray only, .*left out"
 left_out_in_report() {
   /usr/bin/python3 - "$site/work/reconstruction/report.json" <<'PYTHON'
 import json, sys
