@@ -91,17 +91,21 @@ MontageScene MakeMontageScene(NaturalEnvironment natural, const ArtificialEnviro
   INSITU_CHECK(natural.input_images.size() == images.size());
   const Eigen::Vector3d origin = natural.scene.origin;
   PolygonMesh polygons = MeshOfPolygons(natural.scene);
-  const TriangleMesh building = LocalMesh(artificial, origin);
+  TriangleMesh building = LocalMesh(artificial, origin);
+  RayScene natural_rays(polygons.mesh), artificial_rays(building);
+  const InfluenceBox box = BoxAround(building);
   MontageScene scene{.natural = std::move(natural),
-                     .natural_rays = RayScene(polygons.mesh),
+                     .natural_mesh = std::move(polygons.mesh),
+                     .natural_rays = std::move(natural_rays),
                      .polygon_of_triangle = std::move(polygons.polygon_of_triangle),
                      .material_of_polygon = {},
                      .ground = {},
-                     .artificial_rays = RayScene(building),
+                     .artificial_mesh = std::move(building),
+                     .artificial_rays = std::move(artificial_rays),
                      .artificial_normals = TriangleNormals(artificial),
                      .material_of_triangle = artificial.material_of_triangle,
                      .artificial_materials = {},
-                     .building_box = BoxAround(building),
+                     .building_box = box,
                      .lamps = {},
                      .facets = {},
                      .facet_directions = {},
@@ -109,7 +113,8 @@ MontageScene MakeMontageScene(NaturalEnvironment natural, const ArtificialEnviro
                      .solar_disc_radius = 0,
                      .input_images = std::move(images),
                      .images = {},
-                     .mean_brdf_of_polygon = {}};
+                     .mean_brdf_of_polygon = {},
+                     .interreflected = {}};
   const NaturalEnvironment& site = scene.natural;
   scene.ground = LargestLevelPolygon(site.scene);
   for (const Polygon& polygon : site.scene.polygons) {

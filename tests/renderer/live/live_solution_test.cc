@@ -155,7 +155,7 @@ TEST(LiveSolution, SaysOnceThatALensIsMissing) {
   const SyntheticNetwork network = MakeSyntheticNetwork({.has_extras = true});
   LiveInput input = InputOf(network, network.survey);
   input.photos[2].camera.reset();
-  input.photos[2].no_lens_because = "run insitu-calibrate";
+  input.photos[2].no_lens_because = Sentence("noLens", "run insitu-calibrate");
   const Json::Value message = LiveSolution(input);
   EXPECT_FALSE(message["photos"]["P3"]["oriented"].asBool());
   EXPECT_EQ(message["photos"]["P3"]["why"].asString(), "run insitu-calibrate");

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The loupe: eight times, from lossless pixels, with the marks drawn over it.
 
+import {fiducialsOn, gradeOfFiducial} from "../film/certified.js";
 import {getBlob} from "../site/api.js";
 import {node} from "../words/dom.js";
 import {rows} from "../site/state.js";
@@ -120,13 +121,16 @@ export class Loupe {
 
   paintMarks(context, toX, toY) {
     const photo = this.pane.photo.name;
-    for (const one of rows("observations")) {
-      if (one.photo !== photo) continue;
+    const circle = (one, level) => {
       const x = toX(one.x),
         y = toY(one.y);
-      if (x < 0 || y < 0 || x > this.side || y > this.side) continue;
-      stroke(context, kColours[gradeOf(photo, one.point)], () => context.arc(x, y, 6, 0, 2 * Math.PI));
-    }
+      if (x < 0 || y < 0 || x > this.side || y > this.side) return;
+      stroke(context, kColours[level], () => context.arc(x, y, 6, 0, 2 * Math.PI));
+    };
+    for (const one of rows("observations"))
+      if (one.photo === photo) circle(one, gradeOf(photo, one.point));
+    for (const one of ui.mode === "film" ? fiducialsOn(photo) : [])
+      circle(one, gradeOfFiducial(photo, one.mark));
     const rings = ui.lines === "none" ? [] : rows("polygons").flatMap(ringsOf);
     for (const corners of rings.map(names => placed(names, photo))) {
       const draw = () =>

@@ -15,7 +15,7 @@ import {pixelOf, ringsOf} from "./outlines.js";
 import {pointTool} from "./pickers.js";
 import {emit} from "../site/signals.js";
 import {activePane, placeOf, setMode, setTool, stepLines, ui} from "../site/ui.js";
-import {t} from "../words/words.js";
+import {said, t} from "../words/words.js";
 
 const current = () => (ui.polygon === null ? undefined : row("polygons", ui.polygon));
 const materials = () => [
@@ -253,7 +253,7 @@ export function updatePolygonPanel() {
             area: shown(about.area_m2, 2),
             off: shown(about.off_vertical_deg, 2)
           })
-        : (leftOut?.reason ?? ""));
+        : said(leftOut, "reason"));
 }
 
 /** @type {Map<string, string>} */

@@ -35,6 +35,10 @@ export const kKeyTexts = {
   key_goTo: ["go to x y", "gehe zu x y"],
   key_goToToo: ["go to x y", "gehe zu x y"],
   key_enlarge: ["this photo in the large pane", "dieses Foto ins grosse Feld"],
+  key_relight: [
+    "this photo as it is, without sun, in the sun alone",
+    "dieses Foto, wie es ist, ohne Sonne, nur Sonne"
+  ],
   key_layout: ["one, two, four photos", "ein, zwei, vier Fotos"],
   key_undo: ["undo", "zurücknehmen"],
   key_redo: ["redo", "wiederholen"],

@@ -97,6 +97,16 @@ export const kPanelTexts = {
       "Verzeichnung: Punkte können um Dezimeter falsch sein, und kein σ sagt es. Vor jeder ernsthaften " +
       "Messung eine Tafel fotografieren und kalibrieren."
   ],
+  // Photos in another light
+  light_photo: ["as taken", "wie aufgenommen"],
+  light_none: ["without sun", "ohne Sonne"],
+  light_sun: ["sun alone", "nur Sonne"],
+  relitSoon: ["being made …", "wird gerechnet …"],
+  relitNot: ["cannot be made: {why}", "geht nicht: {why}"],
+  relitNote: [
+    "exposed × {times}; {percent} % lie on polygons, the rest is grey",
+    "belichtet × {times}; {percent} % liegen auf Polygonen, der Rest ist grau"
+  ],
   stopped: ["stopped", "angehalten"],
   firstLook: ["For a first look", "Für einen ersten Blick"]
 };
