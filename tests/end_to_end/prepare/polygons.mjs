@@ -57,6 +57,8 @@ for (const [x, y] of [[660, 140], [740, 132], [770, 170], [742, 205], [660, 200]
   if (x === 770) await person.press("Backspace");
 }
 await shot("hole_drawn");
+await until("its points are to be done", async () => (await todoCut()).all > 4);
+await person.drawn();
 const todo = await todoCut();
 report("what is to be done is shown in whole things, the others are counted", !todo.cut && todo.more === `${todo.all - todo.shown} more`, JSON.stringify(todo));
 await person.press("Enter");
