@@ -33,13 +33,6 @@ uint64_t VoxelKey(const PatchGrid& grid, uint64_t face, const Eigen::Vector3d& p
 
 uint64_t FaceOf(int face, bool is_back) { return 2 * static_cast<uint64_t>(face) + is_back; }
 
-double AreaOf(const Polygon& polygon) {
-  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  const std::vector<Eigen::Vector3d>& v = polygon.vertices;
-  for (size_t i = 2; i < v.size(); ++i) sum += (v[i - 1] - v[0]).cross(v[i] - v[0]);
-  return sum.norm() / 2;
-}
-
 // The largest that lies within ten degrees of level.
 std::optional<int> LargestLevelPolygon(const SceneGeometry& scene) {
   const double level = std::cos(10 * std::numbers::pi / 180);

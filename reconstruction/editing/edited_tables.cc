@@ -65,7 +65,7 @@ std::vector<EditedTable> MakeTables() {
                true),
       CsvTable("camera_positions", {"photo"}, with({"photo"}, {"role"}), position, false),
       JsonTable("polygons", "survey/polygons.json", TableForm::kList, {"name"},
-                {"name", "vertices", "photo", "material", "mask"}),
+                {"name", "vertices", "holes", "photo", "material", "mask"}),
       JsonTable("sun", "survey/directions.json", TableForm::kList, {"shadow", "object"},
                 {"object", "shadow"}),
       JsonTable("zenith", "survey/directions.json", TableForm::kList, {"bottom", "top"},

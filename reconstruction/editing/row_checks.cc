@@ -118,6 +118,23 @@ Fault FaultOfPosition(const Json::Value& row) {
                     FaultOfSigma(row, "sigma_z"));
 }
 
+// Every vertex of a polygon occurs once, in its outline or in one hole.
+Fault FaultOfHoles(const Json::Value& holes, std::set<std::string> taken) {
+  if (holes.isNull()) return std::nullopt;
+  if (!holes.isArray()) return "holes are no list";
+  for (const Json::Value& hole : holes) {
+    if (!hole.isArray() || hole.size() < 3) return "a hole has not three vertices";
+    for (const Json::Value& vertex : hole) {
+      if (!vertex.isString()) return "a hole's vertex is no name";
+      if (const Fault fault = FaultOfPoint("vertex", vertex.asString())) return fault;
+      if (!taken.insert(vertex.asString()).second) {
+        return "vertex " + Quoted(vertex.asString()) + " occurs twice, in the outline or a hole";
+      }
+    }
+  }
+  return std::nullopt;
+}
+
 Fault FaultOfPolygon(const Json::Value& row, const Texts& photos) {
   std::set<std::string> distinct;
   if (!row["vertices"].isArray()) return "vertices are no list";
@@ -131,6 +148,7 @@ Fault FaultOfPolygon(const Json::Value& row, const Texts& photos) {
            std::to_string(distinct.size()) +
            " of them distinct; expected at least three, all distinct";
   }
+  if (const Fault fault = FaultOfHoles(row["holes"], distinct)) return fault;
   if (!row["mask"].isNull() && !row["mask"].isString()) return "mask is no name of a file";
   return FirstFault(FaultOfName("name", RowText(row, "name")),
                     FaultOfName("material", RowText(row, "material")),

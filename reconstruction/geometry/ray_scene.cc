@@ -9,7 +9,6 @@
 #include <utility>
 
 #include "calibration/files/error.h"
-#include "reconstruction/geometry/triangulate.h"
 
 namespace insitu {
 namespace {
@@ -182,10 +181,10 @@ PolygonMesh MeshOfPolygons(const SceneGeometry& scene) {
   TriangleMesh& mesh = result.mesh;
   for (size_t p = 0; p < scene.polygons.size(); ++p) {
     const Polygon& polygon = scene.polygons[p];
-    const auto triangles = Triangulate(polygon.vertices, polygon.normal);
+    const auto triangles = TrianglesOf(polygon);
     INSITU_CHECK(triangles.has_value());  // the adjustment refuses outlines that cross themselves
     const int base = static_cast<int>(mesh.vertices.size());
-    for (const Eigen::Vector3d& vertex : polygon.vertices) {
+    for (const Eigen::Vector3d& vertex : AllVertices(polygon)) {
       mesh.vertices.push_back((vertex - scene.origin).cast<float>());
     }
     for (const Eigen::Vector3i& triangle : *triangles) {

@@ -78,7 +78,7 @@ class PartFinder {
       place_of_point_.try_emplace(point.name, point.place);
     }
     for (const PolygonOutline& polygon : survey.polygons) {
-      for (const std::string& vertex : polygon.vertices) {
+      for (const std::string& vertex : AllVertices(polygon)) {
         place_of_point_.try_emplace(vertex, polygon.place);
       }
     }
@@ -244,8 +244,8 @@ class PartFinder {
     using Kind = LeftOut::Kind;
     Survey& survey = part_.survey;
     Prune(&survey.polygons, [&](const PolygonOutline& polygon) {
-      return Undetermined(Kind::kPolygon, NoVertex, polygon.name, polygon.vertices, polygon.place,
-                          points);
+      return Undetermined(Kind::kPolygon, NoVertex, polygon.name, AllVertices(polygon),
+                          polygon.place, points);
     });
     const auto of_pairs = [&](Kind kind) {
       return [&points, kind](const DirectionPair& pair) {

@@ -4,9 +4,9 @@
 namespace insitu {
 
 Sentence ReasonOfPhoto(size_t known, bool can_resect) {
-  if (known == 0) return Sentence("photoThree", "three control points");
-  if (known == 1) return Sentence("photoTwo", "two more control points");
-  if (known == 2) return Sentence("photoOne", "one more control point");
+  if (known == 0) return Sentence("photoThree", "needs three control points");
+  if (known == 1) return Sentence("photoTwo", "needs two more control points");
+  if (known == 2) return Sentence("photoOne", "needs one more control point");
   const int count = static_cast<int>(known);
   if (!can_resect) {
     return Sentence("photoOnLine",

@@ -244,9 +244,10 @@ class Solver {
   // Of points that planes alone were to hold.
   bool ErasePolygonsOf(const UnsolvableSurvey& error) {
     return std::erase_if(survey_.polygons, [&](const PolygonOutline& polygon) {
-             const auto held = std::find_first_of(polygon.vertices.begin(), polygon.vertices.end(),
+             const std::vector<std::string> vertices = AllVertices(polygon);
+             const auto held = std::find_first_of(vertices.begin(), vertices.end(),
                                                   error.points.begin(), error.points.end());
-             if (held == polygon.vertices.end()) return false;
+             if (held == vertices.end()) return false;
              unsolvable_.push_back(
                  {LeftOut::Kind::kPolygon, polygon.name, "",
                   Sentence("polygonHeld",
@@ -348,6 +349,8 @@ class Solver {
   void TellPoints() {
     const SolvedSurvey& solved = *result_.solved;
     result_.message["points"] = PredictedPoints(input_.survey, solved, result_.cameras);
+    AddPointsOnPlanes(input_.survey, part_.survey, solved, result_.cameras,
+                      input_.options.plane_sigma, &result_.message["points"]);
     Adjustment adjustment;
     adjustment.points = AdjustedPoints(solved.survey_network.network, solved.solution);
     adjustment.poses = AdjustedPoses(solved.survey_network.network, solved.solution);

@@ -73,18 +73,11 @@ bool IsLevel(const SceneGeometry& scene, const Polygon& polygon) {
   return polygon.normal.dot(scene.zenith.unit) > std::cos(10 * std::numbers::pi / 180);
 }
 
-double Area(const Polygon& polygon) {
-  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  const std::vector<Eigen::Vector3d>& v = polygon.vertices;
-  for (size_t i = 2; i < v.size(); ++i) sum += (v[i - 1] - v[0]).cross(v[i] - v[0]);
-  return sum.norm() / 2;
-}
-
 std::optional<int> LargestLevelPolygon(const SceneGeometry& scene) {
   std::optional<int> largest;
   for (size_t i = 0; i < scene.polygons.size(); ++i) {
     if (!IsLevel(scene, scene.polygons[i])) continue;
-    const bool larger = !largest || Area(scene.polygons[i]) > Area(scene.polygons[*largest]);
+    const bool larger = !largest || AreaOf(scene.polygons[i]) > AreaOf(scene.polygons[*largest]);
     if (larger) largest = static_cast<int>(i);
   }
   return largest;

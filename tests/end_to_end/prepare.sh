@@ -35,6 +35,13 @@ in_browser 'another light' relit
 in_browser 'files' files
 check 'what the page wrote is read by the adjustment' \
   "$INSITU_BIN/insitu-reconstruct" "$temporary/site"
+in_browser 'polygons' polygons
+leaves_out_by_name() {
+  local message
+  message=$("$INSITU_BIN/insitu-reconstruct" "$temporary/site" 2>&1) || return 1
+  printf '%s\n' "$message" | grep "^warning: .*point 'lone': one ray only, .*left out"
+}
+check 'the adjustment reads them, and leaves out the point of one mark by name' leaves_out_by_name
 in_browser 'kill -9 of the browser' browser_kill "$temporary/profile"
 in_browser 'a read-only file' not_saved
 

@@ -103,7 +103,7 @@ TEST_F(Part, OfNothingIsEmpty) {
   EXPECT_THAT(part.photos, IsEmpty());
   EXPECT_THAT(part.start.points, IsEmpty());
   EXPECT_THAT(NamesOf(part, Kind::kPhoto), ElementsAre("P1", "P2", "P3", "P4"));
-  EXPECT_EQ(Of(part, Kind::kPhoto, "P1").reason.text(), "three control points");
+  EXPECT_EQ(Of(part, Kind::kPhoto, "P1").reason.text(), "needs three control points");
   EXPECT_EQ(Of(part, Kind::kPhoto, "P1").place.path, "survey/observations.csv");
 }
 
@@ -126,7 +126,7 @@ TEST_F(Part, LeavesOutAPhotoWithTwoControlPoints) {
   EXPECT_THAT(part.photos, ElementsAre("P1", "P2", "P4"));
   EXPECT_THAT(part.indices, ElementsAre(0, 1, 3));
   const LeftOut& photo = Of(part, Kind::kPhoto, "P3");
-  EXPECT_EQ(photo.reason.text(), "one more control point");
+  EXPECT_EQ(photo.reason.text(), "needs one more control point");
   EXPECT_FALSE(photo.is_contradiction);
   const auto& marks = network_.survey.observations;
   EXPECT_EQ(photo.place.line, std::find_if(marks.begin(), marks.end(), [](const auto& mark) {
@@ -141,7 +141,7 @@ TEST_F(Part, DoesNotPlaceAPhotoByCheckPointsAlone) {
   for (ControlPoint& point : network_.survey.control_points) point.role = ControlRole::kCheck;
   const DeterminedPart part = Find();
   EXPECT_THAT(part.photos, IsEmpty());
-  EXPECT_EQ(Of(part, Kind::kPhoto, "P2").reason.text(), "three control points");
+  EXPECT_EQ(Of(part, Kind::kPhoto, "P2").reason.text(), "needs three control points");
 }
 
 // P3 shows no control: points of the others place it, and "single", which P3 alone shows then, is

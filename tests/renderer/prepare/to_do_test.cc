@@ -125,11 +125,11 @@ TEST_F(ToDoTest, CompleteFilmIsCalibratedAndAgainAfterAChange) {
 TEST_F(ToDoTest, WhatTakesNoPartIsNamedWithItsPlace) {
   Complete();
   input_.adjusted["left_out"] = RowOf(R"([
-    {"kind": "photo", "name": "B", "reason": "one more control point"},
+    {"kind": "photo", "name": "B", "reason": "needs one more control point"},
     {"kind": "point", "name": "roof", "photo": "A", "reason": "one ray"}])");
   const Json::Value items = ToDo(input_);
   ASSERT_EQ(items.size(), 2U);
-  EXPECT_EQ(items[0]["text"], "B: one more control point");
+  EXPECT_EQ(items[0]["text"], "B: needs one more control point");
   EXPECT_EQ(items[0]["where"]["photo"], "B");
   EXPECT_EQ(items[1]["where"]["point"], "roof");
 }

@@ -237,6 +237,7 @@ function drawTodo() {
   const signature = JSON.stringify([state.todo, findings]);
   if (signature === drawnTodo) return;
   drawnTodo = signature;
+  const more = button("", stepTodo, {class: "small more", hidden: true});
   byId("todo").replaceChildren(
     node("h2", {text: t("todo", {n: state.todo.length})}),
     node(
@@ -259,9 +260,40 @@ function drawTodo() {
           node("h2", {text: t("findings", {n: findings.length})}),
           node("ul", {}, ...findings.map(finding))
         ]
-      : [])
+      : []),
+    more
   );
+  fitTodo();
 }
+
+let isTodoOpen = false;
+function stepTodo() {
+  isTodoOpen = !isTodoOpen;
+  fitTodo();
+}
+
+/** Shows as many things as there is room for, each whole, and says how many more there are. */
+function fitTodo() {
+  const root = byId("todo"),
+    items = [...root.querySelectorAll("li")],
+    more = first("#todo .more");
+  if (!more) return;
+  const isFull = () => root.scrollHeight > root.clientHeight + 1;
+  root.classList.toggle("open", isTodoOpen);
+  for (const one of root.querySelectorAll("[hidden]")) one.hidden = false;
+  more.hidden = true;
+  if (!isTodoOpen && !isFull()) return;
+  more.hidden = false;
+  more.textContent = t("fewer");
+  if (isTodoOpen) return;
+  for (let left = items.length - 1; left > 0 && isFull(); --left) {
+    items[left].hidden = true;
+    const list = items[left].parentElement;
+    if (list.firstElementChild === items[left]) list.hidden = list.previousElementSibling.hidden = true;
+    more.textContent = t("more", {n: items.length - left});
+  }
+}
+addEventListener("resize", fitTodo);
 
 /** What the diagnosis of the survey found; it leads to its point or photo. */
 function finding(one) {

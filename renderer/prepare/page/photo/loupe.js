@@ -6,7 +6,8 @@ import {getBlob} from "../site/api.js";
 import {node} from "../words/dom.js";
 import {rows} from "../site/state.js";
 import {redraw} from "../site/signals.js";
-import {activePane, gradeOf, placeOf, ui} from "../site/ui.js";
+import {activePane, gradeOf, ui} from "../site/ui.js";
+import {placed, ringsOf} from "../tools/outlines.js";
 
 const kScale = 8,
   kRadius = 40; // CSS px a pixel, px fetched about the place
@@ -130,18 +131,13 @@ export class Loupe {
       if (one.photo === photo) circle(one, gradeOf(photo, one.point));
     for (const one of ui.mode === "film" ? fiducialsOn(photo) : [])
       circle(one, gradeOfFiducial(photo, one.mark));
-    for (const polygon of rows("polygons")) {
-      const corners = polygon.vertices.map(name => placeOf(photo, name));
-      if (ui.lines === "none" || corners.some(at => !at)) continue;
-      stroke(
-        context,
-        "#ffffffb0",
-        () =>
-          corners.forEach((at, i) =>
-            i === 0 ? context.moveTo(toX(at.x), toY(at.y)) : context.lineTo(toX(at.x), toY(at.y))
-          ),
-        true
-      );
+    const rings = ui.lines === "none" ? [] : rows("polygons").flatMap(ringsOf);
+    for (const corners of rings.map(names => placed(names, photo))) {
+      const draw = () =>
+        corners.forEach(([x, y], i) =>
+          i === 0 ? context.moveTo(toX(x), toY(y)) : context.lineTo(toX(x), toY(y))
+        );
+      if (corners.length > 0) stroke(context, "#ffffffb0", draw, true);
     }
   }
 }

@@ -293,7 +293,7 @@ export class Pane {
     this.lines.textContent = t(`lines_${ui.lines}`);
     this.drawRelitNote();
     this.note.classList.toggle("fault", Boolean(fault));
-    this.note.title = fault ?? "";
+    this.note.title = fault ?? about?.why ?? "";
     if (fault) return void (this.note.textContent = t("photoFault", {why: fault}));
     this.note.textContent = !this.photo
       ? ""

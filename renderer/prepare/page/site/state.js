@@ -328,7 +328,8 @@ function makeIndex() {
     return /** @type {any} */ (points.get(name));
   };
   for (const one of rows("control_points")) want(one.name, one.role === "check" ? "check" : "control");
-  for (const polygon of rows("polygons")) for (const name of polygon.vertices) want(name, "vertex");
+  for (const {vertices, holes} of rows("polygons"))
+    for (const name of [vertices, ...(holes ?? [])].flat()) want(name, "vertex");
   for (const one of rows("sun")) [one.object, one.shadow].forEach(name => want(name, "vertex"));
   for (const one of rows("zenith")) [one.bottom, one.top].forEach(name => want(name, "vertex"));
   for (const one of rows("observations")) want(one.point, "tie").marks.push(one);

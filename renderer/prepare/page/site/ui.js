@@ -168,7 +168,8 @@ export function choosePolygon(name) {
  * @param {string} point
  */
 export function photosOf(point) {
-  const isKnown = state.adjusted?.points?.[point] !== undefined;
+  const about = state.adjusted?.points?.[point];
+  const isKnown = about !== undefined && !about.plane; // which may not be the one it stands on
   return state.photos
     .map(photo => photo.name)
     .filter(

@@ -63,9 +63,9 @@ export const kServerTexts = {
   whyFilm: "seine Rahmenmarken verbinden dann jeden Scan mit dem Objektiv",
   doCameras: "die Kameras kalibrieren",
   // What takes no part in the adjustment
-  photoThree: "drei Passpunkte",
-  photoTwo: "noch zwei Passpunkte",
-  photoOne: "noch ein Passpunkt",
+  photoThree: "braucht drei Passpunkte",
+  photoTwo: "braucht noch zwei Passpunkte",
+  photoOne: "braucht noch einen Passpunkt",
   photoOnLine: "seine {count} bekannten Punkte liegen auf einer Geraden, noch einen deutlich daneben",
   photoNoPlace:
     "kein Standort der Kamera erklärt seine {count} bekannten Punkte: ist einer am falschen Ort oder " +

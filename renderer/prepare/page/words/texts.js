@@ -303,8 +303,11 @@ export const kTexts = {
     "Tabelle aus einer Tabellenkalkulation oder Datei einfügen"
   ],
   importFound: [
-    "{n} points ({format}); {taken} of these names are there and would be changed.",
-    "{n} Punkte ({format}); {taken} dieser Namen gibt es und würden geändert."
+    "{n} points ({format}).", "{n} Punkte ({format})."
+  ],
+  importTaken: [
+    "{taken} of these names are there already and would be changed.",
+    "{taken} dieser Namen gibt es schon; sie würden geändert."
   ],
   imported: ["{n} points taken over.", "{n} Punkte übernommen."],
   helpNote: [
