@@ -5,8 +5,6 @@
 #include <cstdint>
 #include <filesystem>
 #include <string>
-#include <variant>
-#include <vector>
 
 #include "calibration/photo/raster.h"
 
@@ -28,14 +26,6 @@ double SrgbFromLinear(double linear);
 // JPEG, PNG, TIFF (sRGB) or EXR (linear); grey becomes three equal channels.
 // Throws InputError: missing, not an image, cut short, NaN or infinite values.
 Photograph ReadPhotograph(const std::filesystem::path& path);
-
-// The same, as its file has it: sRGB codes of 8 or 16 bits, or linear values; three channels, rows
-// of red, green and blue.
-struct CodedPhotograph {
-  int width = 0, height = 0;  // [px]
-  std::variant<std::vector<uint8_t>, std::vector<uint16_t>, std::vector<float>> samples;
-};
-CodedPhotograph ReadCodedPhotograph(const std::filesystem::path& path);
 
 // (width, height) [px] from the file's header alone. Throws InputError: missing, not an image.
 Eigen::Vector2i ReadPhotographSize(const std::filesystem::path& path);

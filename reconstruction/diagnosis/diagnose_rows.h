@@ -10,7 +10,7 @@
 namespace insitu {
 
 // From the rows alone, without any photo: two coordinate systems, degrees, the same coordinates
-// under two names, the same marks on two photos, points of a single mark that were left out.
+// under two names, the same marks on two photos.
 std::vector<Diagnosis> DiagnoseRows(const Survey& survey);
 
 }  // namespace insitu

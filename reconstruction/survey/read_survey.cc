@@ -41,7 +41,6 @@ Survey ReadSurvey(const SitePaths& site, const std::vector<std::string>& photos,
   }
   RequireKnownPoints(survey);
   RequireNoNamesOfTiePoints(survey);
-  LeaveOutLoneMarks(&survey);
   return survey;
 }
 

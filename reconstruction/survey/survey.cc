@@ -7,12 +7,6 @@
 
 namespace insitu {
 
-std::vector<std::string> AllVertices(const PolygonOutline& polygon) {
-  std::vector<std::string> names = polygon.vertices;
-  for (const auto& hole : polygon.holes) names.insert(names.end(), hole.begin(), hole.end());
-  return names;
-}
-
 std::vector<JoinedPoints> JoinedByPairs(const Survey& survey) {
   std::vector<JoinedPoints> joined;
   for (const DirectionPair& pair : survey.sun_pairs) {
@@ -33,7 +27,7 @@ std::vector<JoinedPoints> JoinedByPairs(const Survey& survey) {
 std::set<std::string> PointsInUse(const Survey& survey) {
   std::set<std::string> names;
   for (const PolygonOutline& polygon : survey.polygons) {
-    for (const std::string& vertex : AllVertices(polygon)) names.insert(vertex);
+    names.insert(polygon.vertices.begin(), polygon.vertices.end());
   }
   for (const ImageObservation& mark : survey.observations) names.insert(mark.point);
   for (const JoinedPoints& points : JoinedByPairs(survey)) {
@@ -53,7 +47,7 @@ FilePlace PlaceOfPoint(const Survey& survey, const std::string& name) {
     return std::find(names.begin(), names.end(), name) != names.end();
   };
   for (const PolygonOutline& polygon : survey.polygons) {
-    if (has(AllVertices(polygon))) return polygon.place;
+    if (has(polygon.vertices)) return polygon.place;
   }
   for (const JoinedPoints& points : JoinedByPairs(survey)) {
     if (has(points.names)) return points.place;

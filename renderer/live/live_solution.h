@@ -10,7 +10,6 @@
 #include <string>
 #include <vector>
 
-#include "calibration/files/sentence.h"
 #include "calibration/lens/camera.h"
 #include "calibration/lens/rigid3.h"
 #include "reconstruction/adjustment/adjustment_options.h"
@@ -27,7 +26,7 @@ struct LivePhoto {
   std::string name;
   std::optional<Camera> camera;
   PhotoLens lens = {};
-  Sentence no_lens_because = {};  // where there is no camera: what to do
+  std::string no_lens_because = {};  // where there is no camera: what to do
 };
 
 // What the almanac needs, of site.json.

@@ -36,9 +36,8 @@ LiveState LiveWorker::Adjust(int revision) {
 }
 
 void LiveWorker::AddLight(int revision, LiveState* state) {
-  state->is_lit = true;
   if (!state->result.scene) return;
-  state->light = LiveLight(site_, *state->result.scene, linear_, &state->environment);
+  state->light = LiveLight(site_, *state->result.scene, linear_);
   if (state->light.isNull()) return;
   state->light["type"] = "light";
   state->light["revision"] = revision;

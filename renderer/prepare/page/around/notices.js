@@ -4,7 +4,7 @@
 import {button, byId, node, table} from "../words/dom.js";
 import {edit, kKeys, state} from "../site/state.js";
 import {emit, on} from "../site/signals.js";
-import {failures, keptCount, sendNow, storeFault, unconfirmed} from "../site/outbox.js";
+import {failures, sendNow, storeFault, unconfirmed} from "../site/outbox.js";
 import {t} from "../words/words.js";
 
 /**
@@ -31,17 +31,13 @@ function download() {
 const banner = (kind, text, ...controls) =>
   node("p", {class: `banner ${kind}`}, node("span", {text}), ...controls);
 
-/** How many outlive this page. */
-const keptText = (waiting, kept) => t(kept === waiting ? "keptAll" : "keptSome", {n: kept});
-
 let drawn = "";
 function draw() {
-  const waiting = unconfirmed().length,
-    kept = keptCount();
+  const waiting = unconfirmed().length;
   const isGone = state.isLoaded && ((!state.isConnected && isLate) || (failures > 1 && !storeFault));
   const signature = JSON.stringify([
     isGone,
-    isGone && [waiting, kept],
+    isGone && waiting,
     state.notSaved,
     storeFault,
     state.readOnly,
@@ -55,7 +51,7 @@ function draw() {
     made.push(
       banner(
         "fail",
-        t("serverGone", {n: waiting}) + (waiting > 0 ? ` ${keptText(waiting, kept)}` : ""),
+        t("serverGone", {n: waiting}),
         button(t("tryNow"), sendNow),
         button(t("download"), download)
       )

@@ -25,10 +25,7 @@ export const kKeys = {
   light: [],
   materials: ["name"],
   drafts: ["id"],
-  site: [],
-  film: [],
-  film_marks: ["mark"],
-  fiducials: ["photo", "mark"]
+  site: []
 };
 
 /**
@@ -83,7 +80,6 @@ export const state = {
   /** @type {any} */ adjusted: null,
   /** @type {any} */ light: null,
   /** @type {any} */ building: null,
-  /** @type {any} */ film: null,
   /** @type {{file?: string, line?: number, text: string}[]} */ faults: [],
   /** @type {{operation: any, conflicts: any[], error?: string}[]} */ refused: []
 };
@@ -207,10 +203,6 @@ const takers = {
     state.building = message;
     emit("building");
   },
-  film: message => {
-    state.film = message.photos ? message : null; // without photos: there is no film any more
-    emit("film");
-  },
   run: message => emit("run", message),
   fault: message => {
     state.faults = [...state.faults.slice(-20), message];
@@ -246,7 +238,6 @@ async function load() {
     light: site.light,
     adjusted: site.adjusted,
     building: site.building ?? state.building,
-    film: site.film ?? null,
     notSaved: site.not_saved ?? "",
     isLoaded: true
   });
@@ -258,7 +249,7 @@ async function load() {
 /** The first load; then the live connection, which loads again each time it comes back. */
 export async function start() {
   await load();
-  await openOutbox(state.siteFolder, {
+  openOutbox(state.siteFolder, {
     confirmed: (operation, revision) => {
       if (!seen.has(operation.id) && !(revision <= base)) applyEdits(confirmed, operation.edits);
       seen.add(operation.id);
@@ -328,8 +319,7 @@ function makeIndex() {
     return /** @type {any} */ (points.get(name));
   };
   for (const one of rows("control_points")) want(one.name, one.role === "check" ? "check" : "control");
-  for (const {vertices, holes} of rows("polygons"))
-    for (const name of [vertices, ...(holes ?? [])].flat()) want(name, "vertex");
+  for (const polygon of rows("polygons")) for (const name of polygon.vertices) want(name, "vertex");
   for (const one of rows("sun")) [one.object, one.shadow].forEach(name => want(name, "vertex"));
   for (const one of rows("zenith")) [one.bottom, one.top].forEach(name => want(name, "vertex"));
   for (const one of rows("observations")) want(one.point, "tie").marks.push(one);

@@ -3,19 +3,16 @@
 
 import {ask, getJson} from "../site/api.js";
 import {button, labelled, node, select, byId} from "../words/dom.js";
-import {addHoleKeys, drawHole, showHoles} from "./holes.js";
 import {endDraft, keepDraft, showDrafts} from "./drafts.js";
 import {addAction} from "../around/keys.js";
 import {edit, freeName, isReadOnly, nameFault, row, rows, state} from "../site/state.js";
 import {shown} from "../words/numbers.js";
 import {say} from "../around/notices.js";
-import {showRename} from "../points/renaming.js";
 import {screenColour} from "../light/light_report.js";
-import {pixelOf, ringsOf} from "./outlines.js";
 import {pointTool} from "./pickers.js";
 import {emit} from "../site/signals.js";
 import {activePane, placeOf, setMode, setTool, stepLines, ui} from "../site/ui.js";
-import {said, t} from "../words/words.js";
+import {t} from "../words/words.js";
 
 const current = () => (ui.polygon === null ? undefined : row("polygons", ui.polygon));
 const materials = () => [
@@ -56,7 +53,7 @@ export function drawPolygon(draft = null) {
   say(tool.hint());
 }
 // A window that closes leaves its tool: the outbox sends the draft when the page comes back.
-addEventListener("pagehide", () => /^draw/.test(ui.tool?.name ?? "") && setTool(null));
+addEventListener("pagehide", () => ui.tool?.name === "drawPolygon" && setTool(null));
 
 /** Inserts the polygon drawn; its photo is the one it was drawn on until a better one is asked for. */
 function finish(names, photo, draft) {
@@ -132,13 +129,6 @@ function takeMaterial(name) {
   emit("view");
 }
 
-/** Enter takes what was typed and goes back to the photo. */
-function enterLeaves(field) {
-  field.addEventListener("keydown", event => {
-    if (event.key === "Enter" && !event.isComposing) activePane()?.focus();
-  });
-}
-
 export function buildPolygonPanel(root) {
   const name = node("input", {
     id: "polygon-name",
@@ -147,7 +137,6 @@ export function buildPolygonPanel(root) {
     spellcheck: "false"
   });
   name.addEventListener("change", () => rename(name.value.trim()));
-  enterLeaves(name);
   const material = node("input", {
     id: "material",
     type: "text",
@@ -156,7 +145,6 @@ export function buildPolygonPanel(root) {
     spellcheck: "false"
   });
   material.addEventListener("change", () => takeMaterial(material.value.trim()));
-  enterLeaves(material);
   const then = action => async () => {
     await action();
     activePane().focus();
@@ -171,10 +159,6 @@ export function buildPolygonPanel(root) {
         then(() => drawPolygon()), {class: "main", title: "B"}
       ),
       button(t("bestImage"), then(bestPhoto), {title: "I"}),
-      button(
-        t("drawHole"),
-        then(() => drawHole()), {title: "Shift+B"}
-      ),
       button(
         t("flip"),
         then(() => change({vertices: [...(current()?.vertices ?? [])].reverse()}, "opFlip"))
@@ -195,7 +179,6 @@ export function buildPolygonPanel(root) {
       node("datalist", {id: "material-names"}),
       node("span", {id: "swatch"})
     ),
-    node("div", {id: "holes"}),
     node("p", {id: "polygon-about", class: "faint"})
   );
   drawn = "";
@@ -209,7 +192,7 @@ function showIn(id, text) {
 let drawn = "";
 export function updatePolygonPanel() {
   const goOn = draft => {
-    (draft.hole_of ? drawHole : drawPolygon)(draft);
+    drawPolygon(draft);
     activePane().focus();
   };
   if (byId("drafts")) showDrafts(byId("drafts"), goOn);
@@ -225,7 +208,6 @@ export function updatePolygonPanel() {
   if (drawn === signature || !byId("polygon-photo")) return;
   drawn = signature;
   showIn("polygon-name", polygon?.name ?? "");
-  showHoles(byId("holes"));
   byId("polygon-name").disabled = !polygon;
   byId("polygon-photo").replaceChildren(
     select(
@@ -253,7 +235,7 @@ export function updatePolygonPanel() {
             area: shown(about.area_m2, 2),
             off: shown(about.off_vertical_deg, 2)
           })
-        : said(leftOut, "reason"));
+        : (leftOut?.reason ?? ""));
 }
 
 /** @type {Map<string, string>} */
@@ -270,11 +252,12 @@ async function colourOf(material) {
   const diffuse = row("materials", material)?.diffuse;
   if (Array.isArray(diffuse) && diffuse.length === 3) return screenColour(diffuse);
   for (const polygon of rows("polygons").filter(one => one.material === material && one.photo)) {
-    const at = pixelOf(polygon, polygon.photo);
-    if (!at) continue;
+    const seen = polygon.vertices.map(name => placeOf(polygon.photo, name)).filter(at => at);
+    if (seen.length < polygon.vertices.length) continue;
+    const middle = axis => Math.round(seen.reduce((sum, at) => sum + at[axis], 0) / seen.length);
     const photo = state.photos.findIndex(one => one.name === polygon.photo);
     try {
-      const {encoded} = await getJson(`/api/value?photo=${photo}&x=${at.x}&y=${at.y}`);
+      const {encoded} = await getJson(`/api/value?photo=${photo}&x=${middle("x")}&y=${middle("y")}`);
       const scale = Math.max(...encoded) <= 1 ? 255 : 1;
       return `rgb(${encoded.map(value => Math.round(scale * value)).join()})`;
     } catch {
@@ -284,26 +267,18 @@ async function colourOf(material) {
   return "";
 }
 
-/** To a field of this panel. */
-function toField(id) {
-  setMode("polygons");
-  byId(id).focus();
-  byId(id).select();
-}
-
-/** To the name of the current polygon; where points are the matter, to the point's. */
-function toName() {
-  if (ui.mode !== "polygons") return showRename();
-  if (!current()) return say(t("noPolygon"));
-  toField("polygon-name");
+/** To the list of materials. */
+function toMaterial() {
+  const field = byId("material");
+  if (!field) return say(t("noPolygon"));
+  field.focus();
+  field.select();
 }
 
 export function addPolygonKeys() {
   addAction({id: "drawPolygon", key: "B", run: () => drawPolygon()});
   addAction({id: "bestImage", key: "I", run: bestPhoto});
-  addAction({id: "material", key: "T", run: () => toField("material")});
-  addAction({id: "rename", key: "F2", run: toName});
-  addHoleKeys();
+  addAction({id: "material", key: "T", run: toMaterial});
   addAction({
     id: "wireframe",
     key: "'",

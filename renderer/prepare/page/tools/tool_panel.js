@@ -3,7 +3,6 @@
 
 import {button, byId, node} from "../words/dom.js";
 import {confirm} from "../points/marking.js";
-import {buildFilmPanel, updateFilmPanel} from "../film/film_panel.js";
 import {on} from "../site/signals.js";
 import {buildMarkPanel, buildPointPanel} from "../points/point_panel.js";
 import {updatePointTable} from "../points/point_table.js";
@@ -18,8 +17,7 @@ const kParts = {
   control: [buildMarkPanel, updatePointTable],
   polygons: [buildPolygonPanel, updatePolygonPanel],
   sun: [buildDirectionPanel, updateDirectionPanel],
-  light: [buildLightPanel, updateLightPanel],
-  film: [buildFilmPanel, updateFilmPanel]
+  light: [buildLightPanel, updateLightPanel]
 };
 
 export function buildToolPanel() {
