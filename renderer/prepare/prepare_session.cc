@@ -238,10 +238,10 @@ struct PrepareSession::Parts {
       }
       if (changed.wait_for(lock, stop, kLook, [&] { return is_due; })) continue;
       if (stop.stop_requested()) break;
-      is_due = !edit.is_saved() && SaveAndTell();  // what could not be saved before is new
+      const bool is_saved_at_last = !edit.is_saved() && SaveAndTell();
       const OutsideChanges outside = edit.Refresh();
       const bool is_reread = TellReread(outside);
-      is_due = TellOutside(outside) || is_reread || is_due;
+      is_due = TellOutside(outside) || is_reread || is_saved_at_last;
     }
     return std::nullopt;
   }
