@@ -172,6 +172,7 @@ CameraCalibration FromScan(const SitePaths& site, const FilmCamera& film, const 
   const std::string name = photo.stem().string();
   const Eigen::Vector2i size = ReadPhotographSize(photo);
   CheckInside(fiducials, name, marks, size);
+  CheckCertified(film, fiducials, marks);
   const FilmMap map = MapOfScan(fiducials, name, film, marks, size);
   const auto fit = FitFilmCamera(film, map, size.x(), size.y());
   if (!fit) {

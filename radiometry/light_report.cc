@@ -58,7 +58,6 @@ void AddLight(const LightMeasurement& measured, Json::Value* light) {
   json["sky_radiance_sigma"] = BinsJson(fit.sky_sigma, spectra.bins());
   json["sky_radiance_rgb"] = ToJson(spectra.RgbFromSpectrum(daylight.sky_radiance));
   json["open_sky_radiance_rgb"] = ToJson(OpenSkyRgb(environment));
-  json["surroundings_weight"] = BinsJson(fit.surroundings_weight, spectra.bins());
   json["reflectance_known"] = measured.reflectance_known;
   json["condition"] = fit.condition;
   json["rms_over_sigma"] = fit.rms;
@@ -114,8 +113,6 @@ std::string BriefReport(const LightMeasurement& measured) {
       << "Sky: radiance       " << spectra.RgbFromSpectrum(light.sky_radiance) << "\n"
       << "Ambient: radiance   " << spectra.RgbFromSpectrum(light.ambient_radiance)
       << ", with the sky " << OpenSkyRgb(environment) << "\n"
-      << "Surroundings send   " << fit.surroundings_weight.head(spectra.bins().count).mean()
-      << " of what their photographs show (0 with a uniform ambient light)\n"
       << "Daylight: " << measured.samples.daylight.size() << " samples, residuals " << fit.rms
       << " sigma, condition " << fit.condition << "\n";
   return out.str();
@@ -127,7 +124,7 @@ void WriteEnvironment(const SitePaths& site, const LightMeasurement& measured) {
   AddAir(measured, &json["air"]);
   AddLight(measured, &json["light"]);
   json["warnings"] = Json::Value(Json::arrayValue);
-  for (const std::string& warning : measured.warnings) json["warnings"].append(warning);
+  for (const Sentence& warning : measured.warnings) json["warnings"].append(warning.text());
   WriteJson(site.environment(), json);
 }
 

@@ -52,6 +52,7 @@ Json::Value PolygonToJson(const Polygon& polygon, const SceneGeometry& scene) {
   Json::Value json;
   json["name"] = polygon.name;
   for (const Eigen::Vector3d& vertex : polygon.vertices) json["vertices"].append(ToJson(vertex));
+  if (!polygon.holes.empty()) json["holes"] = HolesToJson(polygon.holes);
   json["normal"] = ToJson(polygon.normal);
   json["photo"] = polygon.photo ? Json::Value(scene.cameras[*polygon.photo].photo) : Json::Value();
   json["material"] = polygon.material;
@@ -199,9 +200,15 @@ Polygon ReadPolygon(const JsonNode& node, const SceneGeometry& scene) {
     throw node.At("vertices").Error("has fewer than three vertices, expected a polygon");
   }
   if (const auto photo = node.Find("photo")) polygon.photo = PhotoIndex(*photo, scene);
+  if (const auto holes = node.Find("holes")) polygon.holes = HolesFromJson(*holes);
+  if (!polygon.holes.empty() && !HasInterior(polygon)) {
+    throw node.Error(
+        "polygon '" + polygon.name +
+        "' has a hole that is not within it, expected those that insitu-reconstruct wrote");
+  }
   polygon.material = node.At("material").Text();
   if (const auto covariance = node.Find("covariance")) {
-    polygon.covariance = ReadCovariance(*covariance, 3 * polygon.vertices.size());
+    polygon.covariance = ReadCovariance(*covariance, 3 * AllVertices(polygon).size());
   }
   return polygon;
 }

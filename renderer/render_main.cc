@@ -54,6 +54,15 @@ int RunRender(int argc, char** argv) {
   app.add_option("--most-rays", options.render.most_rays, "rays a pixel at most")
       ->check(CLI::IsMember({4, 8, 12, 16}))
       ->capture_default_str();
+  app.add_flag("--uniform-ambient", options.uniform_ambient,
+               "the paper's ambient light, alike everywhere, instead of light among surfaces");
+  app.add_option("--reach", options.render.reach,
+                 "change in 8-bit codes up to which the photograph's pixel stays")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
+  app.add_option("--bounces", options.bounces,
+                 "bounces of light among surfaces; 0: sun and sky alone; without: all")
+      ->check(CLI::NonNegativeNumber);
   app.add_option("--threads", options.render.threads, "threads; 0: all cores")
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str();

@@ -7,6 +7,7 @@
 
 #include "calibration/files/error.h"
 #include "calibration/program/program.h"
+#include "renderer/trace/interreflected_light.h"
 #include "renderer/trace/make_montage_scene.h"
 #include "renderer/trace/profile.h"
 
@@ -110,7 +111,8 @@ std::vector<RenderSiteReport> RenderSite(const SitePaths& site, const RenderSite
   const std::vector<std::filesystem::path> photographs = ChoosePhotographs(site, options.photos);
   const ArtificialEnvironment building =
       options.with_building ? ReadArtificialEnvironment(site) : ArtificialEnvironment();
-  const MontageScene scene = LoadScene(ReadEnvironment(site), building);
+  MontageScene scene = LoadScene(ReadEnvironment(site), building);
+  if (!options.uniform_ambient) AddInterreflection(&scene, options.bounces);
   std::map<std::string, UncertaintySummary> uncertainties;
   if (options.with_building) {
     uncertainties = WriteUncertainties(site, scene.natural.scene, building);

@@ -161,6 +161,21 @@ std::vector<Diagnosis> UnusedControl(const Survey& survey) {
   return diagnoses;
 }
 
+// Never in silence: a mark that does not count may be one under a wrong name.
+std::vector<Diagnosis> LoneMarks(const Survey& survey) {
+  std::vector<Diagnosis> diagnoses;
+  for (const LoneMark& lone : survey.lone_marks) {
+    diagnoses.push_back({lone.mark.place,
+                         "point '" + lone.mark.point + "': one ray only, from photo '" +
+                             lone.mark.photo +
+                             "', not determined; left out. Expected: a mark on a second photo, or "
+                             "a polygon that holds it" +
+                             lone.question,
+                         Diagnosis::Kind::kQuestion});
+  }
+  return diagnoses;
+}
+
 }  // namespace
 
 std::vector<Diagnosis> DiagnoseRows(const Survey& survey) {
@@ -168,7 +183,8 @@ std::vector<Diagnosis> DiagnoseRows(const Survey& survey) {
   for (const ControlPoint& point : survey.control_points) control.push_back(&point);
   std::vector<Diagnosis> diagnoses = TwoSystems(control);
   if (diagnoses.empty()) diagnoses = Degrees(control);
-  for (const auto& part : {SameMarks(survey), UnusedControl(survey), SameCoordinates(survey)}) {
+  for (const auto& part :
+       {SameMarks(survey), UnusedControl(survey), SameCoordinates(survey), LoneMarks(survey)}) {
     diagnoses.insert(diagnoses.end(), part.begin(), part.end());
   }
   return diagnoses;

@@ -34,7 +34,7 @@ int SavedAt(const std::vector<FileMark>& marks, const FileMark& mark) {
 
 Operation OutsideOperation(const SiteFile& file, int revision, std::vector<RowEdit> edits) {
   const std::string number = std::to_string(revision + 1);
-  return {"outside " + number, "Changed in " + file.name + " by another program", std::move(edits)};
+  return {"outside " + number, "Changed in " + file.told + " by another program", std::move(edits)};
 }
 
 template <typename Items>
@@ -52,6 +52,7 @@ SiteEdit::SiteEdit(SitePaths site, std::vector<std::string> photos)
       files_(SiteFiles(site_.root, PrepareFolder(site_) / "files")) {
   if (history_.remark()) found_.remarks.push_back(*history_.remark());
   RemoveLeftovers(site_.survey());
+  RemoveLeftovers(site_.boards());
   RemoveLeftovers(PrepareFolder(site_));
   saved_revision_ = revision();
   for (SiteFile& file : files_) Open(file);
@@ -122,7 +123,7 @@ void SiteEdit::TakeIn(SiteFile& file, const std::string& on_disk, OutsideChanges
   if (on_disk.empty() && file.was_read) {
     file.on_disk.clear();
     file.is_changed = true;
-    changes->remarks.push_back(file.name + " was removed; it is written again");
+    changes->remarks.push_back(file.told + " was removed; it is written again");
     return;
   }
   if (!file.was_read) {

@@ -117,7 +117,7 @@ void SiteHistory::Append(Json::Value entry) {
   Do(entry, false);
 }
 
-void SiteHistory::AddEdit(const Operation& operation, std::vector<Json::Value> traces) {
+void SiteHistory::AddEdit(const Operation& operation, const std::vector<Json::Value>& traces) {
   Json::Value entry = Entry("edit");
   entry["operation"] = ToJson(operation);
   entry["traces"] = ArrayOf(traces);
@@ -132,7 +132,7 @@ void SiteHistory::AddOutside(const Operation& operation) {
 
 void SiteHistory::AddUndo(const std::string& id) { Append(StepEntry("undo", id, {})); }
 
-void SiteHistory::AddRedo(const std::string& id, std::vector<Json::Value> traces) {
+void SiteHistory::AddRedo(const std::string& id, const std::vector<Json::Value>& traces) {
   Append(StepEntry("redo", id, traces));
 }
 

@@ -57,10 +57,10 @@ class SiteHistory {
   void ForgetDone() { read_.clear(); }
 
   // Each puts an entry on disk first and throws InputError, nothing changed, if that fails.
-  void AddEdit(const Operation& operation, std::vector<Json::Value> traces);
+  void AddEdit(const Operation& operation, const std::vector<Json::Value>& traces);
   void AddOutside(const Operation& operation);
-  void AddUndo(const std::string& id);                                   // of ToUndo()
-  void AddRedo(const std::string& id, std::vector<Json::Value> traces);  // of ToRedo()
+  void AddUndo(const std::string& id);                                          // of ToUndo()
+  void AddRedo(const std::string& id, const std::vector<Json::Value>& traces);  // of ToRedo()
   void DropUndo();  // ToUndo() cannot be undone any more
   void DropRedo();
   void AddMark(const std::string& file, const std::string& hash,

@@ -42,7 +42,11 @@ struct PolygonOutline {
   std::string material;
   std::optional<std::string> mask;  // a PNG in survey/, white where the polygon is really visible
   FilePlace place;
+  std::vector<std::vector<std::string>> holes = {};  // each >= 3 names, whichever way they turn
 };
+
+// A polygon's point names: its outline's, then each hole's.
+std::vector<std::string> AllVertices(const PolygonOutline& polygon);
 
 // directions.json: a sun pair points from a shadow to the point that casts it, a zenith pair from
 // bottom to top.
@@ -88,6 +92,12 @@ struct GeometricConstraint {
   FilePlace place;
 };
 
+// The only mark of a point that is named nowhere else: one ray, which determines nothing.
+struct LoneMark {
+  ImageObservation mark;
+  std::string question;  // "; did you mean 'P7'?", or empty
+};
+
 struct Survey {
   std::vector<ControlPoint> control_points;
   std::vector<ImageObservation> observations;
@@ -98,7 +108,8 @@ struct Survey {
   std::vector<EdgeMark> edges;
   std::vector<GeometricConstraint> constraints;
   std::optional<TiePoints> tie_points =
-      {};  // in their own frame; of insitu-tie-points, if it was run
+      {};                                 // in their own frame; of insitu-tie-points, if it was run
+  std::vector<LoneMark> lone_marks = {};  // none of these is among the observations
 };
 
 // Points that a pair, an edge or a constraint joins.

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "calibration/files/sentence.h"
 #include "calibration/lens/camera.h"
 #include "calibration/lens/rigid3.h"
 #include "reconstruction/adjustment/adjustment_options.h"
@@ -26,7 +27,7 @@ struct LivePhoto {
   std::string name;
   std::optional<Camera> camera;
   PhotoLens lens = {};
-  std::string no_lens_because = {};  // where there is no camera: what to do
+  Sentence no_lens_because = {};  // where there is no camera: what to do
 };
 
 // What the almanac needs, of site.json.

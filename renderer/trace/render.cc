@@ -11,6 +11,7 @@
 
 #include "calibration/files/error.h"
 #include "calibration/lens/sight_map.h"
+#include "calibration/photo/photograph.h"
 #include "renderer/trace/sampling.h"
 #include "renderer/trace/trace.h"
 
@@ -94,6 +95,16 @@ PixelSum SamplePixel(const ViewWork& view, int x, int y) {
   return sum;
 }
 
+// Whether a change is too small to be seen in any channel.
+bool IsWithinReach(const Eigen::Vector3d& before, const Eigen::Vector3d& after, double reach) {
+  for (int c = 0; c < 3; ++c) {
+    const double change =
+        SrgbFromLinear(std::max(0.0, after[c])) - SrgbFromLinear(std::max(0.0, before[c]));
+    if (std::abs(change) * 255 > reach) return false;
+  }
+  return true;
+}
+
 struct Counts {
   std::atomic<long> building = 0, changed = 0, rays = 0;
 };
@@ -104,8 +115,10 @@ void RenderTile(const ViewWork& view, const Tile& tile, Raster& result, Counts& 
       const PixelSum sum = SamplePixel(view, x, y);
       counts.rays += sum.rays;
       if (!sum.IsChanged()) continue;  // the photograph's pixel stays
+      const Eigen::Vector3d photo = view.photo.Rgb(x, y), mean = sum.Mean(photo);
+      if (sum.building_rays == 0 && IsWithinReach(photo, mean, view.options.reach)) continue;
       ++(sum.building_rays > 0 ? counts.building : counts.changed);
-      result.SetRgb(x, y, sum.Mean(view.photo.Rgb(x, y)).cwiseMax(0));
+      result.SetRgb(x, y, mean.cwiseMax(0));
     }
   }
 }
@@ -120,6 +133,7 @@ void RenderOptions::Check() const {
   INSITU_CHECK(fewest_rays >= 4 && fewest_rays % 4 == 0);
   INSITU_CHECK(most_rays >= fewest_rays && most_rays % 4 == 0);
   INSITU_CHECK(tolerance > 0);
+  INSITU_CHECK(reach >= 0);
   INSITU_CHECK(threads >= 0);
 }
 

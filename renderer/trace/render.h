@@ -13,6 +13,7 @@ struct RenderOptions {
   int fewest_rays = 4;       // a pixel, a multiple of 4
   int most_rays = 16;        // a pixel, a multiple of 4
   double tolerance = 0.004;  // standard error of a pixel in sRGB units (1 = white) that is enough
+  double reach = 0.5;        // change in 8-bit sRGB codes up to which the photograph's pixel stays
   int threads = 0;           // 0: as many as there are cores
 
   void Check() const;  // throws CheckError that names the field that is wrong

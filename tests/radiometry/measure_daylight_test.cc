@@ -18,8 +18,8 @@ double RelativeError(const Eigen::Vector3d& value, const Eigen::Vector3d& truth)
 }
 
 bool HasWarning(const LightMeasurement& measured, const std::string& part) {
-  for (const std::string& warning : measured.warnings) {
-    if (warning.find(part) != std::string::npos) return true;
+  for (const Sentence& warning : measured.warnings) {
+    if (warning.text().find(part) != std::string::npos) return true;
   }
   return false;
 }

@@ -62,6 +62,7 @@ void ExpectSameScene(const SceneGeometry& a, const SceneGeometry& b) {
   for (size_t i = 0; i < a.polygons.size(); ++i) {
     EXPECT_EQ(a.polygons[i].name, b.polygons[i].name);
     EXPECT_EQ(a.polygons[i].vertices, b.polygons[i].vertices);
+    EXPECT_EQ(a.polygons[i].holes, b.polygons[i].holes);
     EXPECT_EQ(a.polygons[i].normal, b.polygons[i].normal);
     EXPECT_EQ(a.polygons[i].photo, b.polygons[i].photo);
     EXPECT_EQ(a.polygons[i].material, b.polygons[i].material);
@@ -96,7 +97,12 @@ TEST_P(BinsTest, EnvironmentReturnsToTheLastBit) {
   LightMeasurement measured = MeasureDaylight(truth.site, options);
   SceneGeometry& scene = measured.environment.scene;
   scene.camera_covariances = {SomeCovariance(6), SomeCovariance(10)};  // pose alone; with its lens
-  scene.polygons[1].covariance = SomeCovariance(12);
+  Polygon& pierced = scene.polygons[1];
+  const auto corner = [&](int i) { return pierced.vertices[i]; };
+  const Eigen::Vector3d middle = (corner(0) + corner(1) + corner(2)) / 3;
+  pierced.holes.emplace_back();
+  for (int i = 0; i < 3; ++i) pierced.holes[0].push_back(0.9 * middle + 0.1 * corner(i));
+  pierced.covariance = SomeCovariance(21);
   WriteEnvironment(truth.site, measured);
   const NaturalEnvironment& a = measured.environment;
   const NaturalEnvironment b = ReadEnvironment(truth.site);

@@ -31,6 +31,8 @@ export async function start(site, options = [], how = {}) {
   return {
     ...address,
     child,
+    /** What it has said of errors and warnings. */
+    complained: () => complained,
     /** Ends it; its exit status, or the signal's name. */
     async stop(signal = "SIGTERM") {
       child.kill(signal);

@@ -331,5 +331,11 @@ TEST_F(SurveyDiagnosis, ACameraPositionFarOffIsAQuestion) {
   ExpectFirst("camera_positions.csv", 3, Kind::kMisfit, {"'P2'", "centre of the lens"});
 }
 
+TEST_F(SurveyDiagnosis, APointLeftOutForItsSingleMark) {
+  survey_.lone_marks = {{{"P1", "knob", {100, 100}, 0.4, {"observations.csv", 900}}, ""}};
+  ExpectFirst("observations.csv", 900, Kind::kQuestion,
+              {"point 'knob'", "one ray only", "photo 'P1'", "left out", "second photo"});
+}
+
 }  // namespace
 }  // namespace insitu
