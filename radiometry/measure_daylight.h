@@ -18,8 +18,8 @@ struct LightOptions {
   int bins = kMaxBins;   // 16, or 9 as the paper's mode
   int polar_facets = 8;  // m_h
   bool average_over_wavelength = false;
-  bool uniform_ambient = false;  // Eq. (4) as printed, instead of photographed surroundings
-  std::optional<int> bounces;    // of light among surfaces, at most; 0: sun and sky alone
+  bool uniform_ambient = false;     // Eq. (4) as printed, instead of photographed surroundings
+  std::optional<int> bounces = {};  // of light among surfaces, at most; 0: sun and sky alone
 
   void Check() const;  // throws CheckError that names the field that is wrong
 };
