@@ -8,10 +8,13 @@
 namespace insitu {
 namespace {
 
-PatchGrid AboutOrigin(double size) { return {{Eigen::AlignedBox3d(Eigen::Vector3d::Zero().eval())}, size}; }
+PatchGrid AboutOrigin(double size) {
+  return {{Eigen::AlignedBox3d(Eigen::Vector3d::Zero().eval())}, size};
+}
 
 SceneGeometry WithSquare(double half, const Eigen::Vector3d& normal) {
   SceneGeometry scene;
+  scene.origin.setZero();
   scene.zenith.unit = Eigen::Vector3d::UnitZ();
   Polygon square;
   const Eigen::Vector3d u = normal.unitOrthogonal(), v = normal.cross(u);
@@ -39,17 +42,42 @@ TEST(Patches, APointFindsItsOwnPiece) {
   for (int face = 0; face < 3; ++face) {
     for (const bool is_back : {false, true}) {
       for (int x = -2; x < 2; ++x) {
-        const Eigen::Vector3d center(x + 0.5, 0.5, 0);
+        const Eigen::Vector3d center(x, 0, 0);
         made[patches.AddOfPolygon(face, is_back, center)] = center;
-        const int own = patches.OfPolygon(face, is_back, center + Eigen::Vector3d(0.4, -0.4, 0.9));
+        const int own = patches.OfPolygon(face, is_back, center + Eigen::Vector3d(0.3, -0.3, 0.4));
         EXPECT_EQ(own, static_cast<int>(patches.all().size()) - 1);
       }
     }
   }
   EXPECT_EQ(made.size(), 3u * 2 * 4);
-  EXPECT_EQ(patches.AddOfPolygon(1, false, {0.1, 0.9, 0}),
-            patches.OfPolygon(1, false, {0.5, 0.5, 0}));
+  EXPECT_EQ(patches.AddOfPolygon(1, false, {0.1, 0.2, 0}), patches.OfPolygon(1, false, {0, 0, 0}));
   EXPECT_EQ(patches.all().size(), made.size());
+}
+
+TEST(Patches, VoxelsAllAroundTheOriginAreDistinct) {
+  Patches patches(AboutOrigin(0.25));
+  size_t voxels = 0;
+  for (int x = -2; x <= 2; ++x) {
+    for (int y = -2; y <= 2; ++y) {
+      for (int z = -2; z <= 2; ++z) {
+        patches.AddPlanned(Eigen::Vector3d::UnitX(), 0.25 * Eigen::Vector3d(x, y, z));
+        ++voxels;
+      }
+    }
+  }
+  EXPECT_EQ(patches.all().size(), voxels);
+}
+
+// Planes lie at round coordinates, and rays meet them a hair before or behind.
+TEST(Patches, PointsJustOffARoundPlaneShareAPiece) {
+  for (const double size : {0.1, 0.25, 0.5, 1.0}) {
+    Patches patches(AboutOrigin(size));
+    for (const double z : {0.0, 0.5, 1.0, -0.4}) {
+      const int piece = patches.AddOfPolygon(0, false, {0.02, 0.02, z});
+      EXPECT_EQ(patches.AddOfPolygon(0, false, {0.02, 0.02, z - 1e-7}), piece) << size << ' ' << z;
+      EXPECT_EQ(patches.AddOfPolygon(0, false, {0.02, 0.02, z + 1e-7}), piece) << size << ' ' << z;
+    }
+  }
 }
 
 TEST(Patches, ManyAreFoundAgain) {
@@ -99,7 +127,8 @@ TEST(Patches, PlannedFacesThatLookTheSameWayShareAPiece) {
 }
 
 TEST(GroundPlane, LiesOnTheLevelPolygonBelowTheFocus) {
-  const PatchGrid grid{{Eigen::AlignedBox3d(Eigen::Vector3d(2, 3, 4), Eigen::Vector3d(4, 5, 6))}, 1};
+  const PatchGrid grid{{Eigen::AlignedBox3d(Eigen::Vector3d(2, 3, 4), Eigen::Vector3d(4, 5, 6))},
+                       1};
   const SceneGeometry scene = WithSquare(50, Eigen::Vector3d::UnitZ());
   const auto ground = GroundOf(scene, grid);
   ASSERT_TRUE(ground);

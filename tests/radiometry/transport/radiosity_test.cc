@@ -15,6 +15,9 @@ namespace {
 constexpr double kPi = std::numbers::pi;
 const Eigen::Vector3d kUp = Eigen::Vector3d::UnitZ(), kEast = Eigen::Vector3d::UnitX();
 
+// Enough that 1 % of a form factor is many of them.
+constexpr int kMany = 16384;
+
 PatchGrid Grid(double half, double size) {
   const Eigen::Vector3d low(-half, -half, 0), high(half, half, half);
   return {{Eigen::AlignedBox3d(low, high)}, size};
@@ -46,7 +49,7 @@ TEST(Radiosity, ParallelPlateHasItsFormFactor) {
   court.AddWall("plate", {-2, -3, 4}, {0, 6, 0}, {4, 0, 0}, 0.4);  // looks down
   court.Photograph({0, 0, 1});
   const TransportScene scene = court.Scene();
-  Interreflection light(scene, court.UnderSky(0), Grid(3, 0.25));
+  Interreflection light(scene, court.UnderSky(0), Grid(3, 0.25), {.point_directions = kMany});
   light.Solve(court.UnderSky(0));
   const double c = 4 - kSurveyClearance;
   const GatheredLight there = light.At({Eigen::Vector3d::Zero(), kUp});
@@ -59,7 +62,7 @@ TEST(Radiosity, StandingPlateHasItsFormFactor) {
   court.AddWall("wall", {2, -3, 0}, {0, 0, 4}, {0, 6, 0}, 0.4);  // looks west
   court.Photograph({0, 0, 1});
   const TransportScene scene = court.Scene();
-  Interreflection light(scene, court.UnderSky(0), Grid(3, 0.25));
+  Interreflection light(scene, court.UnderSky(0), Grid(3, 0.25), {.point_directions = kMany});
   light.Solve(court.UnderSky(0));
   // From the clearance above the foot: the strip below the element's plane does not count.
   const GatheredLight there = light.At({Eigen::Vector3d(0, 0, -kSurveyClearance), kUp});
@@ -70,21 +73,41 @@ TEST(Radiosity, StandingPlateHasItsFormFactor) {
 // Between wide plates, one of them lit: E_1 = E_0 / (1 - r_1 r_2), E_2 = r_1 E_1.
 TEST(Radiosity, TwoWidePlannedPlatesSendLightToAndFro) {
   Court court;
-  court.AddPlanned({-30, -30, 1}, {60, 0, 0}, {0, 60, 0}, 0.6);  // looks up
-  court.AddPlanned({-30, -30, 2}, {0, 60, 0}, {60, 0, 0}, 0.5);  // looks down
-  court.Photograph({0, 0, 1.5});
+  court.AddPlanned({-12, -12, 1}, {24, 0, 0}, {0, 24, 0}, 0.6);    // looks up
+  court.AddPlanned({-12, -12, 1.5}, {0, 24, 0}, {24, 0, 0}, 0.5);  // looks down
+  court.Photograph({0, 0, 1.2});
   const auto lamps = [&](const SurfacePoint& point) -> Spectrum {
-    const bool is_lit = point.position.z() < 1.5 && point.normal.z() > 0;
+    const bool is_lit = point.position.z() < 1.2 && point.normal.z() > 0;
     return is_lit ? court.Grey(1) : Spectrum::Zero().eval();
   };
   const TransportScene scene = court.Scene(lamps);
-  Interreflection light(scene, court.UnderSky(0), Grid(1, 0.5));
+  Interreflection light(scene, court.UnderSky(0), Grid(12, 0.4));
   light.Solve(court.UnderSky(0));
   const double E_1 = 1 / (1 - 0.6 * 0.5), E_2 = 0.6 * E_1;
-  const GatheredLight above = light.At({Eigen::Vector3d(0.1, 0.2, 2), -kUp});
+  const GatheredLight above = light.At({Eigen::Vector3d(0.1, 0.2, 1.5), -kUp});
   EXPECT_NEAR(court.Red(above.change), E_2, 0.01 * E_2);
   const GatheredLight below = light.At({Eigen::Vector3d(0.1, 0.2, 1), kUp});
   EXPECT_NEAR(court.Red(below.change), E_1 - 1, 0.01 * E_1);  // the lamp's own is left out
+}
+
+// A wide plate over lit ground of reflectance r_n = L / sky, which it cuts off from the sky:
+// E_n = E_0 / (1 - r_n r_p), E_p = r_n E_n. The ground's change counts for the plate and back.
+TEST(Radiosity, PlannedPlateAndPhotographedGroundSendLightToAndFro) {
+  Court court;
+  court.AddWall("ground", {-12, -12, 0}, {24, 0, 0}, {0, 24, 0}, 0.2);
+  court.AddPlanned({-12, -12, 0.5}, {0, 24, 0}, {24, 0, 0}, 0.5);  // looks down
+  court.Photograph({0, 0, 10});
+  const auto lamps = [&](const SurfacePoint& point) -> Spectrum {
+    const bool is_ground = point.position.z() < 0.2 && point.normal.z() > 0;
+    return is_ground ? court.Grey(1) : Spectrum::Zero().eval();
+  };
+  const TransportScene scene = court.Scene(lamps);
+  const Daylight sky = court.UnderSky(0.5);
+  Interreflection light(scene, sky, Grid(12, 0.4));
+  light.Solve(sky);
+  const GatheredLight plate = light.At({Eigen::Vector3d(0.1, 0.2, 0.5), -kUp});
+  const double E_p = 0.4 / (1 - 0.4 * 0.5);
+  EXPECT_NEAR(court.Red(plate.surroundings_before + plate.change), E_p, 0.01);
 }
 
 // In a closed cube whose every face is lit by the same lamps, E = E_0 / (1 - r).
@@ -106,17 +129,41 @@ TEST(Radiosity, ClosedPlannedCubeMultipliesItsLight) {
   }
 }
 
+// A room in a solid: the backs of its outer faces look the same way as the inner faces that share
+// their pieces, but lie in the dark of the wall.
+TEST(Radiosity, WallsThinnerThanAPieceKeepTheirRoomsLight) {
+  Court court;
+  court.AddPlannedBox({-2, -2, 1}, {2, 2, 5}, 0.5);
+  court.AddPlannedBox({1.85, 1.85, 4.85}, {-1.85, -1.85, 1.15}, 0.5);  // inwards
+  court.Photograph({0, 0, 7});
+  const auto lamps = [&](const SurfacePoint& point) -> Spectrum {
+    const Eigen::Vector3d before = point.position + 0.1 * point.normal - Eigen::Vector3d(0, 0, 3);
+    return before.cwiseAbs().maxCoeff() < 1.86 ? court.Grey(1) : Spectrum::Zero().eval();
+  };
+  const TransportScene scene = court.Scene(lamps);
+  const Daylight sky = court.UnderSky(0.3);
+  Interreflection light(
+      scene, sky,
+      {{Eigen::AlignedBox3d(Eigen::Vector3d(-2, -2, 1), Eigen::Vector3d(2, 2, 5))}, 0.5});
+  light.Solve(sky);
+  for (const double x : {-1.2, 0.1}) {
+    const GatheredLight there = light.At({Eigen::Vector3d(x, 0.2, 1.15), kUp});
+    EXPECT_NEAR(court.Red(there.sky_before + there.change), 1, 0.02);
+    EXPECT_EQ(there.inside, 0);
+  }
+}
+
 TEST(Radiosity, FurnaceAWhiteBuildingInAWhiteCourtDisappears) {
   Court court;
   court.AddOpenBox(5, 8, 0.4);
-  court.AddPlannedBox({-2, -1, 0}, {2, 2, 4}, 1);
+  court.AddPlannedBox({-1.87, -0.91, 0}, {2.13, 2.2, 4}, 1);
   court.Photograph({-4, -4, 6});
   const TransportScene scene = court.Scene();
   const Daylight sky = court.UnderSky(0.4);
   Interreflection light(scene, sky, Grid(5, 0.5));
   light.Solve(sky);
   std::vector<SurfacePoint> points = PointsOfCourt();
-  points.push_back({Eigen::Vector3d(-2, 0.5, 2), -kEast});
+  points.push_back({Eigen::Vector3d(-1.87, 0.5, 2), -kEast});
   points.push_back({Eigen::Vector3d(0, 0, 4), kUp});
   for (const SurfacePoint& point : points) {
     const GatheredLight there = light.At(point);
@@ -167,7 +214,7 @@ TEST(Radiosity, WithoutBouncesABuildingTakesTheSkyItHides) {
   court.Photograph({-6, -6, 3});
   const TransportScene scene = court.Scene();
   const Daylight sky = court.UnderSky(0.5);
-  Interreflection light(scene, sky, Grid(5, 0.5), {.bounces = 0});
+  Interreflection light(scene, sky, Grid(5, 0.5), {.bounces = 0, .point_directions = kMany});
   light.Solve(sky);
   const GatheredLight there = light.At({Eigen::Vector3d::Zero(), kUp});
   const double hidden = kPi * 0.5 * 4 * FactorToParallel(2, 3, 4 - kSurveyClearance);
