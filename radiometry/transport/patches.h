@@ -13,6 +13,8 @@
 #include <vector>
 
 #include "radiometry/light/photographed_color.h"
+#include "radiometry/spectrum/spectrum.h"
+#include "reconstruction/geometry/ray_scene.h"
 
 namespace insitu {
 

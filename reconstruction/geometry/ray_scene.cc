@@ -143,9 +143,8 @@ std::array<std::optional<RayHit>, kPacketSize> RayScene::NearestOfPacket(
   std::array<std::optional<RayHit>, kPacketSize> hits;
   for (size_t i = 0; i < directions.size(); ++i) {
     if (query.hit.geomID[i] == RTC_INVALID_GEOMETRY_ID) continue;
-    hits[i] = RayHit{query.ray.tfar[i],
-                     static_cast<int>(query.hit.primID[i]),
-                     {query.hit.u[i], query.hit.v[i]}};
+    hits[i] = RayHit{
+        query.ray.tfar[i], static_cast<int>(query.hit.primID[i]), {query.hit.u[i], query.hit.v[i]}};
   }
   return hits;
 }
