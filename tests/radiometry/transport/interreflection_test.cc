@@ -80,9 +80,9 @@ class SurroundingsTest : public testing::Test {
   SceneGeometry scene_;
   std::vector<Photograph> photos_;
   SpectralBasis spectra_;
-  const std::vector<Eigen::Vector3d> no_normals_;
-  const std::vector<int> no_materials_;
-  const std::vector<Spectrum> no_brdfs_;
+  const std::vector<Eigen::Vector3d> no_normals_ = {};
+  const std::vector<int> no_materials_ = {};
+  const std::vector<Spectrum> no_brdfs_ = {};
 };
 
 // Projected solid angle that a long wall of 6 m hides of the sky at a distance from it.
