@@ -23,8 +23,8 @@ struct RenderSiteOptions {
   bool with_building = true;
   std::vector<std::string> photos;  // names; empty: every photo of the site
   RenderOptions render;
-  bool uniform_ambient = false;  // the paper's light as printed, instead of light among surfaces
-  std::optional<int> bounces;    // of light among surfaces, at most; 0: sun and sky alone
+  bool uniform_ambient = false;     // the paper's light as printed, instead of light among surfaces
+  std::optional<int> bounces = {};  // of light among surfaces, at most; 0: sun and sky alone
 
   void Check() const;  // throws CheckError that names the field that is wrong
 };

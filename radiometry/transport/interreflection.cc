@@ -178,7 +178,7 @@ void Interreflection::Solve(const Daylight& light) {
   brdf_of_polygon_.assign(scene_.site.scene.polygons.size(), Spectrum::Zero());
   if (n == 0) return;
   SolveBefore(light);
-  if (!planned_box_.isEmpty()) SolveAfter(light);
+  if (!planned_box_.isEmpty() || scene_.lamps) SolveAfter(light);
 }
 
 // From all pieces that a photograph shows, by material; where it shows none of it, of the site.

@@ -22,9 +22,9 @@
 namespace insitu {
 
 struct InterreflectionOptions {
-  std::optional<int> bounces;   // at most; nullopt: until they change nothing. 0: the sky alone
-  int patch_directions = 256;   // gathered at a piece
-  int point_directions = 1024;  // gathered at a point that is asked for
+  std::optional<int> bounces = {};  // at most; nullopt: until they change nothing. 0: the sky alone
+  int patch_directions = 256;       // gathered at a piece
+  int point_directions = 1024;      // gathered at a point that is asked for
 
   void Check() const;  // throws CheckError that names the field that is wrong
 };

@@ -57,6 +57,7 @@ std::array<Corners, 2> HalvesOf(const GroundPlane& ground, const SceneGeometry& 
 // Sums while points come in, then means.
 struct Sums {
   int points = 0, seen = 0;
+  bool is_open = false;  // points outside the planned building alone
   double off_center = std::numeric_limits<double>::infinity();  // of the best point so far [m]
 };
 
@@ -97,15 +98,22 @@ class PatchMaker {
   }
 
  private:
-  // False if the piece has points enough.
+  // False if the piece needs no more points. One that is partly within the planned building is
+  // seen where it is not: points in the open stand for it.
   bool AddPoint(int index, const SurfacePoint& point, double area) {
     sums_.resize(patches_.all().size());
     Patch& patch = patches_.all()[index];
     Sums& sums = sums_[index];
     patch.area += area;
-    const double size = patches_.grid().SizeAt(point.position);
-    const Eigen::Array3d voxel = (point.position.array() / size).floor();
-    const double off_center = ((voxel + 0.5) * size - point.position.array()).matrix().norm();
+    const double off_center = patches_.grid().OffCenter(point.position);
+    const bool is_full = sums.is_open && sums.points >= kMostPoints;
+    if (is_full && off_center >= sums.off_center) return false;
+    const bool is_open = !IsWithinPlanned(point);
+    if (sums.is_open && !is_open) return false;
+    if (is_open && !sums.is_open) {
+      sums = {.seen = sums.seen, .is_open = true};
+      patch.sun_before = patch.sun_after = 0;
+    }
     if (off_center < sums.off_center) {
       sums.off_center = off_center;
       patch.point = point;
@@ -114,6 +122,12 @@ class PatchMaker {
     ++sums.points;
     AddSun(point, &patch);
     return true;
+  }
+
+  bool IsWithinPlanned(const SurfacePoint& point) const {
+    const Ray ray = {point.position + kSurveyClearance * point.normal, point.normal};
+    const auto hit = planned_.rays.Nearest(ray);
+    return hit && planned_.normals[hit->triangle].dot(ray.direction) > 0;
   }
 
   void AddSun(const SurfacePoint& point, Patch* patch) const {

@@ -12,6 +12,8 @@ namespace {
 // Distance in voxels at which they double.
 constexpr double kReachOfSize = 5;
 constexpr double kReachOfGround = 8;  // in sizes of the focus, at least
+// No boundary at round coordinates, where planes lie: points of one would fall to either side.
+constexpr double kShift = 0.37;  // of a voxel
 
 // SplitMix64 (Steele, Lea & Flood 2014), one step.
 uint64_t Scrambled(uint64_t state) {
@@ -23,12 +25,13 @@ uint64_t Scrambled(uint64_t state) {
 
 uint64_t VoxelKey(const PatchGrid& grid, uint64_t face, const Eigen::Vector3d& position) {
   const double size = grid.SizeAt(position);
-  const Eigen::Array3d cell = (position.array() / size).floor();
+  const Eigen::Array3d cell = grid.VoxelAt(position);
   uint64_t key = Scrambled(face + (static_cast<uint64_t>(std::ilogb(size / grid.size)) << 56));
   for (int i = 0; i < 3; ++i) {
-    key = (key ^ static_cast<uint64_t>(static_cast<int64_t>(cell[i]))) * 0x9e3779b97f4a7c15u;
+    // Each in turn: a product alone gives voxels that mirror each other in two axes one key.
+    key = Scrambled(key ^ static_cast<uint64_t>(static_cast<int64_t>(cell[i])));
   }
-  return Scrambled(key);
+  return key;
 }
 
 uint64_t FaceOf(int face, bool is_back) { return 2 * static_cast<uint64_t>(face) + is_back; }
@@ -66,6 +69,15 @@ double PatchGrid::SizeAt(const Eigen::Vector3d& position) const {
   int level = 0;
   for (double reach = kReachOfSize * size; squared > reach * reach; reach *= 2) ++level;
   return std::ldexp(size, level);
+}
+
+Eigen::Array3d PatchGrid::VoxelAt(const Eigen::Vector3d& position) const {
+  return (position.array() / SizeAt(position) + kShift).floor();
+}
+
+double PatchGrid::OffCenter(const Eigen::Vector3d& position) const {
+  const Eigen::Array3d middle = VoxelAt(position) + 0.5 - kShift;
+  return (middle * SizeAt(position) - position.array()).matrix().norm();
 }
 
 std::optional<Eigen::Vector3d> GroundPlane::Meet(const SceneGeometry& scene, const Ray& ray) const {

@@ -13,6 +13,8 @@
 #include <vector>
 
 #include "radiometry/light/photographed_color.h"
+#include "radiometry/spectrum/spectrum.h"
+#include "reconstruction/geometry/ray_scene.h"
 
 namespace insitu {
 
@@ -41,6 +43,10 @@ struct PatchGrid {
   double size = 1;  // side of a voxel in and near the foci [m]; it doubles with distance
 
   double SizeAt(const Eigen::Vector3d& position) const;
+  // The voxel at a position, counted in sizes.
+  Eigen::Array3d VoxelAt(const Eigen::Vector3d& position) const;
+  // How far from the middle of its voxel it lies [m].
+  double OffCenter(const Eigen::Vector3d& position) const;
 };
 
 // The plane of the ground beyond its polygon: what is there, photographs may show.

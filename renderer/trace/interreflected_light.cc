@@ -48,6 +48,12 @@ IrradianceMapOptions MapOptions(const MontageScene& scene) {
   return options;
 }
 
+IrradianceMapOptions SiteMapOptions(const MontageScene& scene) {
+  IrradianceMapOptions options = MapOptions(scene);
+  if (!scene.artificial_mesh.vertices.empty()) options.building = FocusOf(scene);
+  return options;
+}
+
 std::vector<Eigen::Vector3d> NaturalNormals(const MontageScene& scene) {
   std::vector<Eigen::Vector3d> normals;
   for (int polygon : scene.polygon_of_triangle) {
@@ -72,7 +78,7 @@ InterreflectedLight::InterreflectedLight(const MontageScene& scene, std::optiona
                 LampsOf(scene)},
       interreflection(transport, scene.natural.light, GridAbout(FocusOf(scene)),
                       {.bounces = bounces}),
-      on_site(interreflection, scene.natural_mesh, NaturalNormals(scene), MapOptions(scene)),
+      on_site(interreflection, scene.natural_mesh, NaturalNormals(scene), SiteMapOptions(scene)),
       on_building(interreflection, scene.artificial_mesh, scene.artificial_normals,
                   MapOptions(scene)) {
   interreflection.Solve(OpenSky(scene.natural.light));

@@ -168,10 +168,10 @@ struct IrradianceMap::Tree {
     const int to = (from + 1) % 3;
     const GatheredPoint &a = *node.corners[from], &b = *node.corners[to];
     const GatheredPoint* middle = nullptr;
-    bool is_leaf = longest < options.smallest || IsEven(node, longest);
+    bool is_leaf = longest < options.smallest || (IsApart(node, longest) && IsEven(node, longest));
     if (!is_leaf) {
       middle = PointAt({(a.position + b.position) / 2, normal});
-      is_leaf = IsCalm(node, *middle, longest, a, b);
+      is_leaf = IsApart(node, longest) && IsCalm(node, *middle, longest, a, b);
     }
     const std::lock_guard lock(
         growing[reinterpret_cast<uintptr_t>(&node) / sizeof(Node) % kShards]);
@@ -186,6 +186,14 @@ struct IrradianceMap::Tree {
       (*node.halves)[1].corners[from] = middle;
     }
     node.kind.store(is_leaf ? Node::Kind::kLeaf : Node::Kind::kHalved, std::memory_order_release);
+  }
+
+  // From the building, as far as it is long.
+  bool IsApart(const Node& node, double edge) const {
+    if (options.building.isEmpty() || edge <= options.calm) return true;
+    Eigen::AlignedBox3d box;
+    for (const GatheredPoint* corner : node.corners) box.extend(corner->position);
+    return options.building.squaredExteriorDistance(box) >= edge * edge;
   }
 
   // Corners so alike that what lies between is, too.

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -18,6 +19,9 @@ struct IrradianceMapOptions {
   double smallest = 0.02;   // edge of a triangle that is not halved any more [m]
   double calm = 0.5;        // edge of one that may be interpolated anywhere [m]
   double reach = 0.004;     // relative change of irradiance that is none
+  // Triangles longer than `calm` and than their distance to it are halved in any case: corners far
+  // from what stands between them do not tell of it. Empty: nothing stands there. [m], local
+  Eigen::AlignedBox3d building = {};
 
   void Check() const;  // throws CheckError that names the field that is wrong
 };

@@ -70,6 +70,16 @@ TEST(MeasureDaylight, PolygonsThatLieOnEachOtherDoNotShadeEachOther) {
   EXPECT_LT(std::abs(measured.daylight_fit.residuals[6]), 0.02);  // below the path, in full sun
 }
 
+// The ambient term stands for what is around; without bounces that is black.
+TEST(MeasureDaylight, WithoutBouncesNothingButSunAndSkyIsFound) {
+  const SyntheticSite truth = MakeSyntheticSite("bounces");
+  const LightMeasurement all = MeasureDaylight(truth.site);
+  EXPECT_TRUE((all.environment.light.ambient_radiance > 0).all());
+  const LightMeasurement bare = MeasureDaylight(truth.site, {.bounces = 0});
+  EXPECT_TRUE((bare.environment.light.ambient_radiance == 0).all());
+  EXPECT_GT(bare.environment.light.sky_radiance.sum(), all.environment.light.sky_radiance.sum());
+}
+
 TEST(MeasureDaylight, WarnsOfWhatIsMissing) {
   const SyntheticSite truth = MakeSyntheticSite("warnings");
   const std::filesystem::path samples = truth.site.survey() / "samples.json";

@@ -154,18 +154,36 @@ std::vector<DaylightSample> SamplesWithSurroundings() {
   return samples;
 }
 
-TEST(FitDaylight, PhotographedSurroundingsLeaveSunAndSkyAsTheyAre) {
+TEST(FitDaylight, KnownSurroundingsLeaveSunAndSkyAsTheyAre) {
   const std::vector<DaylightSample> samples = SamplesWithSurroundings();
   const DaylightFit fit = FitDaylight(samples, kBrdf, true, {});
   EXPECT_LT(RelativeError(fit.sun_radiance, Truth().sun_radiance), 1e-10);
   EXPECT_LT(RelativeError(fit.sky_radiance + fit.ambient_radiance, Truth().sky_radiance), 1e-10);
+  EXPECT_LT(fit.rms, 1e-9);
   double irradiance = 0, hidden = 0;
   for (const DaylightSample& sample : samples) {
     irradiance += (*sample.surroundings)[0];
     hidden += kPi - sample.geometry.sky;
   }
-  EXPECT_NEAR(fit.ambient_radiance[0], std::min(irradiance / hidden, Truth().sky_radiance[0]),
-              1e-10);
+  EXPECT_NEAR(fit.ambient_radiance[0], irradiance / hidden, 1e-10);
+}
+
+// No weight of theirs is left to fit: what they are taken for too little, sun and sky must bear.
+TEST(FitDaylight, SurroundingsAreNoUnknown) {
+  std::vector<DaylightSample> samples = SamplesWithSurroundings();
+  for (DaylightSample& sample : samples) *sample.surroundings *= 0.5;
+  const DaylightFit fit = FitDaylight(samples, kBrdf, true, {});
+  EXPECT_GT((fit.sun_radiance / Truth().sun_radiance).minCoeff(), 1.01);
+  EXPECT_GT(fit.rms, 1);
+  EXPECT_TRUE((fit.ambient_sigma == 0).all());
+}
+
+TEST(FitDaylight, ThreeSamplesInKnownSurroundingsSuffice) {
+  std::vector<DaylightSample> samples = SamplesWithSurroundings();
+  samples = {samples[0], samples[3], samples[13]};
+  const DaylightFit fit = FitDaylight(samples, kBrdf, true, {});
+  EXPECT_LT(RelativeError(fit.sun_radiance, Truth().sun_radiance), 1e-10);
+  EXPECT_LT(fit.condition, 20);
 }
 
 TEST(FitDaylight, UniformAmbientLightLetsTheSunTakeAShareOfTheSurroundings) {
