@@ -146,6 +146,7 @@ void Interreflection::GatherMeetings() {
   meetings_.resize(all.size());
   tbb::parallel_for(size_t{0}, all.size(),
                     [&](size_t i) { meetings_[i] = Meet(all[i].point, patch_directions_); });
+  SumSeen();
 }
 
 Spectrum Interreflection::RadianceBefore(int patch) const {
@@ -212,18 +213,43 @@ void Interreflection::SetBeyond() {
   if (area > 0) beyond_ /= area;
 }
 
+// What does not change from sweep to sweep is summed once, whatever the daylight.
+void Interreflection::SumSeen() {
+  const size_t n = patches_.all().size();
+  seen_.assign(n, SeenFromPiece());
+  tbb::parallel_for(size_t{0}, n, [&](size_t i) {
+    if (patches_.all()[i].polygon < 0) return;
+    SeenFromPiece& seen = seen_[i];
+    for (const Meeting& meeting : meetings_[i]) {
+      if (meeting.before == kSky) {
+        ++seen.sky;
+      } else if (meeting.before == kBeyond) {
+        ++seen.beyond;
+      } else if (meeting.before != kDark && IsUnseen(meeting.before)) {
+        seen.unseen.push_back(meeting.before);
+      } else if (meeting.before != kDark) {
+        seen.photographed += patches_.all()[meeting.before].photographed;
+      }
+    }
+  });
+}
+
+Spectrum Interreflection::GatheredBefore(size_t piece) const {
+  const SeenFromPiece& seen = seen_[piece];
+  Spectrum sum = seen.photographed + seen.sky * sky_ + seen.beyond * beyond_;
+  for (int other : seen.unseen) sum += before_[other];
+  return kPi / options_.patch_directions * sum;
+}
+
 void Interreflection::SolveBefore(const Daylight& light) {
   const std::vector<Patch>& all = patches_.all();
-  const double weight = kPi / options_.patch_directions;
   for (size_t i = 0; i < all.size(); ++i) before_[i] = all[i].photographed;
+  SetBeyond();
   std::vector<Spectrum> irradiance(all.size(), Spectrum::Zero());
   for (int sweep = 0; sweep < kMostSweeps; ++sweep) {
-    SetBeyond();
     tbb::parallel_for(size_t{0}, all.size(), [&](size_t i) {
       if (all[i].polygon < 0) return;
-      Spectrum sum = Spectrum::Zero();
-      for (const Meeting& meeting : meetings_[i]) sum += RadianceBefore(meeting.before);
-      irradiance[i] = weight * sum + light.sun_radiance * all[i].sun_before;
+      irradiance[i] = GatheredBefore(i) + light.sun_radiance * all[i].sun_before;
     });
     SetBrdfs(irradiance);
     double largest = 0;

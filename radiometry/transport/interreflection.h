@@ -78,12 +78,22 @@ class Interreflection {
     bool is_back = false;
   };
 
+  // What is met from a piece before: the photographed radiances' sum, how often sky and ground
+  // beyond, and which pieces no photograph shows.
+  struct SeenFromPiece {
+    Spectrum photographed = Spectrum::Zero();
+    int sky = 0, beyond = 0;
+    std::vector<int> unseen;
+  };
+
   // Of all directions in turn.
   std::vector<Meeting> Meet(const SurfacePoint& surface, const CosineDirections& directions) const;
   void MeetSite(const Ray& ray, const std::optional<RayHit>& hit, Meeting* meeting) const;
   void MeetPlanned(const Ray& ray, const RayHit& hit, Meeting* meeting) const;
   int GroundBeyond(const Ray& ray) const;
   void GatherMeetings();
+  void SumSeen();
+  Spectrum GatheredBefore(size_t piece) const;
   void SolveBefore(const Daylight& light);
   void SetBrdfs(const std::vector<Spectrum>& irradiance);
   void SetBeyond();
@@ -103,6 +113,7 @@ class Interreflection {
   std::optional<GroundPlane> ground_;
   Patches patches_;
   std::vector<std::vector<Meeting>> meetings_;  // of each piece
+  std::vector<SeenFromPiece> seen_;             // of each natural piece
 
   Spectrum sky_ = Spectrum::Zero(), beyond_ = Spectrum::Zero();  // radiances
   std::vector<Spectrum> before_;                                 // radiance of each natural piece
