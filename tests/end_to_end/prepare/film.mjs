@@ -3,7 +3,7 @@
 // fiducial marks are placed by keyboard, and the stages then run from the page.
 import fs from "node:fs";
 import {open} from "./page.mjs";
-import {report, start, until} from "./server.mjs";
+import {insert, report, start, until} from "./server.mjs";
 
 const [site, screenshots] = process.argv.slice(2);
 const truth = JSON.parse(fs.readFileSync(`${site}/film_truth.json`, "utf8"));
@@ -37,7 +37,16 @@ const says = id => page.textContent(`#${id}`);
 // ---- the certificate ----
 await person.sees("#todo", "certificate");
 const begin = page.locator("#todo button", {hasText: "of scanned film"});
+await person.settled();
+report("it is not among those that are folded away", await begin.isVisible());
 await begin.focus();
+// The list is made anew beneath the person who goes through it by keyboard.
+const told = await says("todo");
+await server.ask("POST", "/api/op", insert("other", "polygons", {name: "other", vertices: ["tower_0", "tower_1", "tower_5"], material: "m", photo: null, mask: null}));
+await until("the list has changed", async () => (await says("todo")) !== told);
+report("the focus stays on it while the list changes", await begin.evaluate(one => one === document.activeElement));
+await server.ask("POST", "/api/undo", {id: "back"});
+await until("the list is as it was", async () => (await says("todo")) === told);
 await person.press("Enter");
 await page.waitForSelector("#film-focal");
 report("what is to be done leads to the certificate", (await person.data()).mode === "film");

@@ -83,6 +83,7 @@ await person.settled();
 report("and undo brings it back", (await polygon("block_w0")).holes?.length === 1);
 await person.press("Shift+B");
 await person.point((await polygon("block_w0")).vertices[0]);
+await person.drawn();
 report("a vertex of the outline is none of a hole", (await person.page.textContent("#say"))?.length > 0 &&
   !(await person.page.textContent("#tool .hint"))?.includes((await polygon("block_w0")).vertices[0]));
 for (const x of [680, 720]) {
@@ -94,7 +95,8 @@ await person.settled();
 const draft = (await tables()).drafts.find(one => one.hole_of === "block_w0");
 report("a hole left unfinished is kept as a draft", draft?.vertices.length === 2, JSON.stringify(draft));
 await person.click("#drafts button");
-report("and taken up again", (await person.page.textContent("#tool .hint"))?.includes(draft?.vertices.join(", ")));
+await person.sees("#tool .hint", draft.vertices.join(", "));
+report("and taken up again", true);
 await person.press("Backspace", "Backspace", "Escape");
 
 await person.press("Alt+1");

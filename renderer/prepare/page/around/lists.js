@@ -238,6 +238,7 @@ function drawTodo() {
   if (signature === drawnTodo) return;
   drawnTodo = signature;
   const more = button("", stepTodo, {class: "small more", hidden: true});
+  const focused = focusedTodo();
   byId("todo").replaceChildren(
     node("h2", {text: t("todo", {n: state.todo.length})}),
     node(
@@ -264,6 +265,23 @@ function drawTodo() {
     more
   );
   fitTodo();
+  if (focused) focusTodo(focused);
+}
+
+/** What tells a button of this list from the others: its thing's text, and which of its buttons it is. */
+const todoKey = made =>
+  made.matches(".more") ? "more" : `${made.parentElement.firstElementChild.textContent}\n${made.dataset.run ?? ""}`;
+
+/** The key of the button that has the focus. */
+function focusedTodo() {
+  const made = /** @type {any} */ (document.activeElement)?.closest?.("#todo button");
+  return made ? todoKey(made) : null;
+}
+
+/** Gives the focus back to it, to the first where it is done or folded away: the list is made anew at any time. */
+function focusTodo(key) {
+  const all = [...byId("todo").querySelectorAll("button")].filter(one => one.getClientRects().length > 0);
+  (all.find(one => todoKey(one) === key) ?? all[0])?.focus();
 }
 
 let isTodoOpen = false;
