@@ -24,7 +24,7 @@ namespace insitu {
 struct InterreflectionOptions {
   std::optional<int> bounces = {};  // at most; nullopt: until they change nothing. 0: the sky alone
   int patch_directions = 256;       // gathered at a piece
-  int point_directions = 1024;      // gathered at a point that is asked for
+  int point_directions = 512;       // gathered at a point that is asked for
 
   void Check() const;  // throws CheckError that names the field that is wrong
 };
@@ -98,7 +98,8 @@ class Interreflection {
   void SetBrdfs(const std::vector<Spectrum>& irradiance);
   void SetBeyond();
   void SolveAfter(const Daylight& light);
-  bool IsUnseen(int patch) const;
+  bool IsUnseen(int patch) const;  // and counts
+  bool IsDirect() const { return options_.bounces == 0; }
   Spectrum RadianceBefore(int patch) const;
   Spectrum RadianceAfter(const Meeting& meeting) const;
   Spectrum ChangeAlong(const Meeting& meeting) const;
