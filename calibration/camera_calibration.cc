@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "calibration/boards/calibration_verdict.h"
+#include "calibration/camera_files/read_camera_file.h"
 #include "calibration/files/error.h"
 #include "calibration/files/whole_file.h"
 #include "calibration/files/wording.h"

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "calibration/files/error.h"
+#include "reconstruction/editing/make_survey_text.h"
 #include "reconstruction/editing/merge_rows.h"
 #include "reconstruction/editing/row_checks.h"
 

@@ -6,6 +6,7 @@
 #include "calibration/files/error.h"
 #include "calibration/files/sha256.h"
 #include "calibration/files/whole_file.h"
+#include "reconstruction/editing/make_survey_text.h"
 #include "reconstruction/editing/merge_rows.h"
 #include "reconstruction/editing/site_edit.h"
 

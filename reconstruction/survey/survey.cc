@@ -61,4 +61,9 @@ FilePlace PlaceOfPoint(const Survey& survey, const std::string& name) {
   throw CheckError(__FILE__, __LINE__, "the point is in the survey");
 }
 
+FilePlace FileOfObservations(const Survey& survey) {
+  if (!survey.observations.empty()) return {survey.observations[0].place.path, 0};
+  return {"survey/observations.csv", 0};
+}
+
 }  // namespace insitu

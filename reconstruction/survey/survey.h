@@ -128,4 +128,7 @@ std::set<std::string> PointsInUse(const Survey& survey);
 // edge or constraint.
 FilePlace PlaceOfPoint(const Survey& survey, const std::string& name);
 
+// Where the marks stand, for faults that none of them is to blame for.
+FilePlace FileOfObservations(const Survey& survey);
+
 }  // namespace insitu

@@ -5,9 +5,9 @@
 #include <utility>
 #include <vector>
 
-#include "calibration/camera_files/camera_file.h"
 #include "calibration/camera_files/film.h"
 #include "calibration/camera_files/film_review.h"
+#include "calibration/camera_files/read_camera_file.h"
 #include "calibration/files/error.h"
 #include "calibration/files/wording.h"
 

@@ -10,7 +10,7 @@
 #include "calibration/files/error.h"
 #include "calibration/files/json_file.h"
 #include "calibration/files/whole_file.h"
-#include "reconstruction/exchange/survey_file.h"
+#include "reconstruction/exchange/read_survey_file.h"
 #include "reconstruction/geometry/best_photo.h"
 #include "reconstruction/geometry/epipolar_curve.h"
 #include "reconstruction/live/derived_quantity.h"

@@ -8,6 +8,7 @@
 #include <chrono>
 
 #include "reconstruction/adjustment/adjust.h"
+#include "reconstruction/adjustment/find_start_values.h"
 #include "reconstruction/adjustment/solve_survey.h"
 #include "tests/reconstruction/survey/synthetic_network.h"
 #include "tests/reconstruction/survey/synthetic_tie_points.h"

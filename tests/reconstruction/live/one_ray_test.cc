@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "reconstruction/adjustment/adjusted_unknowns.h"
+#include "reconstruction/adjustment/find_start_values.h"
 #include "tests/reconstruction/survey/synthetic_network.h"
 
 namespace insitu {

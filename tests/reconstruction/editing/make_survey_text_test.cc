@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "reconstruction/editing/survey_text.h"
+#include "reconstruction/editing/make_survey_text.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "reconstruction/adjustment/start_values.h"
+#include "reconstruction/adjustment/find_start_values.h"
 
 #include <gtest/gtest.h>
 

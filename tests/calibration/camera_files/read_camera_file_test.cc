@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "calibration/camera_files/camera_file.h"
+#include "calibration/camera_files/read_camera_file.h"
 
 #include <cmath>
 

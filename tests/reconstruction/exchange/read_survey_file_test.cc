@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "reconstruction/exchange/survey_file.h"
+#include "reconstruction/exchange/read_survey_file.h"
 
 #include "tests/reconstruction/exchange/text_files.h"
 

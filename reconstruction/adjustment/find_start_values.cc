@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "reconstruction/adjustment/start_values.h"
+#include "reconstruction/adjustment/find_start_values.h"
 
 #include <algorithm>
 #include <utility>
@@ -139,11 +139,6 @@ class StartFinder {
 };
 
 }  // namespace
-
-FilePlace FileOfObservations(const Survey& survey) {
-  if (!survey.observations.empty()) return {survey.observations[0].place.path, 0};
-  return {"survey/observations.csv", 0};
-}
 
 StartValues FindStartValues(const Survey& survey, const std::vector<std::string>& photos,
                             const std::vector<Camera>& cameras,

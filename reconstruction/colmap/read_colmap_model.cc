@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "reconstruction/colmap/colmap_model.h"
+#include "reconstruction/colmap/read_colmap_model.h"
 
 #include <algorithm>
 
