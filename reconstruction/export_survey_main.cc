@@ -39,7 +39,7 @@ insitu::SurveyExport Export(const Request& request) {
   insitu::SurveyExport done = Exported(request, survey, photographs);
   for (const insitu::LoneMark& lone : survey.lone_marks) {
     done.report.push_back("left out: point '" + lone.mark.point + "', marked on photo '" +
-                          lone.mark.photo + "' alone" + lone.question);
+                          lone.mark.photo + "' alone" + lone.question.text());
   }
   return done;
 }

@@ -45,11 +45,11 @@ void AppendTo(Items& items, const Items& more) {
 
 }  // namespace
 
-SiteEdit::SiteEdit(SitePaths site, std::vector<std::string> photos)
+SiteEdit::SiteEdit(SitePaths site, std::vector<std::string> photos, const HistoryLimits& limits)
     : site_(std::move(site)),
       photos_(std::move(photos)),
       lock_(site_, "insitu-prepare", PrepareFolder(site_) / ".lock"),
-      history_(PrepareFolder(site_) / "journal.jsonl"),
+      history_(PrepareFolder(site_) / "journal.jsonl", limits),
       files_(SiteFiles(site_.root, PrepareFolder(site_) / "files")) {
   if (history_.remark()) found_.remarks.push_back(*history_.remark());
   RemoveLeftovers(site_.survey());
@@ -59,6 +59,22 @@ SiteEdit::SiteEdit(SitePaths site, std::vector<std::string> photos)
   for (SiteFile& file : files_) Open(file);
   history_.ForgetDone();
   if (is_saved()) saved_revision_ = revision();
+  ShortenJournal();
+}
+
+// Once all is in the files and their copies, the journal need not tell how it came there. A journal
+// that stays long is as good: what prevents it is said once.
+void SiteEdit::ShortenJournal() {
+  if (!history_.IsLong() || !can_shorten_) return;
+  try {
+    const bool is_settled = std::all_of(files_.begin(), files_.end(), [](const SiteFile& file) {
+      return !file.is_changed && !file.fault && ReadIfThere(file.copy) == file.on_disk;
+    });
+    if (is_settled) history_.Shorten();
+  } catch (const std::exception& error) {
+    can_shorten_ = false;
+    found_.remarks.emplace_back(error.what());
+  }
 }
 
 // The file's content as its tables, without what the journal has on top.
@@ -233,6 +249,7 @@ SaveReport SiteEdit::Save() {
     }
   }
   if (report.is_saved()) saved_revision_ = revision();
+  ShortenJournal();
   return report;
 }
 

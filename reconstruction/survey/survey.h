@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "calibration/files/error.h"
+#include "calibration/files/sentence.h"
 #include "reconstruction/survey/tie_points.h"
 
 namespace insitu {
@@ -95,7 +96,7 @@ struct GeometricConstraint {
 // The only mark of a point that is named nowhere else: one ray, which determines nothing.
 struct LoneMark {
   ImageObservation mark;
-  std::string question;  // "; did you mean 'P7'?", or empty
+  Sentence question;  // "; did you mean 'P7'?", or empty
 };
 
 struct Survey {

@@ -110,7 +110,7 @@ void LeaveOutLoneMarks(Survey* survey) {
   for (const ImageObservation& mark : survey->observations) {
     if (!is_lone(mark)) continue;
     const Names missing = NotMarkedOn(mark.photo, all, *survey);
-    survey->lone_marks.push_back({mark, DidYouMean(mark.point, WithDigitsOf(mark.point, missing))});
+    survey->lone_marks.push_back({mark, SaidMeant(mark.point, WithDigitsOf(mark.point, missing))});
   }
   std::erase_if(survey->observations, is_lone);
 }

@@ -285,8 +285,7 @@ class Solver {
     const DiagnosisTeller teller(input_.survey);
     Json::Value& told = result_.message["diagnoses"];
     for (const Diagnosis& diagnosis : Diagnose(survey_, names_, cameras_)) {
-      told.append(teller.Tell(WordOf(diagnosis.kind), Sentence::Verbatim(diagnosis.message),
-                              diagnosis.place));
+      told.append(teller.Tell(WordOf(diagnosis.kind), diagnosis.message, diagnosis.place));
     }
     for (const LeftOut& what : part_.left_out) {
       if (!what.is_contradiction) continue;

@@ -33,7 +33,7 @@ class SurveyDiagnosis : public testing::Test {
     EXPECT_EQ(first.place.line, line) << Text(first);
     EXPECT_EQ(first.kind, kind) << Text(first);
     for (const std::string& word : words) {
-      EXPECT_NE(first.message.find(word), std::string::npos) << word << "\n" << Text(first);
+      EXPECT_NE(first.message.text().find(word), std::string::npos) << word << "\n" << Text(first);
     }
     if (kind == Kind::kFault) {
       EXPECT_THROW(RequireSound(survey_, network_.photos, network_.cameras), InputError);
@@ -332,7 +332,7 @@ TEST_F(SurveyDiagnosis, ACameraPositionFarOffIsAQuestion) {
 }
 
 TEST_F(SurveyDiagnosis, APointLeftOutForItsSingleMark) {
-  survey_.lone_marks = {{{"P1", "knob", {100, 100}, 0.4, {"observations.csv", 900}}, ""}};
+  survey_.lone_marks = {{{"P1", "knob", {100, 100}, 0.4, {"observations.csv", 900}}, {}}};
   ExpectFirst("observations.csv", 900, Kind::kQuestion,
               {"point 'knob'", "one ray only", "photo 'P1'", "left out", "second photo"});
 }

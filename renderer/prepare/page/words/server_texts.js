@@ -2,8 +2,11 @@
 // What the server says, in German (Swiss), by the keys of its sentences (calibration/files/sentence.h);
 // the English stands in the server. scripts/check_pages compares keys and {values}.
 
+import {kDiagnosisTexts} from "./diagnosis_texts.js";
+
 /** @type {Record<string, string>} */
 export const kServerTexts = {
+  ...kDiagnosisTexts,
   atPlace: "{place}: {message}",
   named: "{name}: {reason}",
   nameHorizon: "Horizont",
