@@ -80,7 +80,6 @@ Interreflection::Interreflection(const TransportScene& scene, const Daylight& li
       ground_(GroundOf(scene.site.scene, grid)),
       patches_(grid) {
   options_.Check();
-  if (options_.bounces == 0) return;
   patches_ = MakePatches(scene.site, scene.natural, scene.planned, ground_, light, patches_.grid());
   GatherMeetings();
 }
@@ -236,6 +235,7 @@ void Interreflection::SumSeen() {
 
 Spectrum Interreflection::GatheredBefore(size_t piece) const {
   const SeenFromPiece& seen = seen_[piece];
+  if (IsDirect()) return kPi / options_.patch_directions * seen.sky * sky_;
   Spectrum sum = seen.photographed + seen.sky * sky_ + seen.beyond * beyond_;
   for (int other : seen.unseen) sum += before_[other];
   return kPi / options_.patch_directions * sum;
@@ -262,6 +262,9 @@ void Interreflection::SolveBefore(const Daylight& light) {
     }
     if (largest < kSettled) break;
   }
+  if (!IsDirect()) return;
+  for (Spectrum& radiance : before_) radiance.setZero();
+  beyond_.setZero();
 }
 
 // True if the planned faces' light still changes.
@@ -332,6 +335,7 @@ GatheredLight Interreflection::At(const SurfacePoint& surface) const {
 }
 
 bool Interreflection::IsUnseen(int patch) const {
+  if (IsDirect()) return false;
   if (patch >= 0) return !patches_.all()[patch].is_seen;
   return patch == kBeyond;
 }

@@ -24,9 +24,9 @@ uint64_t Scrambled(uint64_t state) {
 }
 
 uint64_t VoxelKey(const PatchGrid& grid, uint64_t face, const Eigen::Vector3d& position) {
-  const double size = grid.SizeAt(position);
-  const Eigen::Array3d cell = grid.VoxelAt(position);
-  uint64_t key = Scrambled(face + (static_cast<uint64_t>(std::ilogb(size / grid.size)) << 56));
+  const int level = grid.LevelAt(position);
+  const Eigen::Array3d cell = (position.array() / std::ldexp(grid.size, level) + kShift).floor();
+  uint64_t key = Scrambled(face + (static_cast<uint64_t>(level) << 56));
   for (int i = 0; i < 3; ++i) {
     // Each in turn: a product alone gives voxels that mirror each other in two axes one key.
     key = Scrambled(key ^ static_cast<uint64_t>(static_cast<int64_t>(cell[i])));
@@ -61,14 +61,18 @@ uint64_t FaceLooking(const Eigen::Vector3d& normal) {
 
 }  // namespace
 
-double PatchGrid::SizeAt(const Eigen::Vector3d& position) const {
+int PatchGrid::LevelAt(const Eigen::Vector3d& position) const {
   double squared = std::numeric_limits<double>::infinity();
   for (const Eigen::AlignedBox3d& focus : foci) {
     squared = std::min(squared, focus.squaredExteriorDistance(position));
   }
   int level = 0;
   for (double reach = kReachOfSize * size; squared > reach * reach; reach *= 2) ++level;
-  return std::ldexp(size, level);
+  return level;
+}
+
+double PatchGrid::SizeAt(const Eigen::Vector3d& position) const {
+  return std::ldexp(size, LevelAt(position));
 }
 
 Eigen::Array3d PatchGrid::VoxelAt(const Eigen::Vector3d& position) const {

@@ -43,6 +43,7 @@ struct PatchGrid {
   double size = 1;  // side of a voxel in and near the foci [m]; it doubles with distance
 
   double SizeAt(const Eigen::Vector3d& position) const;
+  int LevelAt(const Eigen::Vector3d& position) const;  // how often the size has doubled
   // The voxel at a position, counted in sizes.
   Eigen::Array3d VoxelAt(const Eigen::Vector3d& position) const;
   // How far from the middle of its voxel it lies [m].

@@ -16,6 +16,7 @@ namespace irradiance_map {
 
 constexpr double kMostInside = 0.5;  // share of back faces seen from a point that lies in the open
 constexpr double kCalmShare = 0.5;   // of the mean distance of what is around
+constexpr double kSteep = 0.05;      // relative difference between the ends of an edge
 constexpr double kGrid = 1e-4;       // points nearer to each other than that are one [m]
 
 struct GatheredPoint {
@@ -75,7 +76,7 @@ double LargestError(const GatheredPoint& a, const GatheredPoint& b, const Gather
 
 using irradiance_map::GatheredPoint, irradiance_map::kCalmShare, irradiance_map::kMostInside,
     irradiance_map::KeyOf, irradiance_map::LargestError, irradiance_map::Node,
-    irradiance_map::PointKey, irradiance_map::PointKeyHash;
+    irradiance_map::kSteep, irradiance_map::PointKey, irradiance_map::PointKeyHash;
 
 void IrradianceMapOptions::Check() const {
   INSITU_CHECK(tolerance > 0);
@@ -171,7 +172,8 @@ struct IrradianceMap::Tree {
     bool is_leaf = longest < options.smallest || (IsApart(node, longest) && IsEven(node, longest));
     if (!is_leaf) {
       middle = PointAt({(a.position + b.position) / 2, normal});
-      is_leaf = IsApart(node, longest) && IsCalm(node, *middle, longest, a, b);
+      is_leaf = IsApart(node, longest) && IsCalm(node, *middle, longest, a, b) &&
+                IsStraight(node, from, normal);
     }
     const std::lock_guard lock(
         growing[reinterpret_cast<uintptr_t>(&node) / sizeof(Node) % kShards]);
@@ -214,6 +216,24 @@ struct IrradianceMap::Tree {
       if (!corner->is_open || edge > corner->calm) return false;
     }
     return LargestError(a, b, middle) < options.tolerance;
+  }
+
+  // Whether the steepest edge but the longest is, too, where it is steep: a corner may lie in the
+  // dark of another face.
+  bool IsStraight(const Node& node, int longest, const Eigen::Vector3d& normal) {
+    int steepest = 0;
+    double difference = kSteep;
+    for (int i = 0; i < 3; ++i) {
+      const GatheredPoint &a = *node.corners[i], &b = *node.corners[(i + 1) % 3];
+      const double one = LargestError(a, a, b);
+      if (i == longest || one <= difference) continue;
+      difference = one;
+      steepest = i;
+    }
+    if (difference <= kSteep) return true;
+    const GatheredPoint &a = *node.corners[steepest], &b = *node.corners[(steepest + 1) % 3];
+    const GatheredPoint& middle = *PointAt({(a.position + b.position) / 2, normal});
+    return middle.is_open && LargestError(a, b, middle) < options.tolerance;
   }
 
   SmoothLight Interpolate(const Node& node, const Eigen::Vector3d& weights,
