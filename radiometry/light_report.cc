@@ -76,8 +76,8 @@ Json::Value Provenance(const SceneGeometry& scene) {
 }
 
 // "0.52 px, 61 edges", or why there is none.
-void PrintFilm(const Film& film, std::ostream& out) {
-  if (const auto& spread = film.point_spread) {
+void PrintQuality(const ImageQuality& quality, std::ostream& out) {
+  if (const auto& spread = quality.point_spread) {
     out << "point spread sigma " << spread->center_sigma;
     if (spread->corner_sigma != spread->center_sigma) {
       out << " px in the centre, " << spread->corner_sigma;
@@ -86,7 +86,7 @@ void PrintFilm(const Film& film, std::ostream& out) {
   } else {
     out << "too few sharp, straight edges for its point spread: rendered as ideal";
   }
-  if (const auto& grain = film.grain) {
+  if (const auto& grain = quality.grain) {
     const Eigen::Vector3d sigma = grain->Variance(Eigen::Vector3d::Constant(0.18)).cwiseSqrt();
     out << "; grain " << 100 * sigma[1] / 0.18 << " % at mid grey";
   }
@@ -133,9 +133,9 @@ std::string BriefReport(const LightMeasurement& measured) {
       << ", with the sky " << OpenSkyRgb(environment) << "\n"
       << "Daylight: " << measured.samples.daylight.size() << " samples, residuals " << fit.rms
       << " sigma, condition " << fit.condition << "\n";
-  for (size_t i = 0; i < environment.films.size(); ++i) {
+  for (size_t i = 0; i < environment.qualities.size(); ++i) {
     out << environment.scene.cameras[i].photo << ": ";
-    PrintFilm(environment.films[i], out);
+    PrintQuality(environment.qualities[i], out);
   }
   return out.str();
 }

@@ -9,7 +9,7 @@
 #include "calibration/photo/photograph.h"
 #include "calibration/program/program.h"
 #include "calibration/site_cameras.h"
-#include "radiometry/measure/film_measurement.h"
+#include "radiometry/measure/measure_image_quality.h"
 #include "radiometry/transport/interreflection.h"
 #include "reconstruction/geometry/ray_scene.h"
 
@@ -174,15 +174,15 @@ Spectrum SampleBrdf(const LightSamples& samples, const SpectralBasis& spectra,
   return spectra.Ones() / std::numbers::pi;
 }
 
-std::vector<Film> MeasureFilms(const std::vector<Photograph>& photos, const SceneGeometry& scene,
+std::vector<ImageQuality> MeasureQualities(const std::vector<Photograph>& photos, const SceneGeometry& scene,
                                Progress* progress) {
-  std::vector<Film> films;
+  std::vector<ImageQuality> qualities;
   for (size_t i = 0; i < photos.size(); ++i) {
-    films.push_back(
+    qualities.push_back(
         {MeasurePointSpread(photos[i], EdgePiecesIn(scene, i)), MeasureGrain(photos[i])});
     progress->Step();
   }
-  return films;
+  return qualities;
 }
 
 void WarnOfWeakSamples(const LightMeasurement& measured, bool has_sun,
@@ -369,7 +369,7 @@ LightMeasurement MeasureDaylight(const SitePaths& site, const LightOptions& opti
                     2 * photographs + kMeasurements);
   const std::vector<Photograph> photos = ReadPhotographs(site, environment.scene, &progress);
   environment.input_images = ListInputImages(site, environment.scene);
-  environment.films = MeasureFilms(photos, environment.scene, &progress);
+  environment.qualities = MeasureQualities(photos, environment.scene, &progress);
   measured.samples = ReadSamples(site, environment.scene, photos);
   progress.Step();
   measured.reflectance_known = measured.samples.daylight_reflectance.has_value();

@@ -34,17 +34,17 @@ Json::Value ExteriorToJson(const Rigid3& cam_from_world) {
   return json;
 }
 
-Json::Value FilmToJson(const Film& film) {
+Json::Value QualityToJson(const ImageQuality& quality) {
   Json::Value json;
   json["point_spread"] = Json::Value();
-  if (const auto& spread = film.point_spread) {
+  if (const auto& spread = quality.point_spread) {
     json["point_spread"]["center_sigma_px"] = spread->center_sigma;
     json["point_spread"]["corner_sigma_px"] = spread->corner_sigma;
     json["point_spread"]["sigma_error_px"] = spread->sigma_error;
     json["point_spread"]["edges"] = spread->edges;
   }
   json["grain"] = Json::Value();
-  if (const auto& grain = film.grain) {
+  if (const auto& grain = quality.grain) {
     json["grain"]["floor_rgb"] = ToJson(grain->floor);
     json["grain"]["slope_rgb"] = ToJson(grain->slope);
     json["grain"]["length_px"] = grain->length;
@@ -64,7 +64,7 @@ Json::Value CameraToJson(const NaturalEnvironment& environment, size_t i,
   if (!environment.scene.camera_covariances.empty()) {
     json["covariance"] = ToJson(environment.scene.camera_covariances[i]);
   }
-  if (!environment.films.empty()) json["film"] = FilmToJson(environment.films[i]);
+  if (!environment.qualities.empty()) json["image_quality"] = QualityToJson(environment.qualities[i]);
   json["input_image"] = InteriorToJson(image.camera);
   json["input_image"]["file"] = image.file.lexically_relative(folder).generic_string();
   return json;
@@ -222,11 +222,11 @@ Grain ReadGrain(const JsonNode& node) {
   return grain;
 }
 
-Film ReadFilm(const JsonNode& node) {
-  Film film;
-  if (const auto spread = node.Find("point_spread")) film.point_spread = ReadPointSpread(*spread);
-  if (const auto grain = node.Find("grain")) film.grain = ReadGrain(*grain);
-  return film;
+ImageQuality ReadQuality(const JsonNode& node) {
+  ImageQuality quality;
+  if (const auto spread = node.Find("point_spread")) quality.point_spread = ReadPointSpread(*spread);
+  if (const auto grain = node.Find("grain")) quality.grain = ReadGrain(*grain);
+  return quality;
 }
 
 // Adds one camera with its input image.
@@ -241,8 +241,8 @@ void ReadCameraOf(const JsonNode& node, NaturalEnvironment* environment) {
   if (scene.camera_covariances.size() % scene.cameras.size() != 0) {
     throw node.Error("has a covariance or none, expected the same of all cameras");
   }
-  const auto film = node.Find("film");
-  environment->films.push_back(film ? ReadFilm(*film) : Film());
+  const auto quality = node.Find("image_quality");
+  environment->qualities.push_back(quality ? ReadQuality(*quality) : ImageQuality());
   const JsonNode image = node.At("input_image");
   environment->input_images.push_back(
       {node.path().parent_path() / image.At("file").Text(), ReadInterior(image)});
@@ -368,7 +368,7 @@ Json::Value DescriptionOf(const NaturalEnvironment& environment,
   const size_t cameras = environment.scene.cameras.size(),
                covariances = environment.scene.camera_covariances.size();
   INSITU_CHECK(environment.input_images.size() == cameras);
-  INSITU_CHECK(environment.films.empty() || environment.films.size() == cameras);
+  INSITU_CHECK(environment.qualities.empty() || environment.qualities.size() == cameras);
   INSITU_CHECK(covariances == 0 || covariances == cameras);
   const SpectralBins& bins = environment.spectra.bins();
   Json::Value json;

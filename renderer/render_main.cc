@@ -49,7 +49,7 @@ void AddSharpness(CLI::App* app, Sharpness* sharpness) {
       ->option_text("measured|ideal [measured]");
 }
 
-void PrintFilm(const RenderSiteReport& report, const RenderSiteOptions& options) {
+void PrintQuality(const RenderSiteReport& report, const RenderSiteOptions& options) {
   if (const auto& spread = report.point_spread) {
     std::printf("  sharpness of the photograph: sigma %.2f px in the centre, %.2f px in the corners "
                 "(%d pieces of edges)\n",
@@ -98,7 +98,7 @@ int RunRender(int argc, char** argv) {
     const auto profile = timing ? std::make_unique<Profile>() : nullptr;
     for (const RenderSiteReport& report : RenderSite(site, options)) {
       PrintReport(report);
-      PrintFilm(report, options);
+      PrintQuality(report, options);
     }
     if (profile) std::fputs(profile->Report().c_str(), stdout);
   });

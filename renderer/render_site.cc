@@ -61,7 +61,7 @@ MontageScene LoadScene(NaturalEnvironment natural, const ArtificialEnvironment& 
 
 struct View {
   PosedCamera camera;
-  Film film;
+  ImageQuality quality;
   Photograph photo;
 };
 
@@ -89,12 +89,12 @@ View LoadView(const SitePaths& site, const MontageScene& scene,
   const PhaseScope phase(Phase::kFiles);
   const NaturalEnvironment& natural = scene.natural;
   const size_t index = IndexOf(site, natural.scene, photograph.stem().string());
-  View view = {natural.scene.cameras[index], natural.films[index], {}};
+  View view = {natural.scene.cameras[index], natural.qualities[index], {}};
   RequirePhotographSize(photograph, view.camera.camera.width(), view.camera.camera.height());
   view.photo = ReadPhotograph(photograph);
   if (frame == Frame::kPinhole) {
     const Camera& pinhole = natural.input_images[index].camera;
-    if (auto& spread = view.film.point_spread) {
+    if (auto& spread = view.quality.point_spread) {
       spread = InPinhole(*spread, view.camera.camera, pinhole);
     }
     view.camera.camera = pinhole;
@@ -152,8 +152,8 @@ std::vector<RenderSiteReport> RenderSite(const SitePaths& site, const RenderSite
     const auto uncertainty = uncertainties.find(report.photo);
     if (uncertainty != uncertainties.end()) report.uncertainty = uncertainty->second;
     RenderOptions render = options.render;
-    if (options.sharpness == Sharpness::kMeasured) render.point_spread = view.film.point_spread;
-    if (options.with_grain) render.grain = view.film.grain;
+    if (options.sharpness == Sharpness::kMeasured) render.point_spread = view.quality.point_spread;
+    if (options.with_grain) render.grain = view.quality.grain;
     report.point_spread = render.point_spread;
     report.has_grain = render.grain.has_value();
     report.result = RenderMontage(scene, view.camera, view.photo.linear, render,

@@ -1,16 +1,19 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <Eigen/Dense>
 #include <algorithm>
+#include <array>
 #include <cmath>
 
-#include "radiometry/measure/film_measurement.h"
+#include "radiometry/measure/measure_image_quality.h"
 
 namespace insitu {
 namespace {
 
 constexpr int kBlock = 8;               // [px]
+constexpr int kPlane = 4;               // unknowns of what is taken off a block
 constexpr int kLevels = 16;             // of radiance, as many blocks in each
 constexpr double kEven = 0.1;           // share of a level's blocks that are taken for even
+constexpr double kLongestGrain = 2;          // [px], that a block tells of the grain
 constexpr double kLeastSpread = 1e-12;  // variance below which a block is drawn, not photographed
 struct Block {
   Eigen::Vector3d mean, variance;
@@ -21,29 +24,35 @@ struct Block {
 
 using Pixels = Eigen::Matrix<double, kBlock * kBlock, 3>;
 
-// Without its mean and its gradients: light falls off, too.
-Pixels WithoutPlane(const Pixels& pixels) {
-  Eigen::Matrix<double, kBlock * kBlock, 4> plane;
+using BlockMatrix = Eigen::Matrix<double, kBlock * kBlock, kBlock * kBlock>;
+
+// Takes a block's mean and gradients away: light falls off, too.
+BlockMatrix MakeRemovePlane() {
+  Eigen::Matrix<double, kBlock * kBlock, kPlane> plane;
   for (int i = 0; i < kBlock * kBlock; ++i) {
     const double x = i % kBlock - (kBlock - 1) / 2.0, y = i / kBlock - (kBlock - 1) / 2.0;
     plane.row(i) << 1, x, y, x * y;
   }
   const Eigen::Matrix4d normal = plane.transpose() * plane;
-  return pixels - plane * (normal.inverse() * (plane.transpose() * pixels));
+  return BlockMatrix::Identity() - plane * normal.inverse() * plane.transpose();
 }
 
-// Of neighbours along rows and columns.
-double NeighbourCovariance(const Pixels& residuals, int channel) {
+const BlockMatrix& RemovePlane() {
+  static const BlockMatrix remove = MakeRemovePlane();
+  return remove;
+}
+
+// Mean of a function of two pixels of a block that are neighbours along a row or a column.
+template <typename Product>
+double MeanOverNeighbours(Product product) {
   double sum = 0;
-  int count = 0;
   for (int y = 0; y < kBlock; ++y) {
-    for (int x = 0; x < kBlock; ++x) {
-      const double here = residuals(y * kBlock + x, channel);
-      if (x + 1 < kBlock) sum += here * residuals(y * kBlock + x + 1, channel), ++count;
-      if (y + 1 < kBlock) sum += here * residuals((y + 1) * kBlock + x, channel), ++count;
+    for (int x = 0; x + 1 < kBlock; ++x) {
+      sum += product(y * kBlock + x, y * kBlock + x + 1);
+      sum += product(x * kBlock + y, (x + 1) * kBlock + y);
     }
   }
-  return sum / count;
+  return sum / (2 * kBlock * (kBlock - 1));
 }
 
 std::optional<Block> ReadBlock(const Photograph& photo, int left, int top) {
@@ -53,14 +62,14 @@ std::optional<Block> ReadBlock(const Photograph& photo, int left, int top) {
     if (IsClipped(photo, x, y)) return std::nullopt;
     pixels.row(i) = photo.linear.Rgb(x, y);
   }
-  const Pixels residuals = WithoutPlane(pixels);
-  const Eigen::Matrix3d covariance = residuals.transpose() * residuals / (kBlock * kBlock - 4.0);
+  const Pixels residuals = RemovePlane() * pixels;
+  const Eigen::Matrix3d covariance = residuals.transpose() * residuals / (kBlock * kBlock - kPlane);
   if (covariance.trace() < kLeastSpread) return std::nullopt;
   const Eigen::Vector3d sigma = covariance.diagonal().cwiseSqrt().cwiseMax(1e-9);
   Block block;
   block.mean = pixels.colwise().mean();
   block.variance = covariance.diagonal();
-  block.next = NeighbourCovariance(residuals, 1);
+  block.next = MeanOverNeighbours([&](int a, int b) { return residuals(a, 1) * residuals(b, 1); });
   block.shared = (covariance(0, 1) / (sigma[0] * sigma[1]) +
                   covariance(0, 2) / (sigma[0] * sigma[2]) +
                   covariance(1, 2) / (sigma[1] * sigma[2])) /
@@ -128,11 +137,51 @@ Eigen::Vector2d FitVariance(const std::vector<Level>& levels, int channel, Encod
   return fit;
 }
 
-// Sigma [px] of the Gaussian that smooths white noise to this correlation of neighbours.
-double SmoothingLength(double correlation) {
-  constexpr double kNone = 0.02, kMost = 0.95;
-  if (correlation < kNone) return 0;
-  return 0.5 / std::sqrt(-std::log(std::min(correlation, kMost)));
+// Correlation of white noise at a lag [px] along a row, smoothed with a Gaussian as UnitGrain does.
+double Autocorrelation(double length, int lag) {
+  if (length <= 0) return lag == 0 ? 1 : 0;
+  const int reach = static_cast<int>(std::ceil(3 * length));
+  const auto weight = [&](int at) {
+    return std::abs(at) > reach ? 0 : std::exp(-at * at / (2 * length * length));
+  };
+  double product = 0, square = 0;
+  for (int at = -reach; at <= reach; ++at) {
+    product += weight(at) * weight(at + lag);
+    square += weight(at) * weight(at);
+  }
+  return product / square;
+}
+
+// What is left in a block of noise of unit variance: variance and covariance of neighbours.
+struct Left {
+  double variance, next;
+};
+
+Left LeftInBlock(double length) {
+  std::array<double, kBlock> along;
+  for (int lag = 0; lag < kBlock; ++lag) along[lag] = Autocorrelation(length, lag);
+  BlockMatrix noise;
+  for (int a = 0; a < kBlock * kBlock; ++a) {
+    for (int b = 0; b < kBlock * kBlock; ++b) {
+      noise(a, b) =
+          along[std::abs(a % kBlock - b % kBlock)] * along[std::abs(a / kBlock - b / kBlock)];
+    }
+  }
+  const BlockMatrix left = RemovePlane() * noise * RemovePlane();
+  return {left.trace() / (kBlock * kBlock - kPlane),
+          MeanOverNeighbours([&](int a, int b) { return left(a, b); })};
+}
+
+// Sigma [px] of the Gaussian that white noise was smoothed with, for `next` over variance of what
+// is left in a block: it grows with the length.
+double SmoothingLength(double ratio) {
+  double low = 0, high = kLongestGrain;
+  for (int i = 0; i < 24; ++i) {
+    const double middle = (low + high) / 2;
+    const Left left = LeftInBlock(middle);
+    (left.next / left.variance < ratio ? low : high) = middle;
+  }
+  return (low + high) / 2;
 }
 
 }  // namespace
@@ -153,12 +202,13 @@ std::optional<Grain> MeasureGrain(const Photograph& photo) {
   for (const Level& level : levels) even.insert(even.end(), level.begin(), level.end());
   if (even.size() < kFewestPatches) return std::nullopt;
   Grain grain;
+  grain.length = SmoothingLength(MedianOf(even, [](auto& b) { return b.next / b.variance[1]; }));
+  const double left = LeftInBlock(grain.length).variance;
   for (int c = 0; c < 3; ++c) {
-    const Eigen::Vector2d fit = FitVariance(levels, c, photo.encoding);
+    const Eigen::Vector2d fit = FitVariance(levels, c, photo.encoding) / left;
     grain.floor[c] = fit[0];
     grain.slope[c] = fit[1];
   }
-  grain.length = SmoothingLength(MedianOf(even, [](auto& b) { return b.next / b.variance[1]; }));
   grain.shared = std::clamp(MedianOf(even, [](auto& b) { return b.shared; }), 0.0, 1.0);
   grain.patches = static_cast<int>(even.size());
   return grain;

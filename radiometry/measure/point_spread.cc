@@ -5,7 +5,7 @@
 #include <set>
 #include <utility>
 
-#include "radiometry/measure/film_measurement.h"
+#include "radiometry/measure/measure_image_quality.h"
 
 namespace insitu {
 namespace {

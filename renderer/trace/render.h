@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "calibration/photo/raster.h"
-#include "radiometry/light/film.h"
+#include "radiometry/light/image_quality.h"
 #include "renderer/trace/montage_scene.h"
 
 namespace insitu {
@@ -20,7 +20,7 @@ struct RenderOptions {
   // How the photograph spreads a point: what is computed is spread alike. nullopt: each pixel is
   // the mean over its square.
   std::optional<PointSpread> point_spread = {};
-  int outline_rays = 64;  // with a point spread: a pixel that the outline may spread into, at most
+  int outline_rays = 32;  // with a point spread: a pixel that the outline may spread into, at most
   std::optional<Grain> grain = {};  // noise that computed pixels get; nullopt: none
 
   void Check() const;  // throws CheckError that names the field that is wrong

@@ -31,7 +31,7 @@ struct Grain {
   Eigen::Vector3d Variance(const Eigen::Vector3d& linear_rgb) const;
 };
 
-struct Film {
+struct ImageQuality {
   std::optional<PointSpread> point_spread;  // nullopt: too few edges tell it
   std::optional<Grain> grain;               // nullopt: too few even places tell it
 };

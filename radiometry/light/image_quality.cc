@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "radiometry/light/film.h"
+#include "radiometry/light/image_quality.h"
 
 #include <algorithm>
 #include <cmath>

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "calibration/photo/photograph.h"
-#include "radiometry/light/film.h"
+#include "radiometry/light/image_quality.h"
 #include "radiometry/measure/edge_spread.h"
 #include "reconstruction/geometry/scene_geometry.h"
 
