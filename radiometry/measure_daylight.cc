@@ -174,8 +174,8 @@ Spectrum SampleBrdf(const LightSamples& samples, const SpectralBasis& spectra,
   return spectra.Ones() / std::numbers::pi;
 }
 
-std::vector<ImageQuality> MeasureQualities(const std::vector<Photograph>& photos, const SceneGeometry& scene,
-                               Progress* progress) {
+std::vector<ImageQuality> MeasureQualities(const std::vector<Photograph>& photos,
+                                           const SceneGeometry& scene, Progress* progress) {
   std::vector<ImageQuality> qualities;
   for (size_t i = 0; i < photos.size(); ++i) {
     qualities.push_back(
@@ -365,8 +365,7 @@ LightMeasurement MeasureDaylight(const SitePaths& site, const LightOptions& opti
   NaturalEnvironment& environment = measured.environment;
   const int photographs = static_cast<int>(environment.scene.cameras.size());
   constexpr int kMeasurements = 3;  // samples, air, light, each about as long as a photograph
-  Progress progress("haze and daylight",
-                    2 * photographs + kMeasurements);
+  Progress progress("haze and daylight", 2 * photographs + kMeasurements);
   const std::vector<Photograph> photos = ReadPhotographs(site, environment.scene, &progress);
   environment.input_images = ListInputImages(site, environment.scene);
   environment.qualities = MeasureQualities(photos, environment.scene, &progress);

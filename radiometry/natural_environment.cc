@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "calibration/files/json_file.h"
+#include "radiometry/image_quality_json.h"
 
 namespace insitu {
 namespace {
@@ -12,7 +13,6 @@ namespace {
 constexpr char kFormat[] = "insitu natural environment";
 constexpr int kVersion = 2;               // 1: no input images, no covariances
 constexpr double kReferenceDistance = 1;  // d_a [m]
-constexpr double kMostSharpnessSigma = 5, kMostGrainLength = 5;  // [px], what rendering bears
 
 Json::Value InteriorToJson(const Camera& camera) {
   const std::vector<double>& intrinsics = camera.intrinsics();
@@ -34,26 +34,6 @@ Json::Value ExteriorToJson(const Rigid3& cam_from_world) {
   return json;
 }
 
-Json::Value QualityToJson(const ImageQuality& quality) {
-  Json::Value json;
-  json["point_spread"] = Json::Value();
-  if (const auto& spread = quality.point_spread) {
-    json["point_spread"]["center_sigma_px"] = spread->center_sigma;
-    json["point_spread"]["corner_sigma_px"] = spread->corner_sigma;
-    json["point_spread"]["sigma_error_px"] = spread->sigma_error;
-    json["point_spread"]["edges"] = spread->edges;
-  }
-  json["grain"] = Json::Value();
-  if (const auto& grain = quality.grain) {
-    json["grain"]["floor_rgb"] = ToJson(grain->floor);
-    json["grain"]["slope_rgb"] = ToJson(grain->slope);
-    json["grain"]["length_px"] = grain->length;
-    json["grain"]["shared"] = grain->shared;
-    json["grain"]["patches"] = grain->patches;
-  }
-  return json;
-}
-
 Json::Value CameraToJson(const NaturalEnvironment& environment, size_t i,
                          const std::filesystem::path& folder) {
   const PosedCamera& posed = environment.scene.cameras[i];
@@ -64,7 +44,8 @@ Json::Value CameraToJson(const NaturalEnvironment& environment, size_t i,
   if (!environment.scene.camera_covariances.empty()) {
     json["covariance"] = ToJson(environment.scene.camera_covariances[i]);
   }
-  if (!environment.qualities.empty()) json["image_quality"] = QualityToJson(environment.qualities[i]);
+  if (!environment.qualities.empty())
+    json["image_quality"] = ImageQualityToJson(environment.qualities[i]);
   json["input_image"] = InteriorToJson(image.camera);
   json["input_image"]["file"] = image.file.lexically_relative(folder).generic_string();
   return json;
@@ -189,46 +170,6 @@ Eigen::MatrixXd ReadCameraCovariance(const JsonNode& node, const Camera& camera)
   return ReadCovariance(node, rows == 6 ? rows : 6 + camera.intrinsics().size());
 }
 
-double ReadNotNegative(const JsonNode& node) {
-  const double value = node.Number();
-  if (value >= 0) return value;
-  throw node.Error("is negative, expected 0 or more");
-}
-
-double ReadSigma(const JsonNode& node) {
-  const double sigma = node.Number();
-  if (sigma > 0 && sigma <= kMostSharpnessSigma) return sigma;
-  throw node.Error("is out of range, expected pixels above 0 and up to 5");
-}
-
-PointSpread ReadPointSpread(const JsonNode& node) {
-  return {ReadSigma(node.At("center_sigma_px")), ReadSigma(node.At("corner_sigma_px")),
-          ReadNotNegative(node.At("sigma_error_px")), node.At("edges").Integer()};
-}
-
-Grain ReadGrain(const JsonNode& node) {
-  Grain grain;
-  grain.floor = node.At("floor_rgb").Vector3();
-  grain.slope = node.At("slope_rgb").Vector3();
-  if (grain.floor.minCoeff() < 0 || grain.slope.minCoeff() < 0) {
-    throw node.Error("has a negative variance, expected 0 or more");
-  }
-  grain.length = ReadNotNegative(node.At("length_px"));
-  grain.shared = ReadNotNegative(node.At("shared"));
-  if (grain.length > kMostGrainLength || grain.shared > 1) {
-    throw node.Error("has a correlation out of range, expected up to 5 px and up to 1");
-  }
-  grain.patches = node.At("patches").Integer();
-  return grain;
-}
-
-ImageQuality ReadQuality(const JsonNode& node) {
-  ImageQuality quality;
-  if (const auto spread = node.Find("point_spread")) quality.point_spread = ReadPointSpread(*spread);
-  if (const auto grain = node.Find("grain")) quality.grain = ReadGrain(*grain);
-  return quality;
-}
-
 // Adds one camera with its input image.
 void ReadCameraOf(const JsonNode& node, NaturalEnvironment* environment) {
   SceneGeometry& scene = environment->scene;
@@ -242,7 +183,7 @@ void ReadCameraOf(const JsonNode& node, NaturalEnvironment* environment) {
     throw node.Error("has a covariance or none, expected the same of all cameras");
   }
   const auto quality = node.Find("image_quality");
-  environment->qualities.push_back(quality ? ReadQuality(*quality) : ImageQuality());
+  environment->qualities.push_back(quality ? ImageQualityFromJson(*quality) : ImageQuality());
   const JsonNode image = node.At("input_image");
   environment->input_images.push_back(
       {node.path().parent_path() / image.At("file").Text(), ReadInterior(image)});

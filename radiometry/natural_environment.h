@@ -29,7 +29,7 @@ struct InputImage {
 struct NaturalEnvironment {
   SceneGeometry scene;
   std::vector<InputImage> input_images;  // as scene.cameras
-  std::vector<ImageQuality> qualities;               // as scene.cameras; empty: none was measured
+  std::vector<ImageQuality> qualities;   // as scene.cameras; empty: none was measured
   SpectralBasis spectra;
   Atmosphere air;
   Daylight light;

@@ -51,9 +51,10 @@ void AddSharpness(CLI::App* app, Sharpness* sharpness) {
 
 void PrintQuality(const RenderSiteReport& report, const RenderSiteOptions& options) {
   if (const auto& spread = report.point_spread) {
-    std::printf("  sharpness of the photograph: sigma %.2f px in the centre, %.2f px in the corners "
-                "(%d pieces of edges)\n",
-                spread->center_sigma, spread->corner_sigma, spread->edges);
+    std::printf(
+        "  sharpness of the photograph: sigma %.2f px in the centre, %.2f px in the corners "
+        "(%d pieces of edges)\n",
+        spread->center_sigma, spread->corner_sigma, spread->edges);
   } else if (options.sharpness == Sharpness::kMeasured) {
     std::printf("  sharpness ideal: insitu-light measured none in this photograph\n");
   }

@@ -27,7 +27,7 @@ struct RenderSiteOptions {
   Frame frame = Frame::kPhoto;
   bool with_building = true;
   std::vector<std::string> photos;  // names; empty: every photo of the site
-  RenderOptions render;  // point spread and grain apart: each photograph has its own
+  RenderOptions render;             // point spread and grain apart: each photograph has its own
   Sharpness sharpness = Sharpness::kMeasured;
   bool with_grain = false;
   bool uniform_ambient = false;     // the paper's light as printed, instead of light among surfaces
@@ -38,8 +38,8 @@ struct RenderSiteOptions {
 
 struct RenderSiteReport {
   std::string photo;
-  RenderResult result;                            // its picture is written already
-  std::optional<PointSpread> point_spread;        // applied; nullopt: ideal
+  RenderResult result;                      // its picture is written already
+  std::optional<PointSpread> point_spread;  // applied; nullopt: ideal
   bool has_grain = false;
   double seconds = 0;                             // rendering, files apart
   std::optional<UncertaintySummary> uncertainty;  // of the building's image; nullopt: no building

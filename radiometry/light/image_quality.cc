@@ -21,8 +21,8 @@ double OpenUnitInterval(uint64_t bits) { return (static_cast<double>(bits >> 11)
 // Four independent standard normal numbers of a pixel: one shared by the channels, one for each.
 // [Box & Muller 1958]
 Eigen::Vector4d WhiteNoise(int x, int y, uint64_t seed) {
-  uint64_t state = Mix(seed ^ Mix(static_cast<uint64_t>(static_cast<uint32_t>(y)) << 32 |
-                                  static_cast<uint32_t>(x)));
+  uint64_t state = Mix(
+      seed ^ Mix(static_cast<uint64_t>(static_cast<uint32_t>(y)) << 32 | static_cast<uint32_t>(x)));
   const auto next = [&state] { return OpenUnitInterval(state = Mix(state)); };
   Eigen::Vector4d normal;
   for (int pair = 0; pair < 4; pair += 2) {
@@ -55,8 +55,7 @@ Eigen::Vector3d UnitGrain(const Grain& grain, int x, int y, uint64_t seed) {
   for (int dy = -reach; dy <= reach; ++dy) {
     for (int dx = -reach; dx <= reach; ++dx) {
       const double square = dx * dx + dy * dy;
-      const double weight =
-          reach == 0 ? 1 : std::exp(-square / (2 * grain.length * grain.length));
+      const double weight = reach == 0 ? 1 : std::exp(-square / (2 * grain.length * grain.length));
       sum += weight * WhiteNoise(x + dx, y + dy, seed);
       weight_square += weight * weight;
     }

@@ -24,9 +24,9 @@ struct PointSpread {
 struct Grain {
   Eigen::Vector3d floor = Eigen::Vector3d::Zero();  // variance at radiance 0, >= 0, by channel
   Eigen::Vector3d slope = Eigen::Vector3d::Zero();  // variance per radiance, >= 0
-  double length = 0;   // [px], sigma of the Gaussian that white noise is smoothed with
-  double shared = 0;   // 0 to 1, correlation of the channels
-  int patches = 0;     // even places of the photograph that tell it
+  double length = 0;  // [px], sigma of the Gaussian that white noise is smoothed with
+  double shared = 0;  // 0 to 1, correlation of the channels
+  int patches = 0;    // even places of the photograph that tell it
 
   Eigen::Vector3d Variance(const Eigen::Vector3d& linear_rgb) const;
 };

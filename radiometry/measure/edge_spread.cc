@@ -11,13 +11,13 @@ namespace insitu {
 namespace {
 
 constexpr double kShortest = 32, kLongest = 128;  // [px], of a piece
-constexpr double kPhases = 1.2;           // [px] across the rows or columns, more than one pixel
-constexpr double kLeastContrast = 0.05;   // of the photographs' white
-constexpr double kMostUneven = 0.05;      // rms of the residuals over the contrast
-constexpr double kMostOffset = 2;         // [px], survey and orientation together
-constexpr double kMostError = 0.2;        // of sigma, relative
-constexpr double kPlateau = 3;            // [px] from the edge, where its sides are taken to start
-constexpr double kMostContrast = 1.3;     // fitted over that between the plateaus: else no edge
+constexpr double kPhases = 1.2;          // [px] across the rows or columns, more than one pixel
+constexpr double kLeastContrast = 0.05;  // of the photographs' white
+constexpr double kMostUneven = 0.05;     // rms of the residuals over the contrast
+constexpr double kMostOffset = 2;        // [px], survey and orientation together
+constexpr double kMostError = 0.2;       // of sigma, relative
+constexpr double kPlateau = 3;           // [px] from the edge, where its sides are taken to start
+constexpr double kMostContrast = 1.3;    // fitted over that between the plateaus: else no edge
 constexpr double kLeastSigma = 0.1, kMostSigma = 2;  // [px], what a window this wide can tell
 constexpr int kIterations = 40;
 

@@ -13,13 +13,13 @@ constexpr int kBlock = 8;               // [px]
 constexpr int kPlane = 4;               // unknowns of what is taken off a block
 constexpr int kLevels = 16;             // of radiance, as many blocks in each
 constexpr double kEven = 0.1;           // share of a level's blocks that are taken for even
-constexpr double kLongestGrain = 2;          // [px], that a block tells of the grain
+constexpr double kLongestGrain = 2;     // [px], that a block tells of the grain
 constexpr double kLeastSpread = 1e-12;  // variance below which a block is drawn, not photographed
 struct Block {
   Eigen::Vector3d mean, variance;
   double unevenness = 0;  // variance of the block to its left, whose noise is another
-  double next = 0;    // covariance with the pixel beside or below, of green
-  double shared = 0;  // mean covariance of the channels, as a share of their variances
+  double next = 0;        // covariance with the pixel beside or below, of green
+  double shared = 0;      // mean covariance of the channels, as a share of their variances
 };
 
 using Pixels = Eigen::Matrix<double, kBlock * kBlock, 3>;
@@ -30,7 +30,8 @@ using BlockMatrix = Eigen::Matrix<double, kBlock * kBlock, kBlock * kBlock>;
 BlockMatrix MakeRemovePlane() {
   Eigen::Matrix<double, kBlock * kBlock, kPlane> plane;
   for (int i = 0; i < kBlock * kBlock; ++i) {
-    const double x = i % kBlock - (kBlock - 1) / 2.0, y = i / kBlock - (kBlock - 1) / 2.0;
+    const int column = i % kBlock, row = i / kBlock;
+    const double x = column - (kBlock - 1) / 2.0, y = row - (kBlock - 1) / 2.0;
     plane.row(i) << 1, x, y, x * y;
   }
   const Eigen::Matrix4d normal = plane.transpose() * plane;
@@ -70,10 +71,10 @@ std::optional<Block> ReadBlock(const Photograph& photo, int left, int top) {
   block.mean = pixels.colwise().mean();
   block.variance = covariance.diagonal();
   block.next = MeanOverNeighbours([&](int a, int b) { return residuals(a, 1) * residuals(b, 1); });
-  block.shared = (covariance(0, 1) / (sigma[0] * sigma[1]) +
-                  covariance(0, 2) / (sigma[0] * sigma[2]) +
-                  covariance(1, 2) / (sigma[1] * sigma[2])) /
-                 3;
+  block.shared =
+      (covariance(0, 1) / (sigma[0] * sigma[1]) + covariance(0, 2) / (sigma[0] * sigma[2]) +
+       covariance(1, 2) / (sigma[1] * sigma[2])) /
+      3;
   return block;
 }
 
@@ -91,9 +92,8 @@ std::vector<Level> EvenBlocks(std::vector<Block> blocks) {
   for (int level = 0; level < kLevels; ++level) {
     const auto first = at(level), last = at(level + 1);
     const auto end = first + static_cast<std::ptrdiff_t>(kEven * static_cast<double>(last - first));
-    std::partial_sort(first, end, last, [](const Block& a, const Block& b) {
-      return a.unevenness < b.unevenness;
-    });
+    std::partial_sort(first, end, last,
+                      [](const Block& a, const Block& b) { return a.unevenness < b.unevenness; });
     if (end != first) levels.emplace_back(first, end);
   }
   return levels;

@@ -94,8 +94,7 @@ Eigen::Vector2d FitField(const std::vector<FieldSpread>& field, double variance)
   for (const FieldSpread& spread : field) {
     squares += std::pow(spread.variance - fit.dot(Eigen::Vector2d(1, spread.share)), 2);
   }
-  const double error =
-      std::sqrt(squares / static_cast<double>(field.size() - 2) * cofactor(1, 1));
+  const double error = std::sqrt(squares / static_cast<double>(field.size() - 2) * cofactor(1, 1));
   const bool is_growth = std::abs(fit[1]) > kSignificant * error;
   return is_growth && fit[0] > 0 && fit.sum() > 0 ? fit : even;
 }

@@ -105,8 +105,7 @@ bool IsEnough(const RenderOptions& options, const PixelSum& sum, bool near_outli
   if (options.point_spread && (near_outline || is_mixed)) {
     // The first rays may all miss what spreads into the pixel.
     if (sum.rays < options.most_rays) return false;
-    return sum.rays >= options.outline_rays ||
-           sum.statistics.StandardError() <= options.tolerance;
+    return sum.rays >= options.outline_rays || sum.statistics.StandardError() <= options.tolerance;
   }
   return sum.rays >= options.most_rays || !sum.IsChanged() ||
          sum.statistics.StandardError() <= options.tolerance;

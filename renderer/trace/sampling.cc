@@ -50,8 +50,7 @@ Eigen::Vector2d PixelSampler::Spread(int ray, double sigma) const {
   static const double kWider = 1 / std::sqrt(1 - kCut * kCut / 2 * kMissing / (1 - kMissing));
   static_assert(kCut * 1.027 < kSpreadReach);
   const Eigen::Vector2d point = SpreadPoint(pixel_shift_, ray);
-  const double radius =
-      kWider * sigma * std::sqrt(-2 * std::log(1 - point.x() * (1 - kMissing)));
+  const double radius = kWider * sigma * std::sqrt(-2 * std::log(1 - point.x() * (1 - kMissing)));
   const double angle = 2 * std::numbers::pi * point.y();
   return {radius * std::cos(angle), radius * std::sin(angle)};
 }

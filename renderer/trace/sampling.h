@@ -19,7 +19,7 @@ class PixelSampler {
   // Offset [px] as the light of a point spreads over the film: a Gaussian of this sigma [px], cut
   // off at kSpreadReach sigma and so much wider that its variance stays.
   Eigen::Vector2d Spread(int ray, double sigma) const;
-  Eigen::Vector2d OnDisc(int ray) const;   // for the sun's disc, [0, 1)^2
+  Eigen::Vector2d OnDisc(int ray) const;  // for the sun's disc, [0, 1)^2
 
  private:
   Eigen::Vector2d pixel_shift_, disc_shift_;

@@ -124,9 +124,9 @@ TEST_P(BinsTest, EnvironmentReturnsToTheLastBit) {
   pierced.holes.emplace_back();
   for (int i = 0; i < 3; ++i) pierced.holes[0].push_back(0.9 * middle + 0.1 * corner(i));
   pierced.covariance = SomeCovariance(21);
-  measured.environment.qualities = {{PointSpread{0.5, 0.7, 0.03, 12}, std::nullopt},
-                                    {std::nullopt, Grain{{1e-5, 2e-5, 3e-5}, {0, 1e-4, 0}, 0.6,
-                                                         0.25, 300}}};
+  measured.environment.qualities = {
+      {PointSpread{0.5, 0.7, 0.03, 12}, std::nullopt},
+      {std::nullopt, Grain{{1e-5, 2e-5, 3e-5}, {0, 1e-4, 0}, 0.6, 0.25, 300}}};
   WriteEnvironment(truth.site, measured);
   const NaturalEnvironment& a = measured.environment;
   const NaturalEnvironment b = ReadEnvironment(truth.site);

@@ -36,7 +36,8 @@ Photograph DrawCard(int size, double turn, Spread spread) {
     for (int x = 0; x < size; ++x) {
       const double u = std::cos(turn) * (x - middle) + std::sin(turn) * (y - middle);
       const double v = -std::sin(turn) * (x - middle) + std::cos(turn) * (y - middle);
-      const double share = (std::pow(x - middle, 2) + std::pow(y - middle, 2)) / (size * size / 2.0);
+      const double share =
+          (std::pow(x - middle, 2) + std::pow(y - middle, 2)) / (size * size / 2.0);
       const double scale = spread(share) * std::numbers::sqrt2;
       const auto inside = [&](double t) {
         return 0.25 * std::erfc(-(t + half) / scale) * std::erfc((t - half) / scale);
