@@ -75,6 +75,24 @@ Json::Value Provenance(const SceneGeometry& scene) {
   return json;
 }
 
+// "0.52 px, 61 edges", or why there is none.
+void PrintQuality(const ImageQuality& quality, std::ostream& out) {
+  if (const auto& spread = quality.point_spread) {
+    out << "point spread sigma " << spread->center_sigma;
+    if (spread->corner_sigma != spread->center_sigma) {
+      out << " px in the centre, " << spread->corner_sigma;
+    }
+    out << " px (+- " << spread->sigma_error << ", " << spread->edges << " pieces of edges)";
+  } else {
+    out << "too few sharp, straight edges for its point spread: rendered as ideal";
+  }
+  if (const auto& grain = quality.grain) {
+    const Eigen::Vector3d sigma = grain->Variance(Eigen::Vector3d::Constant(0.18)).cwiseSqrt();
+    out << "; grain " << 100 * sigma[1] / 0.18 << " % at mid grey";
+  }
+  out << "\n";
+}
+
 std::ostream& operator<<(std::ostream& out, const Eigen::Vector3d& rgb) {
   return out << rgb[0] << " " << rgb[1] << " " << rgb[2];
 }
@@ -115,6 +133,10 @@ std::string BriefReport(const LightMeasurement& measured) {
       << ", with the sky " << OpenSkyRgb(environment) << "\n"
       << "Daylight: " << measured.samples.daylight.size() << " samples, residuals " << fit.rms
       << " sigma, condition " << fit.condition << "\n";
+  for (size_t i = 0; i < environment.qualities.size(); ++i) {
+    out << environment.scene.cameras[i].photo << ": ";
+    PrintQuality(environment.qualities[i], out);
+  }
   return out.str();
 }
 

@@ -9,6 +9,7 @@
 #include "calibration/photo/photograph.h"
 #include "calibration/program/program.h"
 #include "calibration/site_cameras.h"
+#include "radiometry/measure/measure_image_quality.h"
 #include "radiometry/transport/interreflection.h"
 #include "reconstruction/geometry/ray_scene.h"
 
@@ -171,6 +172,17 @@ Spectrum SampleBrdf(const LightSamples& samples, const SpectralBasis& spectra,
                                "samples.json has no daylight_reflectance_rgb: it is taken as 1, so "
                                "the building will come out too dark beside its surroundings"));
   return spectra.Ones() / std::numbers::pi;
+}
+
+std::vector<ImageQuality> MeasureQualities(const std::vector<Photograph>& photos,
+                                           const SceneGeometry& scene, Progress* progress) {
+  std::vector<ImageQuality> qualities;
+  for (size_t i = 0; i < photos.size(); ++i) {
+    qualities.push_back(
+        {MeasurePointSpread(photos[i], EdgePiecesIn(scene, i)), MeasureGrain(photos[i])});
+    progress->Step();
+  }
+  return qualities;
 }
 
 void WarnOfWeakSamples(const LightMeasurement& measured, bool has_sun,
@@ -351,11 +363,12 @@ LightMeasurement MeasureDaylight(const SitePaths& site, const LightOptions& opti
   options.Check();
   LightMeasurement measured = WithoutSamples(site, ReadSceneGeometry(site), options);
   NaturalEnvironment& environment = measured.environment;
+  const int photographs = static_cast<int>(environment.scene.cameras.size());
   constexpr int kMeasurements = 3;  // samples, air, light, each about as long as a photograph
-  Progress progress("haze and daylight",
-                    static_cast<int>(environment.scene.cameras.size()) + kMeasurements);
+  Progress progress("haze and daylight", 2 * photographs + kMeasurements);
   const std::vector<Photograph> photos = ReadPhotographs(site, environment.scene, &progress);
   environment.input_images = ListInputImages(site, environment.scene);
+  environment.qualities = MeasureQualities(photos, environment.scene, &progress);
   measured.samples = ReadSamples(site, environment.scene, photos);
   progress.Step();
   measured.reflectance_known = measured.samples.daylight_reflectance.has_value();

@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "calibration/files/json_file.h"
+#include "radiometry/image_quality_json.h"
 
 namespace insitu {
 namespace {
@@ -43,6 +44,8 @@ Json::Value CameraToJson(const NaturalEnvironment& environment, size_t i,
   if (!environment.scene.camera_covariances.empty()) {
     json["covariance"] = ToJson(environment.scene.camera_covariances[i]);
   }
+  if (!environment.qualities.empty())
+    json["image_quality"] = ImageQualityToJson(environment.qualities[i]);
   json["input_image"] = InteriorToJson(image.camera);
   json["input_image"]["file"] = image.file.lexically_relative(folder).generic_string();
   return json;
@@ -179,6 +182,8 @@ void ReadCameraOf(const JsonNode& node, NaturalEnvironment* environment) {
   if (scene.camera_covariances.size() % scene.cameras.size() != 0) {
     throw node.Error("has a covariance or none, expected the same of all cameras");
   }
+  const auto quality = node.Find("image_quality");
+  environment->qualities.push_back(quality ? ImageQualityFromJson(*quality) : ImageQuality());
   const JsonNode image = node.At("input_image");
   environment->input_images.push_back(
       {node.path().parent_path() / image.At("file").Text(), ReadInterior(image)});
@@ -304,6 +309,7 @@ Json::Value DescriptionOf(const NaturalEnvironment& environment,
   const size_t cameras = environment.scene.cameras.size(),
                covariances = environment.scene.camera_covariances.size();
   INSITU_CHECK(environment.input_images.size() == cameras);
+  INSITU_CHECK(environment.qualities.empty() || environment.qualities.size() == cameras);
   INSITU_CHECK(covariances == 0 || covariances == cameras);
   const SpectralBins& bins = environment.spectra.bins();
   Json::Value json;

@@ -222,6 +222,13 @@ Spectrum TraceSecondary(const MontageScene& scene, const Ray& ray, const LightDi
   return ApparentColor(L0, air, hit->distance);
 }
 
+bool HitsBuilding(const MontageScene& scene, const Ray& ray) {
+  const Eigen::Array3f inverse = ray.direction.cast<float>().array().inverse();
+  if (!scene.building_box.MayMeet(ray.origin.cast<float>().array(), inverse)) return false;
+  const auto hit = FindHit(scene, ray, World::kWithBuilding);
+  return hit && hit->is_building;
+}
+
 RayOutcome TracePrimary(const MontageScene& scene, const PrimaryRay& primary) {
   const auto hit = FindHit(scene, primary.ray, World::kWithBuilding);
   if (!hit) return {};  // case A

@@ -24,6 +24,9 @@ struct RayOutcome {
   Eigen::Vector3d rgb = Eigen::Vector3d::Zero();
 };
 
+// Whether the building is the first that a ray of the current camera meets.
+bool HitsBuilding(const MontageScene& scene, const Ray& ray);
+
 // Cases A (no object: no change), C (the building) and D (the site: D1, D2, D3).
 RayOutcome TracePrimary(const MontageScene& scene, const PrimaryRay& primary);
 
