@@ -68,7 +68,7 @@ TEST_F(SurveyFiles, LeaveOutAPointOfOneMarkByName) {
   const Survey survey = ReadSurvey(site_, network_.photos);
   ASSERT_EQ(survey.lone_marks.size(), 1u);
   EXPECT_EQ(survey.lone_marks[0].mark.point, "nobody");
-  EXPECT_EQ(survey.lone_marks[0].question, "");
+  EXPECT_EQ(survey.lone_marks[0].question.text(), "");
   EXPECT_EQ(survey.lone_marks[0].mark.place.line, 5);
   EXPECT_FALSE(PointsInUse(survey).contains("nobody"));
 }
@@ -81,8 +81,8 @@ TEST_F(SurveyFiles, AskOfLonePointsOfNearNames) {
   WriteSurvey(site_, network_.survey);
   const Survey survey = ReadSurvey(site_, network_.photos);
   ASSERT_EQ(survey.lone_marks.size(), 2u);
-  EXPECT_EQ(survey.lone_marks[0].question, "; did you mean 'chimny'?");
-  EXPECT_EQ(survey.lone_marks[1].question, "; did you mean 'chimney'?");
+  EXPECT_EQ(survey.lone_marks[0].question.text(), "; did you mean 'chimny'?");
+  EXPECT_EQ(survey.lone_marks[1].question.text(), "; did you mean 'chimney'?");
 }
 
 TEST_F(SurveyFiles, RefuseALoneMarkUnderASlipOfAKnownName) {
