@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cstdio>
 #include <map>
 
 #include "calibration/files/error.h"
@@ -163,10 +162,6 @@ std::vector<RenderSiteReport> RenderSite(const SitePaths& site, const RenderSite
     WriteMontage(site, photograph, report.result.linear, view.photo.encoding);
     reports.push_back(std::move(report));
   }
-  if (scene.interreflected)
-    std::fprintf(stderr, "points site %ld building %ld patches %d\n",
-                 scene.interreflected->on_site.points(), scene.interreflected->on_building.points(),
-                 scene.interreflected->interreflection.patches());
   return reports;
 }
 

@@ -188,10 +188,11 @@ void Interreflection::SetBrdfs(const std::vector<Spectrum>& irradiance) {
   for (size_t i = 0; i < irradiance.size(); ++i) {
     const Patch& patch = patches_.all()[i];
     if (!patch.is_seen) continue;
+    brdf_[i] = MeanBrdfSum{patch.photographed, irradiance[i]}.Value();
+    if (patch.is_beyond) continue;  // a photograph may show anything there
     const MeanBrdfSum one = {patch.area * patch.photographed, patch.area * irradiance[i]};
     of_material[scene_.site.scene.polygons[patch.polygon].material].Add(one);
     of_site.Add(one);
-    brdf_[i] = MeanBrdfSum{patch.photographed, irradiance[i]}.Value();
   }
   for (size_t p = 0; p < brdf_of_polygon_.size(); ++p) {
     const MeanBrdfSum& sum = of_material[scene_.site.scene.polygons[p].material];

@@ -74,6 +74,7 @@ class PatchMaker {
     const SurfacePoint point = {position, is_back ? Eigen::Vector3d(-normal) : normal};
     const int index = patches_.AddOfPolygon(face, is_back, position);
     patches_.all()[index].polygon = polygon;
+    patches_.all()[index].is_beyond = face != polygon;
     if (!AddPoint(index, point, area)) return;
     if (const auto color = LookUpColor(site_, polygon, point)) {
       patches_.all()[index].photographed += color->true_color;

@@ -30,6 +30,7 @@ struct PlannedFaces {
 struct Patch {
   SurfacePoint point;                        // where its light is gathered
   int polygon = -1;                          // of the site; -1: planned faces
+  bool is_beyond = false;                    // in the polygon's plane, but outside it
   double area = 0;                           // [m^2]
   bool is_seen = false;                      // by a photograph
   Spectrum photographed = Spectrum::Zero();  // mean radiance, if seen

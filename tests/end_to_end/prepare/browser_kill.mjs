@@ -49,10 +49,11 @@ for (let round = 0; round < kRounds; ++round) {
   server.child.kill("SIGSTOP"); // it answers nothing, so that nothing is confirmed
   const names = [];
   for (let i = 0; i < 5; ++i) names.push(await placeOne(person));
+  const shownAsKept = async () => Number((await person.data()).kept);
   // In the last round as soon as all are shown as kept, else at some moment.
-  if (round === kRounds - 1) await person.sees("#saved", "kept here");
+  if (round === kRounds - 1) await until("all are shown as kept", async () => await shownAsKept() === names.length);
   else await new Promise(resolve => setTimeout(resolve, 30 * random()));
-  const kept = Number((await person.data()).kept);
+  const kept = await shownAsKept();
   killBoth(server);
   await until("both are gone", () => browserProcesses().length === 0 && server.child.signalCode !== null);
   server = await start(site);
