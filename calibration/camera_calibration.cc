@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "calibration/boards/calibration_verdict.h"
+#include "calibration/camera_files/read_camera_file.h"
 #include "calibration/files/error.h"
 #include "calibration/files/whole_file.h"
 #include "calibration/files/wording.h"
@@ -172,6 +173,7 @@ CameraCalibration FromScan(const SitePaths& site, const FilmCamera& film, const 
   const std::string name = photo.stem().string();
   const Eigen::Vector2i size = ReadPhotographSize(photo);
   CheckInside(fiducials, name, marks, size);
+  CheckCertified(film, fiducials, marks);
   const FilmMap map = MapOfScan(fiducials, name, film, marks, size);
   const auto fit = FitFilmCamera(film, map, size.x(), size.y());
   if (!fit) {

@@ -7,8 +7,8 @@
 #include <optional>
 #include <set>
 
-#include "calibration/camera_files/camera_file.h"
 #include "calibration/camera_files/film.h"
+#include "calibration/camera_files/read_camera_file.h"
 #include "calibration/files/error.h"
 #include "calibration/files/json_file.h"
 #include "calibration/photo/exif.h"

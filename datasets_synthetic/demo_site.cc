@@ -8,6 +8,7 @@
 #include "calibration/files/whole_file.h"
 #include "calibration/photo/photograph.h"
 #include "datasets_synthetic/board_photos.h"
+#include "datasets_synthetic/bounced_light.h"
 #include "datasets_synthetic/building_writer.h"
 #include "datasets_synthetic/campus.h"
 #include "datasets_synthetic/field_survey.h"
@@ -86,10 +87,11 @@ DemoSiteSummary MakeDemoSite(const fs::path& folder, const DemoSiteOptions& opti
   const Campus campus = MakeCampus(options.width, options.height);
   const Pavilion pavilion = MakePavilion(campus.azimuth);
   const Place place{&campus, PavilionScene(pavilion), ClearMorning()};
+  const BouncedLight light(place);
   DemoSiteSummary summary;
   std::vector<RenderedView> renderings;
   for (const View& view : campus.views) {
-    renderings.push_back(RenderView(place, view, {options.sky_strata}));
+    renderings.push_back(RenderView(light, view, {options.strata}));
     WriteTruthImages(folder / "truth", view, renderings.back());
     WriteJpeg(folder / "photos" / (view.photo + ".jpg"), renderings.back().before,
               LinearTruth(folder, view));

@@ -5,8 +5,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <deque>
 #include <numbers>
+#include <optional>
+#include <utility>
 
+#include "calibration/photo/photograph.h"
 #include "datasets_synthetic/random.h"
 
 namespace insitu::demo {
@@ -15,71 +19,49 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-constexpr int kGrid = 2;        // samples along a pixel's side
-constexpr int kBlock = 2;       // [px]
-constexpr double kLift = 1e-6;  // [m], keeps a ray off the face it starts on
+constexpr int kGrid = 2;               // samples along a pixel's side
+constexpr int kBlock = 2;              // [px]
+constexpr int kNear = 4;               // [px], about a changed pixel
+constexpr double kChange = 0.1 / 255;  // of sRGB, that is none
 
-struct LightShares {
-  BeforeAfter sun, sky;
+// What lights a spot, before and after.
+struct Lighting {
+  BeforeAfter sun;
+  const Incoming* rest;
+
+  bool IsUnchanged() const {
+    return sun.before == sun.after && rest->sky.before == rest->sky.after &&
+           (rest->before == rest->after).all();
+  }
 };
 
-// A point on a face, as one sight sees it.
-struct Spot {
-  const Face* face;
-  Vector3d point;   // lifted towards the viewer
-  Vector3d normal;  // towards the viewer
-  double distance;  // [m]
-  bool on_building;
-};
-
-Eigen::Matrix3d BasisAbout(const Vector3d& axis) {
-  Eigen::Matrix3d basis;
-  basis.col(0) = axis.unitOrthogonal();
-  basis.col(1) = axis.cross(basis.col(0));
-  basis.col(2) = axis;
-  return basis;
-}
-
-Spot SpotAt(const Ray& ray, const Hit& hit, bool on_building) {
-  const double side = hit.face->normal.dot(ray.direction) > 0 ? -1 : 1;
-  const Vector3d normal = side * hit.face->normal;
-  const Vector3d point = ray.origin + hit.distance * ray.direction + kLift * normal;
-  return {hit.face, point, normal, hit.distance, on_building};
-}
-
-// What a ray meets without the building, and what with it.
-struct Sighting {
-  std::optional<Spot> before, after;  // nullopt: sky
-};
-
-Sighting Look(const Place& place, const Ray& ray) {
-  constexpr double kReach = 1e9;  // [m]
-  std::optional<Hit> natural = NearestHit(place.campus->natural, ray, kReach);
-  const double limit = natural ? natural->distance : kReach;
-  const std::optional<Hit> beyond = NearestHit(place.campus->scenery, ray, limit);
-  if (beyond) natural = beyond;
-  Sighting seen;
-  if (natural) seen.before = seen.after = SpotAt(ray, *natural, false);
-  const std::optional<Hit> building =
-      NearestHit(place.building, ray, natural ? natural->distance : kReach);
-  if (building) seen.after = SpotAt(ray, *building, true);
-  return seen;
-}
+enum class When { kBefore, kAfter };
 
 // Radiance that leaves a spot by diffuse reflection [Durisch92, Eq. (6)].
-Spectrum Diffuse(const Place& place, const Spot& spot, double sun_share, double sky_share,
+Spectrum Diffuse(const Place& place, const Spot& spot, const Lighting& light, When when,
                  double footprint) {
-  const double cosine = std::max(0.0, spot.normal.dot(place.campus->sun));
-  const Spectrum albedo = FaceReflectance(*spot.face, spot.face->Local(spot.point), footprint);
-  return albedo * (place.daylight.sun_irradiance * (cosine * sun_share / std::numbers::pi) +
-                   place.daylight.sky_radiance * sky_share);
+  const bool after = when == When::kAfter;
+  const double cosine = std::max(0.0, spot.normal.dot(place.campus->sun)) / std::numbers::pi;
+  const double sun = after ? light.sun.after : light.sun.before;
+  const double sky = after ? light.rest->sky.after : light.rest->sky.before;
+  const Spectrum& bounced = after ? light.rest->after : light.rest->before;
+  return FaceReflectance(*spot.face, spot.face->Local(spot.point), footprint) *
+         (cosine * sun * place.daylight.sun_irradiance + sky * place.daylight.sky_radiance +
+          bounced);
+}
+
+bool IsVisibleChange(const Vector3d& before, const Vector3d& after) {
+  for (int i = 0; i < 3; ++i) {
+    if (std::abs(SrgbFromLinear(before[i]) - SrgbFromLinear(after[i])) > kChange) return true;
+  }
+  return false;
 }
 
 // Renders one photograph; holds what all its pixels share.
 class Renderer {
  public:
-  Renderer(const Place& place, const View& view, const RenderOptions& options)
-      : place_(place), view_(view), options_(options), sights_(view.lens) {
+  Renderer(const BouncedLight& light, const View& view, const RenderOptions& options)
+      : light_(light), place_(light.place()), view_(view), options_(options), sights_(view.lens) {
     result_.before = result_.after = Raster(view.lens.width, view.lens.height);
     result_.mask = Raster(view.lens.width, view.lens.height, 1);
     result_.records.resize(static_cast<size_t>(view.lens.width) * view.lens.height);
@@ -90,18 +72,19 @@ class Renderer {
     tbb::parallel_for(0, block_rows, [this](int row) {
       for (int x = 0; x < view_.lens.width; x += kBlock) RenderBlock(x, row * kBlock);
     });
+    MarkChanges();
     return std::move(result_);
   }
 
  private:
-  // The sky's share is taken once for each face in a block of pixels: it varies slowly.
-  struct SkyOfFace {
+  // Gathered once for each face in a block of pixels: it varies slowly.
+  struct LightOnFace {
     const Face* face;
-    BeforeAfter share;
+    Incoming light;
   };
   struct BlockState {
     uint64_t seed;
-    std::vector<SkyOfFace> skies;
+    std::deque<LightOnFace> faces;  // keeps its addresses
   };
 
   Ray Sight(const Vector2d& pixel) const {
@@ -109,15 +92,14 @@ class Renderer {
     return {view_.center, (view_.cam_from_site.transpose() * in_cam).normalized()};
   }
 
-  LightShares Light(const Spot& spot, uint64_t sample_seed, BlockState& block) const {
-    auto sky = std::find_if(block.skies.begin(), block.skies.end(),
-                            [&](const SkyOfFace& known) { return known.face == spot.face; });
-    if (sky == block.skies.end()) {
-      const BeforeAfter share =
-          VisibleSky(place_, spot.point, spot.normal, options_.sky_strata, block.seed);
-      sky = block.skies.insert(sky, {spot.face, share});
+  Lighting LightAt(const Spot& spot, uint64_t sample_seed, BlockState& block) const {
+    auto known = std::find_if(block.faces.begin(), block.faces.end(),
+                              [&](const LightOnFace& face) { return face.face == spot.face; });
+    if (known == block.faces.end()) {
+      known = block.faces.insert(
+          known, {spot.face, light_.Gather(spot.point, spot.normal, options_.strata, block.seed)});
     }
-    return {VisibleSun(place_, spot.point, spot.normal, sample_seed), sky->share};
+    return {VisibleSun(place_, spot.point, spot.normal, sample_seed), &known->light};
   }
 
   // What glass mirrors at `spot`, after its own way through the air.
@@ -125,19 +107,19 @@ class Renderer {
     const Vector3d out = direction - 2 * direction.dot(spot.normal) * spot.normal;
     const std::optional<Spot> seen = Look(place_, {spot.point, out}).after;
     if (!seen) return place_.daylight.sky_radiance;
-    const double sky =
-        VisibleSky(place_, seen->point, seen->normal, options_.sky_strata, seed).after;
-    const double sun = VisibleSun(place_, seen->point, seen->normal, seed).after;
+    const Incoming rest = light_.Gather(seen->point, seen->normal, options_.strata, seed);
+    const Lighting light = {VisibleSun(place_, seen->point, seen->normal, seed), &rest};
     const double footprint = (spot.distance + seen->distance) / view_.lens.focal_x;
-    return ThroughAir(place_.daylight, Diffuse(place_, *seen, sun, sky, footprint), seen->distance);
+    return ThroughAir(place_.daylight, Diffuse(place_, *seen, light, When::kAfter, footprint),
+                      seen->distance);
   }
 
-  Vector3d Color(const Spot& spot, const Vector3d& direction, double sun, double sky,
+  Vector3d Color(const Spot& spot, const Vector3d& direction, const Lighting& light, When when,
                  uint64_t seed) const {
     const double cosine = std::abs(spot.normal.dot(direction));
     const double pixel_size = spot.distance / view_.lens.focal_x;
     const double footprint = pixel_size / std::sqrt(std::max(cosine, 0.01));
-    Spectrum radiance = Diffuse(place_, spot, sun, sky, footprint);
+    Spectrum radiance = Diffuse(place_, spot, light, when, footprint);
     if (const double index = MirrorIndex(spot.face->material); index > 0) {
       const double share = Fresnel(cosine, index);
       radiance = share * Mirrored(spot, direction, seed) + (1 - share) * radiance;
@@ -156,18 +138,19 @@ class Renderer {
     Note(seen.before, record);
     colors.before = colors.after = RgbFromSpectrum(place_.daylight.sky_radiance);
     if (seen.before) {
-      const auto [sun, sky] = Light(*seen.before, seed, block);
-      colors.before = Color(*seen.before, sight.direction, sun.before, sky.before, seed);
-      const bool same = sun.before == sun.after && sky.before == sky.after;
-      colors.after =
-          same ? colors.before : Color(*seen.before, sight.direction, sun.after, sky.after, seed);
-      record.sun += static_cast<float>(sun.before / (kGrid * kGrid));
-      record.sky_share += static_cast<float>(sky.before / (kGrid * kGrid));
+      const Lighting light = LightAt(*seen.before, seed, block);
+      const auto color = [&](When when) {
+        return Color(*seen.before, sight.direction, light, when, seed);
+      };
+      colors.before = color(When::kBefore);
+      colors.after = light.IsUnchanged() ? colors.before : color(When::kAfter);
+      record.sun += static_cast<float>(light.sun.before / (kGrid * kGrid));
+      record.sky_share += static_cast<float>(light.rest->sky.before / (kGrid * kGrid));
     }
     colors.building = seen.after && seen.after->on_building;
     if (colors.building) {
-      const LightShares light = Light(*seen.after, seed, block);
-      colors.after = Color(*seen.after, sight.direction, light.sun.after, light.sky.after, seed);
+      const Lighting light = LightAt(*seen.after, seed, block);
+      colors.after = Color(*seen.after, sight.direction, light, When::kAfter, seed);
     }
     return colors;
   }
@@ -207,10 +190,39 @@ class Renderer {
     }
     result_.before.SetRgb(x, y, before);
     result_.after.SetRgb(x, y, after);
-    const bool changed = (before - after).cwiseAbs().maxCoeff() > 0;
-    *result_.mask.At(x, y) = building ? 1.0f : changed ? 170.0f / 255.0f : 0.0f;
+    if (building) *result_.mask.At(x, y) = 1;
   }
 
+  void MarkChanges() {
+    const Raster changed = ChangedPixels();
+    for (int y = 0; y < view_.lens.height; ++y) {
+      for (int x = 0; x < view_.lens.width; ++x) {
+        float& code = *result_.mask.At(x, y);
+        if (code == 0 && IsNearChange(changed, x, y)) code = 170.0f / 255.0f;
+      }
+    }
+  }
+
+  Raster ChangedPixels() const {
+    Raster changed(view_.lens.width, view_.lens.height, 1);
+    for (int y = 0; y < view_.lens.height; ++y) {
+      for (int x = 0; x < view_.lens.width; ++x) {
+        *changed.At(x, y) = IsVisibleChange(result_.before.Rgb(x, y), result_.after.Rgb(x, y));
+      }
+    }
+    return changed;
+  }
+
+  bool IsNearChange(const Raster& changed, int x, int y) const {
+    for (int v = std::max(0, y - kNear); v <= std::min(changed.height - 1, y + kNear); ++v) {
+      for (int u = std::max(0, x - kNear); u <= std::min(changed.width - 1, x + kNear); ++u) {
+        if (*changed.At(u, v) > 0) return true;
+      }
+    }
+    return false;
+  }
+
+  const BouncedLight& light_;
   const Place& place_;
   const View& view_;
   const RenderOptions& options_;
@@ -220,48 +232,8 @@ class Renderer {
 
 }  // namespace
 
-BeforeAfter VisibleSky(const Place& place, const Vector3d& point, const Vector3d& normal,
-                       int strata, uint64_t seed) {
-  Random random(seed, 3, 0);
-  const Eigen::Matrix3d site_from_normal = BasisAbout(normal);
-  BeforeAfter seen;
-  for (int i = 0; i < strata * strata; ++i) {
-    const int column = i % strata, row = i / strata;
-    const double square_sine = (row + random.Uniform()) / strata;
-    const double turn = 2 * std::numbers::pi * (column + random.Uniform()) / strata;
-    const double sine = std::sqrt(square_sine), cosine = std::sqrt(1 - square_sine);
-    const Ray ray{
-        point, site_from_normal * Vector3d(sine * std::cos(turn), sine * std::sin(turn), cosine)};
-    if (ray.direction.dot(place.campus->zenith) <= 0) continue;
-    if (IsBlocked(place.campus->blockers, ray)) continue;
-    seen.before += 1;
-    if (!IsBlocked(place.building, ray)) seen.after += 1;
-  }
-  return {seen.before / (strata * strata), seen.after / (strata * strata)};
-}
-
-BeforeAfter VisibleSun(const Place& place, const Vector3d& point, const Vector3d& normal,
-                       uint64_t seed) {
-  constexpr int kRays = 4;
-  if (normal.dot(place.campus->sun) <= 0) return {};
-  Random random(seed, 4, 0);
-  const Eigen::Matrix3d site_from_sun = BasisAbout(place.campus->sun);
-  const double reach = std::tan(kSunDiameter / 2), start = random.Uniform();
-  BeforeAfter seen;
-  for (int i = 0; i < kRays; ++i) {  // a golden-angle spiral over the disc
-    const double r = reach * std::sqrt((i + random.Uniform()) / kRays);
-    const double turn = 2 * std::numbers::pi * (start + 0.381966011 * i);
-    const Vector3d toward(r * std::cos(turn), r * std::sin(turn), 1);
-    const Ray ray{point, (site_from_sun * toward).normalized()};
-    if (IsBlocked(place.campus->blockers, ray)) continue;
-    seen.before += 1;
-    if (!IsBlocked(place.building, ray)) seen.after += 1;
-  }
-  return {seen.before / kRays, seen.after / kRays};
-}
-
-RenderedView RenderView(const Place& place, const View& view, const RenderOptions& options) {
-  return Renderer(place, view, options).Run();
+RenderedView RenderView(const BouncedLight& light, const View& view, const RenderOptions& options) {
+  return Renderer(light, view, options).Run();
 }
 
 }  // namespace insitu::demo

@@ -8,18 +8,6 @@
 namespace insitu::demo {
 namespace {
 
-// Even-odd rule, good for concave outlines.
-bool Contains(const std::vector<Eigen::Vector2d>& outline, const Eigen::Vector2d& point) {
-  bool inside = false;
-  for (size_t i = 0, j = outline.size() - 1; i < outline.size(); j = i++) {
-    const Eigen::Vector2d &a = outline[i], &b = outline[j];
-    if ((a.y() > point.y()) == (b.y() > point.y())) continue;
-    const double crossing = a.x() + (point.y() - a.y()) / (b.y() - a.y()) * (b.x() - a.x());
-    if (point.x() < crossing) inside = !inside;
-  }
-  return inside;
-}
-
 bool MeetsSphere(const Face& face, const Ray& ray) {
   const Eigen::Vector3d to_center = face.center - ray.origin;
   const double along = to_center.dot(ray.direction);
@@ -61,6 +49,18 @@ void ForEachHit(const Scene& scene, const Ray& ray, double limit, const Visit& v
 }
 
 }  // namespace
+
+// Even-odd rule, good for concave outlines.
+bool Contains(const std::vector<Eigen::Vector2d>& outline, const Eigen::Vector2d& point) {
+  bool inside = false;
+  for (size_t i = 0, j = outline.size() - 1; i < outline.size(); j = i++) {
+    const Eigen::Vector2d &a = outline[i], &b = outline[j];
+    if ((a.y() > point.y()) == (b.y() > point.y())) continue;
+    const double crossing = a.x() + (point.y() - a.y()) / (b.y() - a.y()) * (b.x() - a.x());
+    if (point.x() < crossing) inside = !inside;
+  }
+  return inside;
+}
 
 std::optional<double> Intersect(const Face& face, const Ray& ray) {
   if (!MeetsSphere(face, ray)) return std::nullopt;

@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 #include <limits>
 #include <optional>
+#include <vector>
 
 #include "datasets_synthetic/scene.h"
 
@@ -19,6 +20,9 @@ struct Hit {
   const Face* face = nullptr;
   double distance = 0;  // [m]
 };
+
+// Whether an outline, convex or concave, goes round `point`.
+bool Contains(const std::vector<Eigen::Vector2d>& outline, const Eigen::Vector2d& point);
 
 // Distance to `face`, from either side; nullopt if the ray misses it or starts beyond it.
 std::optional<double> Intersect(const Face& face, const Ray& ray);

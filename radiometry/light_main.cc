@@ -27,11 +27,14 @@ int RunLight(int argc, char** argv) {
                "the paper's one spectrum for sun, sky and ambient light");
   app.add_flag("--uniform-ambient", options.uniform_ambient,
                "the paper's ambient light, alike everywhere, instead of photographed surroundings");
+  app.add_option("--bounces", options.bounces,
+                 "bounces of light among surfaces; 0: sun and sky alone; without: all")
+      ->check(CLI::NonNegativeNumber);
   return RunProgram(app, argc, argv, [&] {
     const LightMeasurement measurement = MeasureDaylight(site, options);
     WriteEnvironment(site, measurement);
     std::cout << BriefReport(measurement);
-    std::cout << WarningLines(measurement.warnings);
+    std::cout << WarningLines(TextsOf(measurement.warnings));
   });
 }
 

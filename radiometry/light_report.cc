@@ -58,7 +58,6 @@ void AddLight(const LightMeasurement& measured, Json::Value* light) {
   json["sky_radiance_sigma"] = BinsJson(fit.sky_sigma, spectra.bins());
   json["sky_radiance_rgb"] = ToJson(spectra.RgbFromSpectrum(daylight.sky_radiance));
   json["open_sky_radiance_rgb"] = ToJson(OpenSkyRgb(environment));
-  json["surroundings_weight"] = BinsJson(fit.surroundings_weight, spectra.bins());
   json["reflectance_known"] = measured.reflectance_known;
   json["condition"] = fit.condition;
   json["rms_over_sigma"] = fit.rms;
@@ -74,6 +73,24 @@ Json::Value Provenance(const SceneGeometry& scene) {
   }
   for (const PosedCamera& posed : scene.cameras) json["inputs"].append("photos/" + posed.photo);
   return json;
+}
+
+// "0.52 px, 61 edges", or why there is none.
+void PrintQuality(const ImageQuality& quality, std::ostream& out) {
+  if (const auto& spread = quality.point_spread) {
+    out << "point spread sigma " << spread->center_sigma;
+    if (spread->corner_sigma != spread->center_sigma) {
+      out << " px in the centre, " << spread->corner_sigma;
+    }
+    out << " px (+- " << spread->sigma_error << ", " << spread->edges << " pieces of edges)";
+  } else {
+    out << "too few sharp, straight edges for its point spread: rendered as ideal";
+  }
+  if (const auto& grain = quality.grain) {
+    const Eigen::Vector3d sigma = grain->Variance(Eigen::Vector3d::Constant(0.18)).cwiseSqrt();
+    out << "; grain " << 100 * sigma[1] / 0.18 << " % at mid grey";
+  }
+  out << "\n";
 }
 
 std::ostream& operator<<(std::ostream& out, const Eigen::Vector3d& rgb) {
@@ -114,10 +131,12 @@ std::string BriefReport(const LightMeasurement& measured) {
       << "Sky: radiance       " << spectra.RgbFromSpectrum(light.sky_radiance) << "\n"
       << "Ambient: radiance   " << spectra.RgbFromSpectrum(light.ambient_radiance)
       << ", with the sky " << OpenSkyRgb(environment) << "\n"
-      << "Surroundings send   " << fit.surroundings_weight.head(spectra.bins().count).mean()
-      << " of what their photographs show (0 with a uniform ambient light)\n"
       << "Daylight: " << measured.samples.daylight.size() << " samples, residuals " << fit.rms
       << " sigma, condition " << fit.condition << "\n";
+  for (size_t i = 0; i < environment.qualities.size(); ++i) {
+    out << environment.scene.cameras[i].photo << ": ";
+    PrintQuality(environment.qualities[i], out);
+  }
   return out.str();
 }
 
@@ -127,7 +146,7 @@ void WriteEnvironment(const SitePaths& site, const LightMeasurement& measured) {
   AddAir(measured, &json["air"]);
   AddLight(measured, &json["light"]);
   json["warnings"] = Json::Value(Json::arrayValue);
-  for (const std::string& warning : measured.warnings) json["warnings"].append(warning);
+  for (const Sentence& warning : measured.warnings) json["warnings"].append(warning.text());
   WriteJson(site.environment(), json);
 }
 

@@ -9,13 +9,29 @@
 #include "calibration/photo/photograph.h"
 #include "calibration/program/program.h"
 #include "calibration/site_cameras.h"
-#include "radiometry/measure/surroundings.h"
+#include "radiometry/measure/measure_image_quality.h"
+#include "radiometry/transport/interreflection.h"
 #include "reconstruction/geometry/ray_scene.h"
 
 namespace insitu {
 namespace {
 
 constexpr double kPoorCondition = 100;
+constexpr int kDirections = 4096;        // in which a sample's surroundings are looked at
+constexpr double kPieceAtSample = 0.15;  // [m], of what surrounds it
+constexpr int kRounds = 4;               // of light and unseen surroundings; each gains a digit
+constexpr double kUnseenSigma = 0.5;     // of what unseen surroundings are taken to send
+constexpr double kMuchUnseen = 0.2;      // of a sample's hemisphere
+
+// For a site as it stands.
+struct NothingPlanned {
+  TriangleMesh mesh;
+  RayScene rays{mesh};
+  std::vector<Eigen::Vector3d> normals;
+  std::vector<int> materials;
+  std::vector<Spectrum> brdfs;
+  PlannedFaces faces{mesh, rays, normals, materials, brdfs};
+};
 
 std::vector<Photograph> ReadPhotographs(const SitePaths& site, const SceneGeometry& scene,
                                         Progress* progress) {
@@ -52,7 +68,7 @@ std::vector<InputImage> ListInputImages(const SitePaths& site, const SceneGeomet
 
 std::map<std::string, NaturalMaterial> MaterialsOfPolygons(const SitePaths& site,
                                                            const SceneGeometry& scene,
-                                                           std::vector<std::string>* warnings) {
+                                                           std::vector<Sentence>* warnings) {
   std::map<std::string, NaturalMaterial> materials = ReadNaturalMaterials(site);
   std::string missing;
   for (const Polygon& polygon : scene.polygons) {
@@ -60,10 +76,10 @@ std::map<std::string, NaturalMaterial> MaterialsOfPolygons(const SitePaths& site
     missing += (missing.empty() ? "" : ", ") + polygon.material;
   }
   if (!missing.empty()) {
-    warnings->push_back(
-        "materials without an entry in survey/materials.json, taken as purely "
-        "diffuse: " +
-        missing);
+    warnings->push_back(Sentence("lightNoMaterial",
+                                 "materials without an entry in survey/materials.json, taken as "
+                                 "purely diffuse: {materials}",
+                                 {{"materials", missing}}));
   }
   return materials;
 }
@@ -84,10 +100,11 @@ Spectrum HorizonColor(const std::vector<PixelSample>& samples, const SpectralBas
 }
 
 AtmosphereFit MeasureAir(const LightSamples& samples, const SpectralBasis& spectra,
-                         std::vector<std::string>* warnings) {
+                         std::vector<Sentence>* warnings) {
   const Spectrum horizon = HorizonColor(samples.horizon, spectra);
   if (samples.haze.empty()) {
-    warnings->push_back("samples.json has no haze samples: the air is taken as clear");
+    warnings->push_back(
+        Sentence("lightNoHaze", "samples.json has no haze samples: the air is taken as clear"));
     AtmosphereFit clear;
     clear.air.horizon = horizon;
     return clear;
@@ -147,46 +164,51 @@ std::vector<LightGeometry> TraceLight(const std::vector<SurfacePoint>& points, c
 }
 
 Spectrum SampleBrdf(const LightSamples& samples, const SpectralBasis& spectra,
-                    std::vector<std::string>* warnings) {
+                    std::vector<Sentence>* warnings) {
   if (samples.daylight_reflectance) {
     return spectra.ReflectanceFromRgb(*samples.daylight_reflectance) / std::numbers::pi;
   }
-  warnings->push_back(
-      "samples.json has no daylight_reflectance_rgb: it is taken as 1, so the "
-      "building will come out too dark beside its surroundings");
+  warnings->push_back(Sentence("lightNoReflectance",
+                               "samples.json has no daylight_reflectance_rgb: it is taken as 1, so "
+                               "the building will come out too dark beside its surroundings"));
   return spectra.Ones() / std::numbers::pi;
+}
+
+std::vector<ImageQuality> MeasureQualities(const std::vector<Photograph>& photos,
+                                           const SceneGeometry& scene, Progress* progress) {
+  std::vector<ImageQuality> qualities;
+  for (size_t i = 0; i < photos.size(); ++i) {
+    qualities.push_back(
+        {MeasurePointSpread(photos[i], EdgePiecesIn(scene, i)), MeasureGrain(photos[i])});
+    progress->Step();
+  }
+  return qualities;
 }
 
 void WarnOfWeakSamples(const LightMeasurement& measured, bool has_sun,
                        const std::vector<DaylightSample>& samples,
-                       std::vector<std::string>* warnings) {
+                       std::vector<Sentence>* warnings) {
   const bool any_sun = std::any_of(samples.begin(), samples.end(),
                                    [](const auto& sample) { return sample.geometry.sun > 0; });
-  if (!has_sun) warnings->push_back("no sun direction was measured: the sky is taken as overcast");
-  if (has_sun && !any_sun) warnings->push_back("no daylight sample sees the sun: it stays dark");
-  if (measured.daylight_fit.condition > kPoorCondition) {
+  if (!has_sun) {
     warnings->push_back(
-        "the daylight samples hardly tell sun, sky and ambient light apart: choose "
-        "some in sun, in open shade and in deep shade");
+        Sentence("lightOvercast", "no sun direction was measured: the sky is taken as overcast"));
+  }
+  if (has_sun && !any_sun) {
+    warnings->push_back(
+        Sentence("lightSunUnseen", "no daylight sample sees the sun: it stays dark"));
+  }
+  if (measured.daylight_fit.condition > kPoorCondition) {
+    warnings->push_back(Sentence("lightPoor",
+                                 "the daylight samples hardly tell sun, sky and ambient light "
+                                 "apart: choose some in sun, in open shade and in deep shade"));
   }
 }
 
 std::vector<DaylightSample> DaylightSamples(const LightMeasurement& measured,
-                                            const std::vector<Photograph>& photos,
-                                            bool uniform_ambient) {
+                                            const std::vector<LightGeometry>& geometries) {
   const NaturalEnvironment& environment = measured.environment;
   const std::vector<PixelSample>& pixels = measured.samples.daylight;
-  const std::vector<SurfacePoint> points = SurfacePoints(pixels, environment.scene);
-  const PolygonMesh polygons = MeshOfPolygons(environment.scene);
-  const RayScene rays(polygons.mesh);
-  const std::vector<LightGeometry> geometries = TraceLight(points, rays, environment.light);
-  std::vector<Spectrum> surroundings;
-  if (!uniform_ambient) {
-    const std::vector<LocalImage> images = LocalImages(environment.scene, photos);
-    surroundings =
-        GatherSurroundings(points, {environment.scene, rays, polygons.polygon_of_triangle, images,
-                                    environment.air, environment.spectra});
-  }
   std::vector<DaylightSample> samples;
   for (size_t i = 0; i < pixels.size(); ++i) {
     const Spectrum apparent = environment.spectra.SpectrumFromRgb(pixels[i].rgb);
@@ -194,9 +216,86 @@ std::vector<DaylightSample> DaylightSamples(const LightMeasurement& measured,
                        SpectrumSigma(environment.spectra, pixels[i].rgb_sigma) /
                            TransmittanceOver(environment.air, pixels[i].distance),
                        geometries[i]});
-    if (!surroundings.empty()) samples.back().surroundings = surroundings[i];
   }
   return samples;
+}
+
+// What the samples receive from around, if the light is that of `fit`.
+void SetSurroundings(const Interreflection& interreflection,
+                     const std::vector<SurfacePoint>& points, const Spectrum& brdf,
+                     std::vector<DaylightSample>* samples, std::vector<double>* unseen) {
+  unseen->clear();
+  for (size_t i = 0; i < points.size(); ++i) {
+    const GatheredLight around = interreflection.At(points[i]);
+    DaylightSample& sample = (*samples)[i];
+    sample.surroundings = around.surroundings_before;
+    sample.geometry.sky = around.sky;
+    unseen->push_back(around.unseen / std::numbers::pi);
+    // What no photograph shows is known to about half of what it may send.
+    const Spectrum guess = kUnseenSigma * brdf * around.surroundings_before *
+                           (around.unseen / std::max(std::numbers::pi - around.sky, 1e-9));
+    sample.sigma = (sample.sigma.square() + guess.square()).sqrt();
+  }
+}
+
+void WarnOfUnseen(const LightMeasurement& measured, const std::vector<double>& unseen,
+                  std::vector<Sentence>* warnings) {
+  const std::vector<PixelSample>& pixels = measured.samples.daylight;
+  std::string names;
+  for (size_t i = 0; i < unseen.size(); ++i) {
+    if (unseen[i] < kMuchUnseen) continue;
+    const PixelSample& pixel = pixels[i];
+    names += names.empty() ? "" : ", ";
+    names += measured.environment.scene.cameras[pixel.photo].photo;
+    names += " (" + std::to_string(std::lround(pixel.pixel.x())) + ", ";
+    names += std::to_string(std::lround(pixel.pixel.y())) + ")";
+  }
+  if (names.empty()) return;
+  warnings->push_back(Sentence("lightUnseen",
+                               "daylight samples that receive much light from surfaces no "
+                               "photograph shows, which weigh less: {samples}",
+                               {{"samples", names}}));
+}
+
+// Eq. (9) with photographed surroundings: what no photograph shows of them depends on the light,
+// so the two take turns.
+DaylightFit FitInSurroundings(const LightMeasurement& measured,
+                              const std::vector<Photograph>& photos,
+                              const std::vector<SurfacePoint>& points, const Spectrum& brdf,
+                              const LightOptions& options, std::vector<DaylightSample> samples,
+                              std::vector<Sentence>* warnings) {
+  const NaturalEnvironment& environment = measured.environment;
+  const PolygonMesh polygons = MeshOfPolygons(environment.scene);
+  const RayScene rays(polygons.mesh);
+  const std::vector<LocalImage> images = LocalImages(environment.scene, photos);
+  const NothingPlanned nothing;
+  const TransportScene scene = {{environment.scene, rays, polygons.polygon_of_triangle, images,
+                                 environment.air, environment.spectra},
+                                polygons.mesh,
+                                nothing.faces,
+                                {}};
+  PatchGrid grid{{}, kPieceAtSample};
+  for (const SurfacePoint& point : points) {
+    grid.foci.emplace_back(point.position, point.position);
+  }
+  Daylight light = environment.light;
+  Interreflection interreflection(scene, light, grid,
+                                  {.bounces = options.bounces, .point_directions = kDirections});
+  const bool has_sun = environment.scene.sun.has_value();
+  DaylightFit fit;
+  const std::vector<DaylightSample> bare = samples;
+  std::vector<double> unseen;
+  for (int round = 0; round < kRounds; ++round) {
+    interreflection.Solve(light);
+    samples = bare;
+    SetSurroundings(interreflection, points, brdf, &samples, &unseen);
+    fit = FitDaylight(samples, brdf, has_sun, environment.spectra.bins(),
+                      {options.average_over_wavelength});
+    light.sun_radiance = fit.sun_radiance;
+    light.sky_radiance = fit.sky_radiance + fit.ambient_radiance;
+  }
+  WarnOfUnseen(measured, unseen, warnings);
+  return fit;
 }
 
 void MeasureLightComponents(const std::vector<Photograph>& photos, const LightOptions& options,
@@ -204,15 +303,21 @@ void MeasureLightComponents(const std::vector<Photograph>& photos, const LightOp
   NaturalEnvironment& environment = measured->environment;
   Daylight& light = environment.light;
   light = IlluminationGeometry(environment.scene, options.polar_facets);
+  const std::vector<SurfacePoint> points =
+      SurfacePoints(measured->samples.daylight, environment.scene);
+  const RayScene rays(MeshOfPolygons(environment.scene).mesh);
   const std::vector<DaylightSample> samples =
-      DaylightSamples(*measured, photos, options.uniform_ambient);
+      DaylightSamples(*measured, TraceLight(points, rays, light));
   const bool has_sun = environment.scene.sun.has_value();
-  measured->daylight_fit =
-      FitDaylight(samples, SampleBrdf(measured->samples, environment.spectra, &measured->warnings),
-                  has_sun, environment.spectra.bins(), {options.average_over_wavelength});
-  light.sun_radiance = measured->daylight_fit.sun_radiance;
-  light.ambient_radiance = measured->daylight_fit.ambient_radiance;
-  light.sky_radiance = measured->daylight_fit.sky_radiance;
+  const Spectrum brdf = SampleBrdf(measured->samples, environment.spectra, &measured->warnings);
+  DaylightFit& fit = measured->daylight_fit;
+  fit = options.uniform_ambient ? FitDaylight(samples, brdf, has_sun, environment.spectra.bins(),
+                                              {options.average_over_wavelength})
+                                : FitInSurroundings(*measured, photos, points, brdf, options,
+                                                    samples, &measured->warnings);
+  light.sun_radiance = fit.sun_radiance;
+  light.ambient_radiance = fit.ambient_radiance;
+  light.sky_radiance = fit.sky_radiance;
   WarnOfWeakSamples(*measured, has_sun, samples, &measured->warnings);
 }
 
@@ -227,21 +332,23 @@ LightMeasurement WithoutSamples(const SitePaths& site, SceneGeometry scene,
 }
 
 // Haze that cannot be told is left out; light needs the others.
-void RequireEnough(const SitePaths& site, LightSamples* samples,
-                   std::vector<InputError>* left_out) {
+void RequireEnough(const SitePaths& site, LightSamples* samples, std::vector<Sentence>* left_out) {
   const std::filesystem::path file = site.survey() / "samples.json";
-  const auto require = [&](const char* list, size_t count, size_t at_least) {
+  const auto require = [&](const Sentence& list, size_t count, size_t at_least) {
     if (count >= at_least) return;
-    throw InputError(file, std::string(list) + ": " + std::to_string(count) +
-                               " usable samples, expected at least " + std::to_string(at_least));
+    const Sentence message(
+        "lightTooFew", "{list}: {count} usable samples, expected at least {least}",
+        {{"list", list.ToJson()}, {"count", int(count)}, {"least", int(at_least)}});
+    throw SaidError(InputError(file, message.text()), {file}, message);
   };
-  require("horizon", samples->horizon.size(), 1);
-  require("daylight", samples->daylight.size(), 3);
+  require(Sentence("nameHorizon", "horizon"), samples->horizon.size(), 1);
+  require(Sentence("nameDaylight", "daylight"), samples->daylight.size(), 3);
   const auto [nearest, farthest] =
       std::minmax_element(samples->haze.begin(), samples->haze.end(),
                           [](const auto& a, const auto& b) { return a.distance < b.distance; });
   if (samples->haze.empty() || nearest->distance < farthest->distance) return;
-  left_out->emplace_back(file, "haze: all samples at one distance, expected different ones");
+  left_out->push_back(
+      Sentence("lightOneDistance", "haze: all samples at one distance, expected different ones"));
   samples->haze.clear();
 }
 
@@ -256,11 +363,12 @@ LightMeasurement MeasureDaylight(const SitePaths& site, const LightOptions& opti
   options.Check();
   LightMeasurement measured = WithoutSamples(site, ReadSceneGeometry(site), options);
   NaturalEnvironment& environment = measured.environment;
+  const int photographs = static_cast<int>(environment.scene.cameras.size());
   constexpr int kMeasurements = 3;  // samples, air, light, each about as long as a photograph
-  Progress progress("haze and daylight",
-                    static_cast<int>(environment.scene.cameras.size()) + kMeasurements);
+  Progress progress("haze and daylight", 2 * photographs + kMeasurements);
   const std::vector<Photograph> photos = ReadPhotographs(site, environment.scene, &progress);
   environment.input_images = ListInputImages(site, environment.scene);
+  environment.qualities = MeasureQualities(photos, environment.scene, &progress);
   measured.samples = ReadSamples(site, environment.scene, photos);
   progress.Step();
   measured.reflectance_known = measured.samples.daylight_reflectance.has_value();
@@ -273,7 +381,7 @@ LightMeasurement MeasureDaylight(const SitePaths& site, const LightOptions& opti
 
 LightMeasurement MeasureDaylightSoFar(const SitePaths& site, const SceneGeometry& scene,
                                       const std::vector<Photograph>& photos,
-                                      std::vector<InputError>* left_out) {
+                                      std::vector<Sentence>* left_out) {
   const LightOptions options;
   LightMeasurement measured = WithoutSamples(site, scene, options);
   measured.samples = ReadSamples(site, scene, photos, {}, left_out);

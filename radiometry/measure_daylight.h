@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "calibration/files/sentence.h"
 #include "calibration/program/site.h"
 #include "radiometry/measure/fit_atmosphere.h"
 #include "radiometry/measure/fit_daylight.h"
@@ -18,8 +19,8 @@ struct LightOptions {
   int bins = kMaxBins;   // 16, or 9 as the paper's mode
   int polar_facets = 8;  // m_h
   bool average_over_wavelength = false;
-  bool uniform_ambient =
-      false;  // Eq. (4) in the inversion too, instead of photographed surroundings
+  bool uniform_ambient = false;     // Eq. (4) as printed, instead of photographed surroundings
+  std::optional<int> bounces = {};  // of light among surfaces, at most; 0: sun and sky alone
 
   void Check() const;  // throws CheckError that names the field that is wrong
 };
@@ -31,7 +32,7 @@ struct LightMeasurement {
   AtmosphereFit air_fit;  // without haze samples: clear air, residuals empty
   DaylightFit daylight_fit;
   bool reflectance_known = false;  // false: rho = 1, the building's brightness is relative
-  std::vector<std::string> warnings;
+  std::vector<Sentence> warnings;
 };
 
 // Horizon colour, haze (7), daylight (9) from the site's photographs and samples.
@@ -44,6 +45,6 @@ LightMeasurement MeasureDaylight(const SitePaths& site, const LightOptions& opti
 // materials.json is at fault.
 LightMeasurement MeasureDaylightSoFar(const SitePaths& site, const SceneGeometry& scene,
                                       const std::vector<Photograph>& photos,
-                                      std::vector<InputError>* left_out);
+                                      std::vector<Sentence>* left_out);
 
 }  // namespace insitu

@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "calibration/files/json_file.h"
+#include "radiometry/image_quality_json.h"
 
 namespace insitu {
 namespace {
@@ -43,6 +44,8 @@ Json::Value CameraToJson(const NaturalEnvironment& environment, size_t i,
   if (!environment.scene.camera_covariances.empty()) {
     json["covariance"] = ToJson(environment.scene.camera_covariances[i]);
   }
+  if (!environment.qualities.empty())
+    json["image_quality"] = ImageQualityToJson(environment.qualities[i]);
   json["input_image"] = InteriorToJson(image.camera);
   json["input_image"]["file"] = image.file.lexically_relative(folder).generic_string();
   return json;
@@ -52,6 +55,7 @@ Json::Value PolygonToJson(const Polygon& polygon, const SceneGeometry& scene) {
   Json::Value json;
   json["name"] = polygon.name;
   for (const Eigen::Vector3d& vertex : polygon.vertices) json["vertices"].append(ToJson(vertex));
+  if (!polygon.holes.empty()) json["holes"] = HolesToJson(polygon.holes);
   json["normal"] = ToJson(polygon.normal);
   json["photo"] = polygon.photo ? Json::Value(scene.cameras[*polygon.photo].photo) : Json::Value();
   json["material"] = polygon.material;
@@ -178,6 +182,8 @@ void ReadCameraOf(const JsonNode& node, NaturalEnvironment* environment) {
   if (scene.camera_covariances.size() % scene.cameras.size() != 0) {
     throw node.Error("has a covariance or none, expected the same of all cameras");
   }
+  const auto quality = node.Find("image_quality");
+  environment->qualities.push_back(quality ? ImageQualityFromJson(*quality) : ImageQuality());
   const JsonNode image = node.At("input_image");
   environment->input_images.push_back(
       {node.path().parent_path() / image.At("file").Text(), ReadInterior(image)});
@@ -199,9 +205,15 @@ Polygon ReadPolygon(const JsonNode& node, const SceneGeometry& scene) {
     throw node.At("vertices").Error("has fewer than three vertices, expected a polygon");
   }
   if (const auto photo = node.Find("photo")) polygon.photo = PhotoIndex(*photo, scene);
+  if (const auto holes = node.Find("holes")) polygon.holes = HolesFromJson(*holes);
+  if (!polygon.holes.empty() && !HasInterior(polygon)) {
+    throw node.Error(
+        "polygon '" + polygon.name +
+        "' has a hole that is not within it, expected those that insitu-reconstruct wrote");
+  }
   polygon.material = node.At("material").Text();
   if (const auto covariance = node.Find("covariance")) {
-    polygon.covariance = ReadCovariance(*covariance, 3 * polygon.vertices.size());
+    polygon.covariance = ReadCovariance(*covariance, 3 * AllVertices(polygon).size());
   }
   return polygon;
 }
@@ -297,6 +309,7 @@ Json::Value DescriptionOf(const NaturalEnvironment& environment,
   const size_t cameras = environment.scene.cameras.size(),
                covariances = environment.scene.camera_covariances.size();
   INSITU_CHECK(environment.input_images.size() == cameras);
+  INSITU_CHECK(environment.qualities.empty() || environment.qualities.size() == cameras);
   INSITU_CHECK(covariances == 0 || covariances == cameras);
   const SpectralBins& bins = environment.spectra.bins();
   Json::Value json;

@@ -13,6 +13,7 @@
 #include "calibration/program/site.h"
 #include "radiometry/light/atmosphere.h"
 #include "radiometry/light/daylight.h"
+#include "radiometry/light/image_quality.h"
 #include "radiometry/light/material.h"
 #include "radiometry/spectrum/rgb_to_spectrum.h"
 #include "reconstruction/geometry/scene_geometry.h"
@@ -28,6 +29,7 @@ struct InputImage {
 struct NaturalEnvironment {
   SceneGeometry scene;
   std::vector<InputImage> input_images;  // as scene.cameras
+  std::vector<ImageQuality> qualities;   // as scene.cameras; empty: none was measured
   SpectralBasis spectra;
   Atmosphere air;
   Daylight light;

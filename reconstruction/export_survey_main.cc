@@ -18,11 +18,8 @@ struct Request {
   std::filesystem::path out;
 };
 
-insitu::SurveyExport Export(const Request& request) {
-  const std::vector<std::filesystem::path> photographs = insitu::ListPhotographs(request.site);
-  std::vector<std::string> names;
-  for (const auto& photograph : photographs) names.push_back(photograph.stem().string());
-  const insitu::Survey survey = insitu::ReadSurvey(request.site, names);
+insitu::SurveyExport Exported(const Request& request, const insitu::Survey& survey,
+                              const std::vector<std::filesystem::path>& photographs) {
   if (request.format == "odm") {
     if (request.crs.empty()) {
       throw InputError("--crs",
@@ -32,6 +29,19 @@ insitu::SurveyExport Export(const Request& request) {
   }
   const insitu::SitePhotos photos = insitu::ReadSitePhotos(request.site);
   return insitu::ExportDbat(survey, photos.cameras, photos.paths, request.out);
+}
+
+insitu::SurveyExport Export(const Request& request) {
+  const std::vector<std::filesystem::path> photographs = insitu::ListPhotographs(request.site);
+  std::vector<std::string> names;
+  for (const auto& photograph : photographs) names.push_back(photograph.stem().string());
+  const insitu::Survey survey = insitu::ReadSurvey(request.site, names);
+  insitu::SurveyExport done = Exported(request, survey, photographs);
+  for (const insitu::LoneMark& lone : survey.lone_marks) {
+    done.report.push_back("left out: point '" + lone.mark.point + "', marked on photo '" +
+                          lone.mark.photo + "' alone" + lone.question.text());
+  }
+  return done;
 }
 
 }  // namespace

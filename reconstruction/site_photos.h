@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "calibration/lens/camera.h"
+#include "calibration/lens/photo_lens.h"
 #include "calibration/program/site.h"
-#include "reconstruction/adjustment/photo_lens.h"
 
 namespace insitu {
 

@@ -11,6 +11,7 @@
 #include "calibration/photo/photograph.h"
 #include "reconstruction/adjustment/align_tie_points.h"
 #include "reconstruction/colmap/colmap_text.h"
+#include "reconstruction/colmap/read_colmap_model.h"
 #include "reconstruction/site_photos.h"
 #include "reconstruction/survey/read_survey.h"
 #include "reconstruction/survey/survey.h"

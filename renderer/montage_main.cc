@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
 #include <iostream>
+#include <optional>
+#include <string>
 #include <thread>
+#include <vector>
 
 #include "calibration/files/error.h"
 #include "calibration/files/whole_file.h"
@@ -18,7 +21,8 @@ struct MontageCommand {
   MontageRequest request;
   RunOptions options;
   std::string from, to, frame;
-  bool no_building = false, self_calibrate = false, hard_planes = false;
+  bool no_building = false, self_calibrate = false, hard_planes = false, is_paper = false;
+  std::optional<int> bounces;
 };
 
 void AddOptions(CLI::App* app, MontageCommand* command) {
@@ -32,6 +36,12 @@ void AddOptions(CLI::App* app, MontageCommand* command) {
                 "search tie points also where every photograph shows enough control");
   app->add_flag("--self-calibrate", command->self_calibrate, "adjust the lens with the site");
   app->add_flag("--hard-planes", command->hard_planes, "hold walls flat");
+  app->add_option("--bounces", command->bounces,
+                  "bounces of light among surfaces; 0: sun and sky alone; without: all")
+      ->check(CLI::NonNegativeNumber);
+  app->add_flag("--paper", command->is_paper,
+                "the paper's uniform ambient light instead of light among surfaces")
+      ->excludes("--bounces");
   app->add_option("--from", command->from, "leave the stages before this one as they are");
   app->add_option("--to", command->to, "leave the stages after this one as they are");
   app->add_option("--jobs", command->options.jobs, "stages at a time")
@@ -53,6 +63,11 @@ void Complete(MontageCommand* command) {
   request.with_building = !command->no_building;
   if (command->no_building) request.options["render"].push_back("--no-building");
   if (!command->frame.empty()) request.options["render"].push_back("--frame=" + command->frame);
+  for (const char* stage : {"light", "render"}) {
+    if (command->is_paper) request.options[stage].push_back("--uniform-ambient");
+    if (!command->bounces) continue;
+    request.options[stage].push_back("--bounces=" + std::to_string(*command->bounces));
+  }
   if (command->self_calibrate) request.options["reconstruct"].push_back("--self-calibrate");
   if (command->hard_planes) request.options["reconstruct"].push_back("--hard-planes");
   if (!command->from.empty()) command->options.first = StageNamed(command->from);

@@ -17,7 +17,8 @@ void Prepare(const SitePaths& site, const std::string& colleague, const PrepareO
     std::cout << MergeColleague(site, {colleague});
     return;
   }
-  ServePrepare(site, options, [](const std::string& url) {
+  ServePrepare(site, options, [](const std::string& url, const std::string& remark) {
+    if (!remark.empty()) std::cerr << "warning: " << remark << "\n";
     std::cout << "measuring page: " << url
               << "\nCtrl-C ends it; all that the page shows as saved is "
               << "in the survey's files\n"
@@ -38,7 +39,8 @@ int RunPrepare(int argc, char** argv) {
   std::string colleague;
   bool no_browser = false;
   AddSite(&app, &site);
-  app.add_option("--port", options.port, "of 127.0.0.1; 0: any that is free")
+  app.add_option("--port", options.port,
+                 "of 127.0.0.1; 0: the site's last one, else any that is free")
       ->check(CLI::Range(0, 65535));
   app.add_flag("--no-browser", no_browser, "only print the address");
   app.add_option("--merge", colleague,

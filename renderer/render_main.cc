@@ -38,6 +38,31 @@ void AddFrame(CLI::App* app, Frame* frame) {
       ->option_text("photo|pinhole [" + std::ranges::find_if(kFrames, is_default)->first + "]");
 }
 
+// "--sharpness measured|ideal"
+void AddSharpness(CLI::App* app, Sharpness* sharpness) {
+  static const std::map<std::string, Sharpness> kSharpness = {{"measured", Sharpness::kMeasured},
+                                                              {"ideal", Sharpness::kIdeal}};
+  app->add_option_function<std::string>(
+         "--sharpness", [=](const std::string& name) { *sharpness = kSharpness.at(name); },
+         "edges as sharp as insitu-light measured those of the photograph, or as a pixel's square")
+      ->check(CLI::IsMember(kSharpness).description(""))
+      ->option_text("measured|ideal [measured]");
+}
+
+void PrintQuality(const RenderSiteReport& report, const RenderSiteOptions& options) {
+  if (const auto& spread = report.point_spread) {
+    std::printf(
+        "  sharpness of the photograph: sigma %.2f px in the centre, %.2f px in the corners "
+        "(%d pieces of edges)\n",
+        spread->center_sigma, spread->corner_sigma, spread->edges);
+  } else if (options.sharpness == Sharpness::kMeasured) {
+    std::printf("  sharpness ideal: insitu-light measured none in this photograph\n");
+  }
+  if (options.with_grain && !report.has_grain) {
+    std::printf("  no grain: insitu-light measured none in this photograph\n");
+  }
+}
+
 int RunRender(int argc, char** argv) {
   CLI::App app("Renders the planned building into the photographs of its site.", "insitu-render");
   app.footer(
@@ -54,6 +79,17 @@ int RunRender(int argc, char** argv) {
   app.add_option("--most-rays", options.render.most_rays, "rays a pixel at most")
       ->check(CLI::IsMember({4, 8, 12, 16}))
       ->capture_default_str();
+  app.add_flag("--uniform-ambient", options.uniform_ambient,
+               "the paper's ambient light, alike everywhere, instead of light among surfaces");
+  app.add_option("--reach", options.render.reach,
+                 "change in 8-bit codes up to which the photograph's pixel stays")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
+  AddSharpness(&app, &options.sharpness);
+  app.add_flag("--grain", options.with_grain, "computed pixels get the photograph's grain");
+  app.add_option("--bounces", options.bounces,
+                 "bounces of light among surfaces; 0: sun and sky alone; without: all")
+      ->check(CLI::NonNegativeNumber);
   app.add_option("--threads", options.render.threads, "threads; 0: all cores")
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
@@ -61,7 +97,10 @@ int RunRender(int argc, char** argv) {
   return RunProgram(app, argc, argv, [&] {
     options.with_building = !no_building;
     const auto profile = timing ? std::make_unique<Profile>() : nullptr;
-    for (const RenderSiteReport& report : RenderSite(site, options)) PrintReport(report);
+    for (const RenderSiteReport& report : RenderSite(site, options)) {
+      PrintReport(report);
+      PrintQuality(report, options);
+    }
     if (profile) std::fputs(profile->Report().c_str(), stdout);
   });
 }

@@ -7,6 +7,7 @@
 
 #include "calibration/files/error.h"
 #include "calibration/program/program.h"
+#include "renderer/trace/interreflected_light.h"
 #include "renderer/trace/make_montage_scene.h"
 #include "renderer/trace/profile.h"
 
@@ -59,19 +60,43 @@ MontageScene LoadScene(NaturalEnvironment natural, const ArtificialEnvironment& 
 
 struct View {
   PosedCamera camera;
+  ImageQuality quality;
   Photograph photo;
 };
+
+// Pixels of a pinhole for one of its photograph, at a pixel of the photograph.
+double PinholeScale(const Camera& lens, const Camera& pinhole, const Eigen::Vector2d& pixel) {
+  const auto at = [&](double dx, double dy) {
+    return pinhole.Project(lens.Unproject(pixel + Eigen::Vector2d(dx, dy)));
+  };
+  const auto here = at(0, 0), right = at(1, 0), below = at(0, 1);
+  if (!here || !right || !below) return 1;
+  const Eigen::Vector2d u = *right - *here, v = *below - *here;
+  return std::sqrt(std::abs(u.x() * v.y() - u.y() * v.x()));
+}
+
+// What a photograph's point spread is in its input image.
+PointSpread InPinhole(PointSpread spread, const Camera& lens, const Camera& pinhole) {
+  const Eigen::Vector2d center((lens.width() - 1) / 2.0, (lens.height() - 1) / 2.0);
+  spread.center_sigma *= PinholeScale(lens, pinhole, center);
+  spread.corner_sigma *= PinholeScale(lens, pinhole, Eigen::Vector2d::Zero());
+  return spread;
+}
 
 View LoadView(const SitePaths& site, const MontageScene& scene,
               const std::filesystem::path& photograph, Frame frame) {
   const PhaseScope phase(Phase::kFiles);
   const NaturalEnvironment& natural = scene.natural;
   const size_t index = IndexOf(site, natural.scene, photograph.stem().string());
-  View view = {natural.scene.cameras[index], {}};
+  View view = {natural.scene.cameras[index], natural.qualities[index], {}};
   RequirePhotographSize(photograph, view.camera.camera.width(), view.camera.camera.height());
   view.photo = ReadPhotograph(photograph);
   if (frame == Frame::kPinhole) {
-    view.camera.camera = natural.input_images[index].camera;
+    const Camera& pinhole = natural.input_images[index].camera;
+    if (auto& spread = view.quality.point_spread) {
+      spread = InPinhole(*spread, view.camera.camera, pinhole);
+    }
+    view.camera.camera = pinhole;
     view.photo.linear = scene.input_images[index];
   }
   return view;
@@ -110,7 +135,8 @@ std::vector<RenderSiteReport> RenderSite(const SitePaths& site, const RenderSite
   const std::vector<std::filesystem::path> photographs = ChoosePhotographs(site, options.photos);
   const ArtificialEnvironment building =
       options.with_building ? ReadArtificialEnvironment(site) : ArtificialEnvironment();
-  const MontageScene scene = LoadScene(ReadEnvironment(site), building);
+  MontageScene scene = LoadScene(ReadEnvironment(site), building);
+  if (!options.uniform_ambient) AddInterreflection(&scene, options.bounces);
   std::map<std::string, UncertaintySummary> uncertainties;
   if (options.with_building) {
     uncertainties = WriteUncertainties(site, scene.natural.scene, building);
@@ -124,7 +150,12 @@ std::vector<RenderSiteReport> RenderSite(const SitePaths& site, const RenderSite
     report.photo = photograph.stem().string();
     const auto uncertainty = uncertainties.find(report.photo);
     if (uncertainty != uncertainties.end()) report.uncertainty = uncertainty->second;
-    report.result = RenderMontage(scene, view.camera, view.photo.linear, options.render,
+    RenderOptions render = options.render;
+    if (options.sharpness == Sharpness::kMeasured) render.point_spread = view.quality.point_spread;
+    if (options.with_grain) render.grain = view.quality.grain;
+    report.point_spread = render.point_spread;
+    report.has_grain = render.grain.has_value();
+    report.result = RenderMontage(scene, view.camera, view.photo.linear, render,
                                   [&progress] { progress.Step(); });
     report.seconds =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

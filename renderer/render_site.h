@@ -18,18 +18,29 @@ enum class Frame {
   kPinhole
 };  // the original photograph's pixel grid, or the input image's
 
+enum class Sharpness {
+  kMeasured,
+  kIdeal
+};  // as insitu-light measured it in the photograph, or each pixel the mean over its square
+
 struct RenderSiteOptions {
   Frame frame = Frame::kPhoto;
   bool with_building = true;
   std::vector<std::string> photos;  // names; empty: every photo of the site
-  RenderOptions render;
+  RenderOptions render;             // point spread and grain apart: each photograph has its own
+  Sharpness sharpness = Sharpness::kMeasured;
+  bool with_grain = false;
+  bool uniform_ambient = false;     // the paper's light as printed, instead of light among surfaces
+  std::optional<int> bounces = {};  // of light among surfaces, at most; 0: sun and sky alone
 
   void Check() const;  // throws CheckError that names the field that is wrong
 };
 
 struct RenderSiteReport {
   std::string photo;
-  RenderResult result;                            // its picture is written already
+  RenderResult result;                      // its picture is written already
+  std::optional<PointSpread> point_spread;  // applied; nullopt: ideal
+  bool has_grain = false;
   double seconds = 0;                             // rendering, files apart
   std::optional<UncertaintySummary> uncertainty;  // of the building's image; nullopt: no building
                                                   // in the frame, or no covariances

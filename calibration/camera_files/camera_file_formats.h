@@ -3,6 +3,7 @@
 // share.
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <vector>
 

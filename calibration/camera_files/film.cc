@@ -33,15 +33,13 @@ Eigen::Vector2d Mapped(const Eigen::Matrix3d& map, const Eigen::Vector2d& point)
   return (map * point.homogeneous()).hnormalized();
 }
 
-// One Gauss-Newton step on the first `count` of the map's elements, row by row; false: singular.
-bool Improve(const std::vector<Eigen::Vector2d>& from, const std::vector<Eigen::Vector2d>& to,
-             int count, Eigen::Matrix3d* map) {
+// How the mapped places change with the first `count` of the map's elements, row by row.
+Eigen::MatrixXd DesignOf(const std::vector<Eigen::Vector2d>& from, const Eigen::Matrix3d& map,
+                         int count) {
   Eigen::MatrixXd design = Eigen::MatrixXd::Zero(2 * from.size(), count);
-  Eigen::VectorXd rest(2 * from.size());
   for (size_t i = 0; i < from.size(); ++i) {
-    const Eigen::Vector3d mapped = *map * from[i].homogeneous();
+    const Eigen::Vector3d mapped = map * from[i].homogeneous();
     const Eigen::Vector2d position = mapped.hnormalized();
-    rest.segment<2>(2 * i) = to[i] - position;
     for (const Eigen::Index axis : {0, 1}) {
       const auto row = static_cast<Eigen::Index>(2 * i + axis);
       design.block<1, 3>(row, 3 * axis) = from[i].homogeneous().transpose() / mapped.z();
@@ -50,7 +48,15 @@ bool Improve(const std::vector<Eigen::Vector2d>& from, const std::vector<Eigen::
       }
     }
   }
-  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> solver(design);
+  return design;
+}
+
+// One Gauss-Newton step on the first `count` of the map's elements; false: singular.
+bool Improve(const std::vector<Eigen::Vector2d>& from, const std::vector<Eigen::Vector2d>& to,
+             int count, Eigen::Matrix3d* map) {
+  Eigen::VectorXd rest(2 * from.size());
+  for (size_t i = 0; i < from.size(); ++i) rest.segment<2>(2 * i) = to[i] - Mapped(*map, from[i]);
+  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> solver(DesignOf(from, *map, count));
   solver.setThreshold(1e-9);
   if (solver.rank() < count) return false;
   const Eigen::VectorXd step = solver.solve(rest);
@@ -58,8 +64,46 @@ bool Improve(const std::vector<Eigen::Vector2d>& from, const std::vector<Eigen::
   return true;
 }
 
+// The diagonal of I - A (A^T A)^-1 A^T.
+std::vector<Eigen::Vector2d> RedundanciesOf(const Eigen::MatrixXd& design) {
+  const Eigen::MatrixXd basis = design.householderQr().householderQ() *
+                                Eigen::MatrixXd::Identity(design.rows(), design.cols());
+  std::vector<Eigen::Vector2d> redundancies;
+  for (Eigen::Index row = 0; row < design.rows(); row += 2) {
+    const Eigen::Vector2d used = basis.middleRows<2>(row).rowwise().squaredNorm();
+    redundancies.push_back((1 - used.array()).max(0));
+  }
+  return redundancies;
+}
+
 int Parameters(FilmTransformation transformation) {
   return transformation == FilmTransformation::kAffine ? 6 : 8;
+}
+
+std::map<std::string, Eigen::Vector2d> CertifiedMarks(const JsonNode& list) {
+  std::map<std::string, Eigen::Vector2d> marks;
+  for (const JsonNode& item : list.Items()) {
+    const std::string mark = item.At("mark").Text();
+    const Eigen::Vector2d image_mm(item.At("x_mm").Number(), item.At("y_mm").Number());
+    if (!marks.emplace(mark, image_mm).second) throw item.Error("mark " + mark + " stands twice");
+  }
+  return marks;
+}
+
+bool HoldsFilm(const std::filesystem::path& folder) {
+  return std::filesystem::exists(folder / "film.json") ||
+         std::filesystem::exists(folder / "fiducials.csv");
+}
+
+std::vector<std::filesystem::path> FoldersIn(const std::filesystem::path& folder) {
+  std::vector<std::filesystem::path> folders;
+  if (!std::filesystem::is_directory(folder)) return folders;
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    const bool is_hidden = entry.path().filename().string().starts_with('.');
+    if (entry.is_directory() && !is_hidden) folders.push_back(entry.path());
+  }
+  std::sort(folders.begin(), folders.end());
+  return folders;
 }
 
 FilmTransformation TransformationOf(const JsonNode& file) {
@@ -127,6 +171,7 @@ std::optional<FilmMap> FitFilmMap(const std::vector<Fiducial>& marks,
                                   fiducial.bitmap_px);
     sum += result.residuals_px.back().squaredNorm();
   }
+  result.redundancies = RedundanciesOf(DesignOf(image, map, count));
   if (observations > count) result.sigma_px = std::sqrt(sum / (observations - count));
   return result;
 }
@@ -143,6 +188,7 @@ FilmCamera ReadFilmCamera(const std::filesystem::path& path) {
     film.principal_point_mm = {numbers[0], numbers[1]};
   }
   film.transformation = TransformationOf(file);
+  if (const auto list = file.Find("fiducials")) film.fiducials = CertifiedMarks(*list);
   const auto table = file.Find("distortion");
   if (!table) return film;
   for (const JsonNode& row : table->Items()) {
@@ -154,6 +200,33 @@ FilmCamera ReadFilmCamera(const std::filesystem::path& path) {
   }
   if (film.distortion.size() == 1) throw table->Error("expected two radii or more, or none");
   return film;
+}
+
+void CheckCertified(const FilmCamera& film, const std::filesystem::path& fiducials,
+                    const std::vector<Fiducial>& marks) {
+  if (film.fiducials.empty()) return;
+  for (const Fiducial& fiducial : marks) {
+    const auto listed = film.fiducials.find(fiducial.mark);
+    if (listed != film.fiducials.end() && listed->second == fiducial.image_mm) continue;
+    throw InputError(fiducials,
+                     "mark " + fiducial.mark +
+                         (listed == film.fiducials.end() ? " is not among those of "
+                                                         : " has other millimetres in ") +
+                         film.path.string());
+  }
+}
+
+std::vector<std::filesystem::path> FilmFolders(const std::filesystem::path& calibration) {
+  std::vector<std::filesystem::path> folders = FoldersIn(calibration);
+  folders.insert(folders.begin(), calibration);
+  std::erase_if(folders, [](const auto& folder) { return !HoldsFilm(folder); });
+  return folders;
+}
+
+std::filesystem::path FilmFolder(const std::filesystem::path& calibration) {
+  const std::vector<std::filesystem::path> folders = FilmFolders(calibration);
+  if (!folders.empty()) return folders.front();
+  return FoldersIn(calibration).empty() ? calibration : calibration / "film";
 }
 
 double DistortionAt(const FilmCamera& film, double radius_mm) {

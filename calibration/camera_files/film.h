@@ -35,6 +35,7 @@ struct FilmMap {
   FilmTransformation transformation = FilmTransformation::kAffine;
   Eigen::Matrix3d bitmap_from_image = Eigen::Matrix3d::Identity();  // mm -> px, (2, 2) is 1
   std::vector<Eigen::Vector2d> residuals_px = {};  // of each mark, mapped - measured
+  std::vector<Eigen::Vector2d> redundancies = {};  // of each coordinate, 0..1: shown of its error
   std::optional<double> sigma_px =
       {};  // of a measured coordinate; nullopt: no mark more than needed
 };
@@ -45,17 +46,29 @@ std::optional<FilmMap> FitFilmMap(const std::vector<Fiducial>& marks,
                                   FilmTransformation transformation);
 
 // film.json: {"focal_mm", "principal_point_mm": [x, y], "distortion": [[radius_mm, distortion_mm],
-// ...], "transformation": "affine" | "projective"}; the last three may be missing. A certificate's
-// distortion is the measured radius less the undistorted one, positive outwards, at the measured
-// radius about the principal point.
+// ...], "transformation": "affine" | "projective", "fiducials": [{"mark", "x_mm", "y_mm"}, ...]};
+// all but the first may be missing. A certificate's distortion is the measured radius less the
+// undistorted one, positive outwards, at the measured radius about the principal point.
 struct FilmCamera {
   double focal_mm = 0;  // calibrated focal length
   Eigen::Vector2d principal_point_mm = Eigen::Vector2d::Zero();
   std::vector<Eigen::Vector2d> distortion;  // (radius, distortion) [mm], radii rising from > 0
   FilmTransformation transformation = FilmTransformation::kAffine;
+  std::map<std::string, Eigen::Vector2d> fiducials;  // [mm], by mark
   std::filesystem::path path;
 };
 FilmCamera ReadFilmCamera(const std::filesystem::path& path);  // throws InputError
+
+// Throws InputError: a mark that the certificate does not list, or lists with other millimetres.
+// Certificates without fiducials say nothing.
+void CheckCertified(const FilmCamera& film, const std::filesystem::path& fiducials,
+                    const std::vector<Fiducial>& marks);
+
+// The folders that hold film.json or fiducials.csv, sorted: calibration/ itself, those in it.
+std::vector<std::filesystem::path> FilmFolders(const std::filesystem::path& calibration);
+
+// The first of them; of new film calibration/ itself, or its folder film beside other cameras'.
+std::filesystem::path FilmFolder(const std::filesystem::path& calibration);
 
 // The distortion at a radius [mm]: smooth and odd through the table's values (monotone cubics),
 // straight on beyond its last.

@@ -4,11 +4,13 @@
 #include <OpenImageIO/imageio.h>
 #include <tbb/parallel_for.h>
 
+#include <algorithm>
 #include <cmath>
 #include <exiv2/exiv2.hpp>
 #include <stdexcept>
 #include <string>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "calibration/files/error.h"
@@ -63,18 +65,26 @@ std::vector<Sample> ReadSamples(ImageInput& input, const fs::path& path) {
   return samples;
 }
 
-// The first three channels through `decode`; one or two channels are grey (and alpha).
+// The first three channels; one or two channels are grey (and alpha).
+template <typename Sample>
+std::vector<Sample> ReadThreeChannels(ImageInput& input, const fs::path& path) {
+  std::vector<Sample> samples = ReadSamples<Sample>(input, path);
+  const int channels = input.spec().nchannels;
+  if (channels == 3) return samples;
+  const bool is_grey = channels < 3;
+  std::vector<Sample> three(samples.size() / channels * 3);
+  for (size_t i = 0; i * 3 < three.size(); ++i) {
+    for (int c = 0; c < 3; ++c) three[3 * i + c] = samples[i * channels + (is_grey ? 0 : c)];
+  }
+  return three;
+}
+
+// The same through `decode`.
 template <typename Sample, typename Decode>
 Raster Decoded(ImageInput& input, const fs::path& path, const Decode& decode) {
-  const std::vector<Sample> samples = ReadSamples<Sample>(input, path);
-  const int channels = input.spec().nchannels;
-  const bool is_grey = channels < 3;
+  const std::vector<Sample> samples = ReadThreeChannels<Sample>(input, path);
   Raster raster(input.spec().width, input.spec().height);
-  for (size_t i = 0; i * 3 < raster.data.size(); ++i) {
-    for (int c = 0; c < 3; ++c) {
-      raster.data[3 * i + c] = decode(samples[i * channels + (is_grey ? 0 : c)]);
-    }
-  }
+  std::transform(samples.begin(), samples.end(), raster.data.begin(), decode);
   return raster;
 }
 
@@ -184,6 +194,23 @@ Photograph ReadPhotograph(const fs::path& path) {
   if (encoding == Encoding::kSrgb16) return {DecodedCodes<uint16_t>(*input, path), encoding};
   Photograph photo{Decoded<float>(*input, path, [](float value) { return value; }), encoding};
   CheckFinite(photo.linear, path);
+  return photo;
+}
+
+CodedPhotograph ReadCodedPhotograph(const fs::path& path) {
+  const auto input = Open(path);
+  CodedPhotograph photo{input->spec().width, input->spec().height, {}};
+  switch (EncodingOf(input->spec(), path)) {
+    case Encoding::kSrgb8:
+      photo.samples = ReadThreeChannels<uint8_t>(*input, path);
+      break;
+    case Encoding::kSrgb16:
+      photo.samples = ReadThreeChannels<uint16_t>(*input, path);
+      break;
+    case Encoding::kLinear:
+      photo.samples = std::move(ReadPhotograph(path).linear.data);  // finite
+      break;
+  }
   return photo;
 }
 

@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <filesystem>
 #include <string>
+#include <variant>
+#include <vector>
 
 #include "calibration/photo/raster.h"
 
@@ -26,6 +28,14 @@ double SrgbFromLinear(double linear);
 // JPEG, PNG, TIFF (sRGB) or EXR (linear); grey becomes three equal channels.
 // Throws InputError: missing, not an image, cut short, NaN or infinite values.
 Photograph ReadPhotograph(const std::filesystem::path& path);
+
+// The same, as its file has it: sRGB codes of 8 or 16 bits, or linear values; three channels, rows
+// of red, green and blue.
+struct CodedPhotograph {
+  int width = 0, height = 0;  // [px]
+  std::variant<std::vector<uint8_t>, std::vector<uint16_t>, std::vector<float>> samples;
+};
+CodedPhotograph ReadCodedPhotograph(const std::filesystem::path& path);
 
 // (width, height) [px] from the file's header alone. Throws InputError: missing, not an image.
 Eigen::Vector2i ReadPhotographSize(const std::filesystem::path& path);

@@ -77,14 +77,6 @@ struct LoopbackServer::Parts {
   boost::asio::steady_timer pause;
 };
 
-void LoopbackServerOptions::Check() const {
-  if (port < 0 || port > 65535) {
-    throw InputError("port " + std::to_string(port), "expected 0 to 65535");
-  }
-  INSITU_CHECK(token.size() >= 32);
-  INSITU_CHECK(threads > 0 && slow_threads > 0 && most_connections > 0);
-}
-
 LoopbackServer::LoopbackServer(LoopbackServerOptions options, LoopbackServerCallbacks callbacks) {
   options.Check();
   INSITU_CHECK(callbacks.on_request);

@@ -4,11 +4,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <fstream>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 #include <string>
 #include <string_view>
 #include <utility>
+#include <variant>
 
 #include "calibration/files/error.h"
 #include "calibration/files/whole_file.h"
@@ -17,7 +19,11 @@
 namespace insitu {
 namespace {
 
-bool IsJpeg(std::string_view content) { return content.starts_with("\xff\xd8\xff"); }
+bool IsJpeg(const std::filesystem::path& path) {
+  char start[3] = {};
+  std::ifstream(path, std::ios::binary).read(start, sizeof start);
+  return std::string_view(start, sizeof start) == "\xff\xd8\xff";
+}
 
 // OpenCV fills up what is missing of a JPEG. A scan begins with FF DA and ends at FF D9, neither of
 // which is within; a thumbnail's end comes before the photograph's scan.
@@ -40,44 +46,12 @@ cv::Mat DecodedJpeg(const std::filesystem::path& path, const std::string& conten
   return image;
 }
 
-// Code by linear value, fine enough that each code's own value yields it.
-template <typename Code>
-const std::vector<Code>& CodeTable() {
-  static const std::vector<Code> table = [] {
-    constexpr int kHighest = std::numeric_limits<Code>::max();
-    std::vector<Code> codes(sizeof(Code) == 1 ? 1 << 16 : 1 << 21);
-    for (size_t i = 0; i < codes.size(); ++i) {
-      const double linear = static_cast<double>(i) / static_cast<double>(codes.size() - 1);
-      codes[i] = static_cast<Code>(std::lround(kHighest * SrgbFromLinear(linear)));
-    }
-    return codes;
-  }();
-  return table;
-}
-
-template <typename Code>
-cv::Mat CodesOf(const Raster& linear, int type) {
-  const std::vector<Code>& table = CodeTable<Code>();
-  const float highest = static_cast<float>(table.size() - 1);
-  cv::Mat image(linear.height, linear.width, type);
-  cv::parallel_for_(cv::Range(0, linear.height), [&](const cv::Range& rows) {
-    for (int y = rows.start; y < rows.end; ++y) {
-      const float* const values = linear.At(0, y);
-      Code* const codes = image.ptr<Code>(y);
-      for (int i = 0; i < 3 * linear.width; i += 3) {
-        for (int c = 0; c < 3; ++c) {  // blue first
-          codes[i + 2 - c] = table[cvRound(values[i + c] * highest)];
-        }
-      }
-    }
-  });
-  return image;
-}
-
-cv::Mat FloatsOf(Raster linear) {
+template <typename Sample>
+cv::Mat BlueFirst(const CodedPhotograph& photo, std::vector<Sample>& samples) {
+  const cv::Mat rgb(photo.height, photo.width, CV_MAKETYPE(cv::DataType<Sample>::depth, 3),
+                    samples.data());
   cv::Mat image;
-  cv::cvtColor(cv::Mat(linear.height, linear.width, CV_32FC3, linear.data.data()), image,
-               cv::COLOR_RGB2BGR);
+  cv::cvtColor(rgb, image, cv::COLOR_RGB2BGR);
   return image;
 }
 
@@ -91,18 +65,14 @@ std::array<std::pair<cv::Range, cv::Range>, 2> Halvings(int size) {
 }  // namespace
 
 cv::Mat ReadShownPhotograph(const std::filesystem::path& path) {
-  const std::string content = ReadWhole(path);
-  if (IsJpeg(content)) return DecodedJpeg(path, content, cv::IMREAD_COLOR);
-  Photograph photo = ReadPhotograph(path);
-  if (photo.encoding == Encoding::kSrgb8) return CodesOf<uint8_t>(photo.linear, CV_8UC3);
-  if (photo.encoding == Encoding::kSrgb16) return CodesOf<uint16_t>(photo.linear, CV_16UC3);
-  return FloatsOf(std::move(photo.linear));
+  if (IsJpeg(path)) return DecodedJpeg(path, ReadWhole(path), cv::IMREAD_COLOR);
+  CodedPhotograph photo = ReadCodedPhotograph(path);
+  return std::visit([&](auto& samples) { return BlueFirst(photo, samples); }, photo.samples);
 }
 
 cv::Mat ReadEighthOfPhotograph(const std::filesystem::path& path) {
-  const std::string content = ReadWhole(path);
-  if (!IsJpeg(content)) return {};
-  return DecodedJpeg(path, content, cv::IMREAD_REDUCED_COLOR_8);
+  if (!IsJpeg(path)) return {};
+  return DecodedJpeg(path, ReadWhole(path), cv::IMREAD_REDUCED_COLOR_8);
 }
 
 cv::Mat HalvedImage(const cv::Mat& image) {

@@ -10,6 +10,7 @@
 
 #include "calibration/files/error.h"
 #include "calibration/photo/photograph.h"
+#include "calibration/web/overview_files.h"
 #include "calibration/web/photo_cache.h"
 
 namespace insitu {
@@ -54,8 +55,9 @@ double CodeAt(const cv::Mat& image, int x, int y, int channel) {
 }  // namespace
 
 struct PhotoTiles::Parts {
-  Parts(std::vector<std::filesystem::path> paths, size_t most_bytes)
-      : photos(std::move(paths)), cache(most_bytes), sizes(photos.size()) {}
+  Parts(std::vector<std::filesystem::path> paths, const std::filesystem::path& folder,
+        size_t most_bytes)
+      : photos(std::move(paths)), overviews(folder), cache(most_bytes), sizes(photos.size()) {}
 
   const std::filesystem::path& PathOf(int photo) const {
     if (photo >= 0 && photo < static_cast<int>(photos.size())) return photos[photo];
@@ -100,18 +102,26 @@ struct PhotoTiles::Parts {
                      [&] { return Decoded(photo, ReadShownPhotograph(PathOf(photo)), 0); });
   }
 
-  // Of a JPEG's overview, which is there soon, or of the whole.
+  // A JPEG's own or the one that was kept, which are there soon, else of the whole.
+  cv::Mat Overview(int photo) {
+    const std::filesystem::path& path = PathOf(photo);
+    cv::Mat eighth = ReadEighthOfPhotograph(path);
+    if (eighth.empty()) eighth = overviews.Read(path);
+    if (!eighth.empty()) return eighth;
+    eighth = Whole(photo)->Level(kOverview);
+    overviews.Keep(path, eighth);
+    return eighth;
+  }
+
   cv::Mat LevelOf(int photo, int level) {
     if (level < kOverview) return Whole(photo)->Level(level);
-    const auto overview = cache.Get({photo, true}, [&] {
-      cv::Mat eighth = ReadEighthOfPhotograph(PathOf(photo));
-      if (eighth.empty()) eighth = Whole(photo)->Level(kOverview);
-      return Decoded(photo, std::move(eighth), kOverview);
-    });
+    const auto overview =
+        cache.Get({photo, true}, [&] { return Decoded(photo, Overview(photo), kOverview); });
     return overview->Level(level);
   }
 
   const std::vector<std::filesystem::path> photos;
+  const OverviewFiles overviews;
   PhotoCache cache;
   std::mutex mutex;  // for the next one
   std::vector<std::optional<PyramidSize>> sizes;
@@ -123,8 +133,9 @@ PyramidSize PyramidSizeOf(int width, int height) {
   return size;
 }
 
-PhotoTiles::PhotoTiles(std::vector<std::filesystem::path> photos, size_t most_bytes)
-    : parts_(std::make_unique<Parts>(std::move(photos), most_bytes)) {}
+PhotoTiles::PhotoTiles(std::vector<std::filesystem::path> photos,
+                       const std::filesystem::path& overviews, size_t most_bytes)
+    : parts_(std::make_unique<Parts>(std::move(photos), overviews, most_bytes)) {}
 
 PhotoTiles::~PhotoTiles() = default;
 

@@ -31,8 +31,10 @@ struct PixelValue {
 // photograph cannot be decoded (names it), or there is no such photograph, tile or pixel.
 class PhotoTiles {
  public:
-  // What is decoded takes at most about `most_bytes`, of which what was asked for last.
+  // What is decoded takes at most about `most_bytes`, of which what was asked for last. Overviews
+  // of all but JPEG, which has its own, are kept in the folder `overviews`, if it is named.
   explicit PhotoTiles(std::vector<std::filesystem::path> photos,
+                      const std::filesystem::path& overviews = {},
                       size_t most_bytes = size_t{2} << 30);
   ~PhotoTiles();
 

@@ -11,7 +11,7 @@
 #include <string>
 #include <utility>
 
-#include "calibration/web/loopback_server.h"
+#include "calibration/web/loopback_server_options.h"
 
 namespace insitu {
 

@@ -2,6 +2,7 @@
 #include "radiometry/light/daylight.h"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -11,7 +12,6 @@ namespace insitu {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-constexpr int kSunPoints = 16;
 
 // Right-handed axes with `zenith` as the third.
 Eigen::Matrix3d FrameAbout(const Eigen::Vector3d& zenith) {
@@ -26,18 +26,11 @@ Eigen::Vector3d Spherical(double cosine, double azimuth) {
   return {sine * std::cos(azimuth), sine * std::sin(azimuth), cosine};
 }
 
-// The part of the sun's disc that is seen, from points spread evenly over it (a sunflower's seeds),
-// so that a sample in a penumbra gets its share.
+// The part of the sun's disc that is seen, so that a sample in a penumbra gets its share.
 double VisiblePartOfSun(const Daylight& light,
                         const std::function<bool(const Eigen::Vector3d&)>& is_visible) {
-  const Eigen::Matrix3d axes = FrameAbout(light.sun_direction);
-  const double golden_angle = kPi * (3 - std::sqrt(5.0));
-  int visible = 0;
-  for (int i = 0; i < kSunPoints; ++i) {
-    const double cosine = 1 - light.sun_solid_angle / (2 * kPi) * (i + 0.5) / kSunPoints;
-    if (is_visible(axes * Spherical(cosine, i * golden_angle))) ++visible;
-  }
-  return static_cast<double>(visible) / kSunPoints;
+  const std::vector<Eigen::Vector3d> points = SunPoints(light);
+  return static_cast<double>(std::count_if(points.begin(), points.end(), is_visible)) / kSunPoints;
 }
 
 }  // namespace
@@ -59,6 +52,17 @@ SkyFacets MakeSkyFacets(const Eigen::Vector3d& zenith, int polar_facets) {
     }
   }
   return facets;
+}
+
+std::vector<Eigen::Vector3d> SunPoints(const Daylight& light) {
+  const Eigen::Matrix3d axes = FrameAbout(light.sun_direction);
+  const double golden_angle = kPi * (3 - std::sqrt(5.0));
+  std::vector<Eigen::Vector3d> points;
+  for (int i = 0; i < kSunPoints; ++i) {
+    const double cosine = 1 - light.sun_solid_angle / (2 * kPi) * (i + 0.5) / kSunPoints;
+    points.emplace_back(axes * Spherical(cosine, i * golden_angle));
+  }
+  return points;
 }
 
 Spectrum IrradianceElement(const Spectrum& radiance, double cosine, double solid_angle) {

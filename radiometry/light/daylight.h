@@ -36,6 +36,10 @@ struct SkyFacets {
 };
 SkyFacets MakeSkyFacets(const Eigen::Vector3d& zenith, int polar_facets);
 
+// Directions to points spread evenly over the sun's disc, as a sunflower's seeds: unit, world.
+constexpr int kSunPoints = 16;
+std::vector<Eigen::Vector3d> SunPoints(const Daylight& light);
+
 // Irradiance of radiance from a small solid angle. [Durisch92, Eq. (1)]  dE = L n.l domega
 Spectrum IrradianceElement(const Spectrum& radiance, double cosine, double solid_angle);
 

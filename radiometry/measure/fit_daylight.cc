@@ -17,9 +17,14 @@ namespace {
 constexpr double kRankDefect = 1e16;  // condition reported then
 constexpr double kRankTolerance = 1e-8;
 
-// The ambient column of Eq. (9): pi as in Eq. (4), or what the surroundings really send.
-double AmbientFactor(const DaylightSample& sample, int bin) {
-  return sample.surroundings ? (*sample.surroundings)[bin] : sample.geometry.ambient;
+// The ambient column of Eq. (9): pi as in Eq. (4); none where the surroundings are known.
+double AmbientFactor(const DaylightSample& sample) {
+  return sample.surroundings ? 0 : sample.geometry.ambient;
+}
+
+// What a sample shows that sun, ambient light and sky have to explain.
+double Unexplained(const DaylightSample& sample, double brdf, int bin) {
+  return sample.true_color[bin] - (sample.surroundings ? brdf * (*sample.surroundings)[bin] : 0);
 }
 
 // One bin's weighted equations A x = y for x = (sun, ambient, sky).
@@ -41,9 +46,9 @@ Equations SetUp(const std::vector<DaylightSample>& samples, double brdf, bool ha
   for (int i = 0; i < n; ++i) {
     const LightGeometry& seen = samples[i].geometry;
     const double p = std::sqrt(weights[i]) / samples[i].sigma[bin];
-    equations.A.row(i) << (has_sun ? seen.sun : 0), AmbientFactor(samples[i], bin), seen.sky;
+    equations.A.row(i) << (has_sun ? seen.sun : 0), AmbientFactor(samples[i]), seen.sky;
     equations.A.row(i) *= p * brdf;
-    equations.y[i] = p * samples[i].true_color[bin];
+    equations.y[i] = p * Unexplained(samples[i], brdf, bin);
   }
   return equations;
 }
@@ -129,9 +134,8 @@ Solution Solve(const Equations& equations) {
 DaylightFit SolveBins(const std::vector<DaylightSample>& samples, const Spectrum& brdf,
                       bool has_sun, const SpectralBins& bins, const std::vector<double>& weights) {
   DaylightFit fit;
-  for (Spectrum* part :
-       {&fit.sun_radiance, &fit.ambient_radiance, &fit.sky_radiance, &fit.sun_sigma,
-        &fit.ambient_sigma, &fit.sky_sigma, &fit.surroundings_weight}) {
+  for (Spectrum* part : {&fit.sun_radiance, &fit.ambient_radiance, &fit.sky_radiance,
+                         &fit.sun_sigma, &fit.ambient_sigma, &fit.sky_sigma}) {
     part->setZero();
   }
   for (int bin = 0; bin < bins.count; ++bin) {
@@ -154,9 +158,10 @@ Spectrum AverageOverWavelength(const Spectrum& radiance, const SpectralBins& bin
 }
 
 Spectrum ModelRadiance(const DaylightFit& fit, const Spectrum& brdf, const DaylightSample& sample) {
-  const Spectrum ambient =
-      sample.surroundings ? *sample.surroundings : Spectrum::Constant(sample.geometry.ambient);
-  return brdf * (fit.sun_radiance * sample.geometry.sun + fit.ambient_radiance * ambient +
+  const Spectrum ambient = sample.surroundings
+                               ? *sample.surroundings
+                               : Spectrum(fit.ambient_radiance * sample.geometry.ambient);
+  return brdf * (fit.sun_radiance * sample.geometry.sun + ambient +
                  fit.sky_radiance * sample.geometry.sky);
 }
 
@@ -185,7 +190,7 @@ void SetResiduals(const std::vector<DaylightSample>& samples, const Spectrum& br
   }
 }
 
-// From the weight of the surroundings to the terms of Eqs. (4) and (5): see the header.
+// To the terms of Eqs. (4) and (5): see the header.
 void SpreadSurroundings(const std::vector<DaylightSample>& samples, DaylightFit* fit) {
   Spectrum irradiance = Spectrum::Zero();
   double hidden = 0;  // projected solid angle that the sky does not fill [sr]
@@ -193,13 +198,8 @@ void SpreadSurroundings(const std::vector<DaylightSample>& samples, DaylightFit*
     irradiance += *sample.surroundings;
     hidden += sample.geometry.ambient - sample.geometry.sky;
   }
-  const Spectrum mean_radiance = irradiance / std::max(hidden, 1e-9);
-  fit->surroundings_weight = fit->ambient_radiance;
-  fit->ambient_radiance *= mean_radiance;
-  fit->ambient_sigma *= mean_radiance;
-  fit->ambient_radiance = fit->ambient_radiance.min(fit->sky_radiance);
+  fit->ambient_radiance = (irradiance / std::max(hidden, 1e-9)).min(fit->sky_radiance);
   fit->sky_radiance -= fit->ambient_radiance;
-  fit->sky_sigma = (fit->sky_sigma.square() + fit->ambient_sigma.square()).sqrt();
 }
 
 bool HaveSurroundings(const std::vector<DaylightSample>& samples) {

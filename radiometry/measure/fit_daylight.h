@@ -14,8 +14,8 @@ struct DaylightSample {
   Spectrum true_color;     // L_0i, radiance, haze removed
   Spectrum sigma;          // its standard deviation, > 0 in used bins
   LightGeometry geometry;  // what the point sees of the daylight
-  // Irradiance from the surroundings as photographed (surroundings.h); with all samples or with
-  // none.
+  // Irradiance from the surroundings as photographed (Interreflection::At); with all samples or
+  // with none.
   std::optional<Spectrum> surroundings = std::nullopt;
 };
 
@@ -26,7 +26,6 @@ struct DaylightFitOptions {
 struct DaylightFit {
   Spectrum sun_radiance, ambient_radiance, sky_radiance;  // >= 0
   Spectrum sun_sigma, ambient_sigma, sky_sigma;
-  Spectrum surroundings_weight;   // 1: they send what their photographs show; zero without them
   double condition = 0;           // of the scaled design matrix, 1 = best
   double rms = 0;                 // of the residuals over their sigma
   std::vector<double> residuals;  // one a sample: (measured - model) / measured, bins averaged
@@ -41,11 +40,11 @@ struct DaylightFit {
 // Departure: weights are kept per wavelength unless averaging is asked for; one spectrum for sun
 // and sky cannot make bluish shadows.
 // Departure: Eq. (4) gives every point the same ambient light, but a sunlit wall faces sunlit
-// ground and a shaded one does not, so the sun would take its share. With `surroundings` the third
-// unknown scales what each sample really receives from them; sun and sky then come out as
-// themselves. Handed on in the terms of Eqs. (4) and (5): k_u L is the mean radiance of the
-// surroundings, and k_h L what the sky sends beyond that, for E = sky s + around (pi - s) = (sky -
-// around) s + around pi.
+// ground and a shaded one does not, so the sun would take its share. With `surroundings`, which the
+// photographs show in the samples' own unit, sun and sky are the only unknowns: nothing is left for
+// a uniform light to soak up. Handed on in the terms of Eqs. (4) and (5): k_u L is the mean
+// radiance of the surroundings, and k_h L what the sky sends beyond that, for E = sky s + around
+// (pi - s) = (sky - around) s + around pi.
 DaylightFit FitDaylight(const std::vector<DaylightSample>& samples, const Spectrum& brdf,
                         bool has_sun, const SpectralBins& bins,
                         const DaylightFitOptions& options = {});

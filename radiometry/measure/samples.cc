@@ -49,18 +49,27 @@ class PhotographedScene {
   RayScene rays_;
 };
 
+// About a sample, which the page words too.
+SaidError Fault(const JsonNode& node, const Sentence& message) {
+  return {node.Error(message.text()), {node.path(), node.line()}, message};
+}
+
 int FindPhoto(const JsonNode& name, const SceneGeometry& scene) {
   for (size_t i = 0; i < scene.cameras.size(); ++i) {
     if (scene.cameras[i].photo == name.Text()) return static_cast<int>(i);
   }
-  throw name.Error("is the unknown photo \"" + name.Text() + "\", expected a reconstructed one");
+  throw Fault(name, Sentence("sampleUnknownPhoto",
+                             "is the unknown photo \"{photo}\", expected a reconstructed one",
+                             {{"photo", name.Text()}}));
 }
 
 int FindPolygon(const JsonNode& name, const SceneGeometry& scene) {
   for (size_t i = 0; i < scene.polygons.size(); ++i) {
     if (scene.polygons[i].name == name.Text()) return static_cast<int>(i);
   }
-  throw name.Error("is the unknown polygon \"" + name.Text() + "\", expected one of polygons.json");
+  throw Fault(name, Sentence("sampleUnknownPolygon",
+                             "is the unknown polygon \"{polygon}\", expected one of polygons.json",
+                             {{"polygon", name.Text()}}));
 }
 
 bool IsInside(const Raster& image, int x, int y) {
@@ -94,7 +103,8 @@ void MeasureColor(const PhotographedScene& scene, const JsonNode& node, int radi
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   for (const Eigen::Vector2i& at : patch) {
     if (IsClipped(photo, at.x(), at.y())) {
-      throw node.Error("is clipped, expected a pixel below the sensor's brightest code");
+      throw Fault(node, Sentence("sampleClipped",
+                                 "is clipped, expected a pixel below the sensor's brightest code"));
     }
     sum += photo.linear.Rgb(at.x(), at.y());
   }
@@ -118,8 +128,10 @@ PixelSample ReadPixel(const JsonNode& node, const PhotographedScene& scene) {
   const Raster& image = scene.photo(sample.photo).linear;
   const Eigen::Vector2i rounded = sample.pixel.array().round().cast<int>();
   if (!IsInside(image, rounded.x(), rounded.y())) {
-    throw node.Error("lies outside the photograph, expected a pixel of " +
-                     std::to_string(image.width) + " x " + std::to_string(image.height));
+    throw Fault(node,
+                Sentence("sampleOutside",
+                         "lies outside the photograph, expected a pixel of {width} x {height}",
+                         {{"width", image.width}, {"height", image.height}}));
   }
   return sample;
 }
@@ -130,15 +142,20 @@ void PlaceOnPolygon(const JsonNode& node, const PhotographedScene& scene, PixelS
   const Polygon& polygon = scene.geometry().polygons[*sample.polygon];
   const auto point = PointOnPolygon(posed, sample.pixel, polygon);
   if (!point) {
-    throw node.Error("misses polygon \"" + polygon.name + "\", expected a pixel that shows it");
+    throw Fault(node, Sentence("sampleMisses",
+                               "misses polygon \"{polygon}\", expected a pixel that shows it",
+                               {{"polygon", polygon.name}}));
   }
   sample.point = *point;
   sample.distance = (*point - Center(posed.cam_from_world)).norm();
   const auto first = scene.First(sample.photo, sample.pixel);
   if (!first || first->polygon == *sample.polygon) return;
   if (std::abs(polygon.normal.dot(first->point - *point)) > kCoplanar) {
-    throw node.Error("shows polygon \"" + scene.geometry().polygons[first->polygon].name +
-                     "\" before polygon \"" + polygon.name + "\", expected a free sight of it");
+    throw Fault(node, Sentence("sampleHidden",
+                               "shows polygon \"{first}\" before polygon \"{polygon}\", expected a "
+                               "free sight of it",
+                               {{"first", scene.geometry().polygons[first->polygon].name},
+                                {"polygon", polygon.name}}));
   }
 }
 
@@ -152,8 +169,9 @@ PixelSample ReadSurfaceSample(const JsonNode& node, const PhotographedScene& sce
 PixelSample ReadHorizonSample(const JsonNode& node, const PhotographedScene& scene, int radius) {
   PixelSample sample = ReadPixel(node, scene);
   if (const auto first = scene.First(sample.photo, sample.pixel)) {
-    throw node.Error("lies on polygon \"" + scene.geometry().polygons[first->polygon].name +
-                     "\", expected a pixel of the sky");
+    throw Fault(
+        node, Sentence("sampleNoSky", "lies on polygon \"{polygon}\", expected a pixel of the sky",
+                       {{"polygon", scene.geometry().polygons[first->polygon].name}}));
   }
   MeasureColor(scene, node, radius, &sample);
   return sample;
@@ -164,7 +182,7 @@ using ReadSample = PixelSample(const JsonNode&, const PhotographedScene&, int ra
 // The samples of one list, read one by one.
 std::vector<PixelSample> ReadList(const JsonNode& list, size_t at_least, ReadSample* read,
                                   const PhotographedScene& scene, int radius,
-                                  std::vector<InputError>* faults) {
+                                  std::vector<Sentence>* faults) {
   std::vector<PixelSample> samples;
   const std::vector<JsonNode> nodes = list.Items();
   if (!faults && nodes.size() < at_least) {
@@ -176,7 +194,7 @@ std::vector<PixelSample> ReadList(const JsonNode& list, size_t at_least, ReadSam
       samples.push_back(read(node, scene, radius));
     } catch (const InputError& fault) {
       if (!faults) throw;
-      faults->push_back(fault);
+      faults->push_back(SentenceOf(fault));
     }
   }
   return samples;
@@ -210,7 +228,7 @@ void SampleOptions::Check() const { INSITU_CHECK(radius >= 0); }
 
 LightSamples ReadSamples(const SitePaths& site, const SceneGeometry& scene,
                          const std::vector<Photograph>& photos, const SampleOptions& options,
-                         std::vector<InputError>* faults) {
+                         std::vector<Sentence>* faults) {
   options.Check();
   INSITU_CHECK(photos.size() == scene.cameras.size());
   const PhotographedScene photographed(scene, photos);

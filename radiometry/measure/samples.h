@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "calibration/files/error.h"
+#include "calibration/files/sentence.h"
 #include "calibration/photo/photograph.h"
 #include "calibration/program/site.h"
 #include "reconstruction/geometry/scene_geometry.h"
@@ -45,6 +46,6 @@ struct LightSamples {
 // listed there instead, and there may be any number of the others.
 LightSamples ReadSamples(const SitePaths& site, const SceneGeometry& scene,
                          const std::vector<Photograph>& photos, const SampleOptions& options = {},
-                         std::vector<InputError>* faults = nullptr);
+                         std::vector<Sentence>* faults = nullptr);
 
 }  // namespace insitu

@@ -11,6 +11,7 @@
 #include "reconstruction/adjustment/adjusted_observations.h"
 #include "reconstruction/adjustment/adjusted_scene.h"
 #include "reconstruction/adjustment/adjusted_unknowns.h"
+#include "reconstruction/adjustment/find_start_values.h"
 #include "reconstruction/adjustment/planarity.h"
 #include "reconstruction/adjustment/plane_effect.h"
 #include "reconstruction/adjustment/solve_survey.h"

@@ -8,10 +8,10 @@
 #include <vector>
 
 #include "calibration/lens/camera.h"
+#include "calibration/lens/photo_lens.h"
 #include "calibration/lens/rigid3.h"
 #include "reconstruction/adjustment/adjusted_survey.h"
 #include "reconstruction/adjustment/adjustment_options.h"
-#include "reconstruction/adjustment/photo_lens.h"
 #include "reconstruction/survey/survey.h"
 
 namespace insitu {

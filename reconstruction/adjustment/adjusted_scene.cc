@@ -21,7 +21,7 @@ namespace {
 double MedianVertexSigma(const Survey& survey, const std::vector<AdjustedPoint>& points) {
   std::set<std::string> vertices;
   for (const PolygonOutline& polygon : survey.polygons) {
-    vertices.insert(polygon.vertices.begin(), polygon.vertices.end());
+    for (const std::string& vertex : AllVertices(polygon)) vertices.insert(vertex);
   }
   std::vector<double> sigmas;
   for (const AdjustedPoint& point : points) {
@@ -76,9 +76,13 @@ std::vector<Polygon> AdjustedPolygons(const Survey& survey, const SurveyNetwork&
     Polygon polygon;
     polygon.name = outline.name;
     polygon.material = outline.material;
-    for (const std::string& vertex : outline.vertices) {
-      polygon.vertices.push_back(network.points[survey_network.index_of_point.at(vertex)].position +
-                                 network.origin);
+    const auto place = [&](const std::string& vertex) -> Eigen::Vector3d {
+      return network.points[survey_network.index_of_point.at(vertex)].position + network.origin;
+    };
+    for (const std::string& vertex : outline.vertices) polygon.vertices.push_back(place(vertex));
+    for (const std::vector<std::string>& hole : outline.holes) {
+      std::vector<Eigen::Vector3d>& ring = polygon.holes.emplace_back();
+      for (const std::string& vertex : hole) ring.push_back(place(vertex));
     }
     if (outline.photo) {
       const auto photo = survey_network.index_of_photo.find(*outline.photo);

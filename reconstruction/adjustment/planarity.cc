@@ -7,7 +7,7 @@
 #include "calibration/files/error.h"
 #include "calibration/files/wording.h"
 #include "reconstruction/geometry/plane.h"
-#include "reconstruction/geometry/triangulate.h"
+#include "reconstruction/geometry/polygon_rings.h"
 
 namespace insitu {
 namespace {
@@ -19,19 +19,20 @@ std::string Metres(double length) { return Number("%.3f m", length); }
 std::vector<StartPoint> Vertices(const PolygonOutline& polygon,
                                  const std::map<std::string, StartPoint>& points) {
   std::vector<StartPoint> vertices;
-  for (const std::string& name : polygon.vertices) vertices.push_back(points.at(name));
+  for (const std::string& name : AllVertices(polygon)) vertices.push_back(points.at(name));
   return vertices;
 }
 
 void RequirePlanar(const PolygonOutline& polygon, const std::vector<StartPoint>& vertices,
                    double tolerance) {
   std::vector<Eigen::Vector3d> positions;
+  const std::vector<std::string> all = AllVertices(polygon);
   std::vector<std::string> names;
   double uncertainty = 0;
   for (size_t i = 0; i < vertices.size(); ++i) {
     if (!std::isfinite(vertices[i].sigma)) continue;
     positions.push_back(vertices[i].position);
-    names.push_back(polygon.vertices[i]);
+    names.push_back(all[i]);
     uncertainty = std::max(uncertainty, vertices[i].sigma);
   }
   if (positions.size() < 4) return;
@@ -51,10 +52,25 @@ void RequirePlanar(const PolygonOutline& polygon, const std::vector<StartPoint>&
 }
 
 void RequireSimple(const PolygonOutline& polygon, const std::vector<StartPoint>& vertices) {
-  std::vector<Eigen::Vector3d> outline;
-  for (const StartPoint& vertex : vertices) outline.push_back(vertex.position);
+  auto next = vertices.begin();
+  const auto take = [&](size_t count) {
+    Ring ring;
+    for (; ring.size() < count; ++next) ring.push_back(next->position);
+    return ring;
+  };
+  const Ring outline = take(polygon.vertices.size());
+  std::vector<Ring> holes;
+  for (const auto& hole : polygon.holes) holes.push_back(take(hole.size()));
   const Eigen::Vector3d normal = OutlineNormal(outline);
-  if (normal.norm() > 0 && Triangulate(outline, normal)) return;
+  if (normal.norm() > 0) {
+    const auto fault = FaultOfRings(outline, holes, normal);
+    if (!fault) return;
+    if (fault->hole) {
+      throw InputError(polygon.place.path, polygon.place.line,
+                       "polygon '" + polygon.name + "': " + fault->text +
+                           ", expected holes within it, each with its vertices in order around");
+    }
+  }
   throw InputError(polygon.place.path, polygon.place.line,
                    "the outline of polygon '" + polygon.name +
                        "' crosses itself or has no area, expected vertices in order around it");

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "reconstruction/adjustment/start_values.h"
+#include "reconstruction/survey/survey.h"
 
 namespace insitu {
 

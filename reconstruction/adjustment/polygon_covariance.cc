@@ -15,7 +15,7 @@ std::map<int, Eigen::Index> VertexColumns(const Survey& survey, const SurveyNetw
                                           const NetworkSolution& solution) {
   std::map<int, Eigen::Index> places;
   for (const PolygonOutline& polygon : survey.polygons) {
-    for (const std::string& vertex : polygon.vertices) {
+    for (const std::string& vertex : AllVertices(polygon)) {
       const int point = survey_network.index_of_point.at(vertex);
       if (solution.columns.point[point]) places[*solution.columns.point[point]] = 0;
     }
@@ -70,9 +70,9 @@ std::vector<Eigen::MatrixXd> PolygonCovariances(const Survey& survey,
   const Eigen::MatrixXd joint = VertexCovariance(survey_network.network, solution, places);
   std::vector<Eigen::MatrixXd> covariances;
   for (const PolygonOutline& polygon : survey.polygons) {
-    const auto count = static_cast<Eigen::Index>(polygon.vertices.size());
+    const auto count = static_cast<Eigen::Index>(AllVertices(polygon).size());
     std::vector<std::optional<Eigen::Index>> place;
-    for (const std::string& vertex : polygon.vertices) {
+    for (const std::string& vertex : AllVertices(polygon)) {
       const auto column = solution.columns.point[survey_network.index_of_point.at(vertex)];
       place.push_back(column ? std::optional(places.at(*column)) : std::nullopt);
     }

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "calibration/files/error.h"
+#include "calibration/lens/photo_lens.h"
 #include "reconstruction/adjustment/adjustment_options.h"
-#include "reconstruction/adjustment/photo_lens.h"
 #include "reconstruction/adjustment/start_values.h"
 #include "reconstruction/adjustment/survey_network.h"
 #include "reconstruction/network/solve_network.h"

@@ -48,7 +48,7 @@ StartGrowth::StartGrowth(const Survey& survey, const std::vector<std::string>& p
     marks_of_[mark.point].push_back(&mark);
   }
   for (const PolygonOutline& polygon : survey.polygons) {
-    for (const std::string& vertex : polygon.vertices) polygons_of_[vertex].push_back(&polygon);
+    for (const std::string& vertex : AllVertices(polygon)) polygons_of_[vertex].push_back(&polygon);
   }
 }
 
@@ -165,7 +165,7 @@ void StartGrowth::SetKnown(const std::string& name, const StartPoint& point) {
   const auto polygons = polygons_of_.find(name);
   if (polygons == polygons_of_.end()) return;
   for (const PolygonOutline* polygon : polygons->second) {
-    on_planes_.insert(polygon->vertices.begin(), polygon->vertices.end());
+    for (const std::string& vertex : AllVertices(*polygon)) on_planes_.insert(vertex);
   }
 }
 
@@ -231,7 +231,7 @@ std::vector<Plane> StartGrowth::PlanesThrough(const std::string& name) const {
   if (polygons == polygons_of_.end()) return planes;
   for (const PolygonOutline* polygon : polygons->second) {
     std::vector<Eigen::Vector3d> others;
-    for (const std::string& vertex : polygon->vertices) {
+    for (const std::string& vertex : AllVertices(*polygon)) {
       const auto known = values_.points.find(vertex);
       if (known != values_.points.end()) others.push_back(known->second.position);
     }

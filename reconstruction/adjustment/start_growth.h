@@ -14,6 +14,7 @@
 #include "reconstruction/geometry/intersection.h"
 #include "reconstruction/geometry/plane.h"
 #include "reconstruction/geometry/resection.h"
+#include "reconstruction/survey/survey.h"
 
 namespace insitu {
 

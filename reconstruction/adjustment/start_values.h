@@ -10,7 +10,6 @@
 
 #include "calibration/lens/camera.h"
 #include "calibration/lens/rigid3.h"
-#include "reconstruction/survey/survey.h"
 
 namespace insitu {
 
@@ -37,18 +36,5 @@ struct StartValues {
   double tie_point_sigma_px = 1;  // of each of their marks
   std::vector<std::string> warnings;
 };
-
-// Photos that image matching placed take their poses from its model, moved into the world by
-// control (align_tie_points.h); without control the model is taken as it is, with a warning. Other
-// photos are resected from control, or from points that the placed photos determine. The points are
-// those that are marked, or a polygon's vertex, or an end of a direction pair. Throws InputError as
-// Adjust does: a mark off its photograph, a photo that cannot be resected, a point that nothing
-// determines. `initial_cam_from_world`: a user's estimates, by photo; none is needed.
-StartValues FindStartValues(const Survey& survey, const std::vector<std::string>& photos,
-                            const std::vector<Camera>& cameras,
-                            const std::map<std::string, Rigid3>& initial_cam_from_world = {});
-
-// Where the marks stand, for faults that none of them is to blame for.
-FilePlace FileOfObservations(const Survey& survey);
 
 }  // namespace insitu

@@ -110,17 +110,19 @@ class Builder {
   void AddPlanes() {
     const double sigma = options_.has_hard_planes ? kHardPlaneSigma : options_.plane_sigma;
     for (const PolygonOutline& polygon : survey_.polygons) {
-      if (polygon.vertices.size() < 4 && !IsConstrained(polygon.name)) continue;
+      const std::vector<std::string> names = AllVertices(polygon);
+      if (names.size() < 4 && !IsConstrained(polygon.name)) continue;
       std::vector<Eigen::Vector3d> vertices;
-      for (const std::string& name : polygon.vertices) {
+      for (const std::string& name : names) {
         vertices.push_back(network_.points[Point(name)].position);
       }
       Plane plane = FitPlane(vertices);
+      vertices.resize(polygon.vertices.size());  // holes may turn either way
       if (plane.normal.dot(OutlineNormal(vertices)) < 0) plane.normal = -plane.normal;
       const int index = static_cast<int>(network_.planes.size());
       result_.index_of_plane[polygon.name] = index;
       network_.planes.push_back({polygon.name, plane.normal, plane.point, 0});
-      for (const std::string& name : polygon.vertices) {
+      for (const std::string& name : names) {
         network_.on_planes.push_back({index, Point(name), sigma});
       }
     }

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "calibration/lens/photo_lens.h"
 #include "reconstruction/adjustment/adjustment_options.h"
-#include "reconstruction/adjustment/photo_lens.h"
 #include "reconstruction/adjustment/start_values.h"
 #include "reconstruction/network/network.h"
 #include "reconstruction/survey/survey.h"

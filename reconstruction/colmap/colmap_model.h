@@ -6,7 +6,6 @@
 #include <Eigen/Core>
 #include <array>
 #include <cstdint>
-#include <filesystem>
 #include <map>
 #include <optional>
 #include <string>
@@ -48,15 +47,5 @@ struct ColmapModel {
   std::map<uint32_t, ColmapImage> images;
   std::map<uint64_t, ColmapPoint> points;
 };
-
-// Whether a folder holds cameras, images and points3D, as .bin or as .txt.
-bool HasColmapModel(const std::filesystem::path& folder);
-
-// Reads cameras, images and points3D of a folder. If all three exist as .bin these are read, as
-// COLMAP does, else the .txt. rigs and frames of COLMAP 3.12 and later are not needed: poses of
-// images stand in both generations. Throws InputError with file and line, or offset in a binary
-// file: a file missing or cut short, an unknown lens model, a number that is none, an id twice, a
-// reference to what the model does not hold.
-ColmapModel ReadColmapModel(const std::filesystem::path& folder);
 
 }  // namespace insitu

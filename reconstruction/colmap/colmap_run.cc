@@ -13,6 +13,7 @@
 #include "calibration/program/external_program.h"
 #include "calibration/program/program.h"
 #include "reconstruction/colmap/ideal_frame.h"
+#include "reconstruction/colmap/read_colmap_model.h"
 
 namespace insitu {
 namespace {

@@ -24,9 +24,9 @@ using MovedPixel = std::function<Eigen::Vector2d(const Eigen::Vector2d&, const C
 
 // The correction that would undo a fault.
 struct Hypothesis {
-  std::string correction;  // "with x and y of the control points exchanged"
-  std::string fault;       // what is wrong, if that correction helps
-  std::string remedy;
+  Sentence correction;  // "with x and y of the control points exchanged"
+  Sentence fault;       // what is wrong, if that correction helps
+  Sentence remedy;
   MovedPoint point = {};  // one of the two is set
   MovedPixel pixel = {};
 };
@@ -39,28 +39,32 @@ struct Explanation {
 
 std::vector<Hypothesis> MarkHypotheses() {
   return {
-      {"with x and y of the marks exchanged",
-       "the marks' x and y are exchanged",
-       "exchange the columns x and y: x counts to the right, y downwards",
+      {Sentence("axesMarksSwap", "with x and y of the marks exchanged"),
+       Sentence("axesMarksSwapped", "the marks' x and y are exchanged"),
+       Sentence("axesMarksSwapDo",
+                "exchange the columns x and y: x counts to the right, y downwards"),
        {},
        [](const auto& p, const Camera&) { return Eigen::Vector2d(p.y(), p.x()); }},
-      {"with y of the marks counted from the top",
-       "the marks' y is counted from the bottom",
-       "write height - 1 - y for y: (0, 0) is the centre of the top-left pixel",
+      {Sentence("axesMarksTop", "with y of the marks counted from the top"),
+       Sentence("axesMarksBottom", "the marks' y is counted from the bottom"),
+       Sentence("axesMarksTopDo",
+                "write height - 1 - y for y: (0, 0) is the centre of the top-left pixel"),
        {},
        [](const auto& p, const Camera& c) {
          return Eigen::Vector2d(p.x(), c.height() - 1 - p.y());
        }},
-      {"with the marks turned to the right by 90 degrees",
-       "the marks were measured on a turned copy of the photograph",
-       "measure in the photograph's own pixel grid, without its EXIF orientation",
+      {Sentence("axesMarksRight", "with the marks turned to the right by 90 degrees"),
+       Sentence("axesMarksTurned", "the marks were measured on a turned copy of the photograph"),
+       Sentence("axesMarksTurnDo",
+                "measure in the photograph's own pixel grid, without its EXIF orientation"),
        {},
        [](const auto& p, const Camera& c) {
          return Eigen::Vector2d(c.width() - 1 - p.y(), p.x());
        }},
-      {"with the marks turned to the left by 90 degrees",
-       "the marks were measured on a turned copy of the photograph",
-       "measure in the photograph's own pixel grid, without its EXIF orientation",
+      {Sentence("axesMarksLeft", "with the marks turned to the left by 90 degrees"),
+       Sentence("axesMarksTurned", "the marks were measured on a turned copy of the photograph"),
+       Sentence("axesMarksTurnDo",
+                "measure in the photograph's own pixel grid, without its EXIF orientation"),
        {},
        [](const auto& p, const Camera& c) {
          return Eigen::Vector2d(p.y(), c.height() - 1 - p.x());
@@ -68,41 +72,50 @@ std::vector<Hypothesis> MarkHypotheses() {
   };
 }
 
-void AddScales(const std::string& axes, const Eigen::Vector3d& mask,
+void AddScales(const Sentence& axes, const Eigen::Vector3d& mask,
                std::vector<Hypothesis>* hypotheses) {
   struct Unit {
     double factor;
-    std::string name;
+    Sentence name;
   };
-  const Unit units[] = {{0.001, "millimetres"}, {0.3048, "feet"}, {1000, "kilometres"}};
+  const Unit units[] = {{0.001, Sentence("unitMillimetres", "millimetres")},
+                        {0.3048, Sentence("unitFeet", "feet")},
+                        {1000, Sentence("unitKilometres", "kilometres")}};
   for (const Unit& unit : units) {
     const Eigen::Vector3d factors = (mask * (unit.factor - 1)).array() + 1;
     hypotheses->push_back(
-        {"with " + axes + " of the control points times " + ShortNumber(unit.factor),
-         axes + " of the control points in " + unit.name +
-             ", the rest in metres: the units are mixed",
-         "give all coordinates in metres",
+        {Sentence("axesScale", "with {axes} of the control points times {factor}",
+                  {{"axes", axes.ToJson()}, {"factor", ShortNumber(unit.factor)}}),
+         Sentence("axesUnits",
+                  "{axes} of the control points in {unit}, the rest in metres: the units are mixed",
+                  {{"axes", axes.ToJson()}, {"unit", unit.name.ToJson()}}),
+         Sentence("axesUnitsDo", "give all coordinates in metres"),
          [factors](const auto& p) { return factors.cwiseProduct(p).eval(); }});
   }
 }
 
 std::vector<Hypothesis> ControlHypotheses() {
   std::vector<Hypothesis> hypotheses = {
-      {"with x and y of the control points exchanged",
-       "the control points are mirrored (left-handed): their x and y are exchanged, or an axis "
-       "counts backwards",
-       "exchange the columns x and y if northing stands before easting; else change the sign of "
-       "the axis that counts backwards, so that x points east, y north and z up",
+      {Sentence("axesControlSwap", "with x and y of the control points exchanged"),
+       Sentence(
+           "axesControlMirrored",
+           "the control points are mirrored (left-handed): their x and y are exchanged, or an axis "
+           "counts backwards"),
+       Sentence("axesControlSwapDo",
+                "exchange the columns x and y if northing stands before easting; else change the "
+                "sign of "
+                "the axis that counts backwards, so that x points east, y north and z up"),
        [](const auto& p) { return Eigen::Vector3d(p.y(), p.x(), p.z()); }},
-      {"with z of the control points counted upwards",
-       "the control points are mirrored (left-handed): their z counts downwards",
-       "change the sign of z: heights, not depths",
+      {Sentence("axesControlUp", "with z of the control points counted upwards"),
+       Sentence("axesControlDown",
+                "the control points are mirrored (left-handed): their z counts downwards"),
+       Sentence("axesControlUpDo", "change the sign of z: heights, not depths"),
        [](const auto& p) { return Eigen::Vector3d(p.x(), p.y(), -p.z()); }},
   };
-  AddScales("z", {0, 0, 1}, &hypotheses);
-  AddScales("x and y", {1, 1, 0}, &hypotheses);
-  AddScales("x", {1, 0, 0}, &hypotheses);
-  AddScales("y", {0, 1, 0}, &hypotheses);
+  AddScales(Sentence::Verbatim("z"), {0, 0, 1}, &hypotheses);
+  AddScales(Sentence("axesXAndY", "x and y"), {1, 1, 0}, &hypotheses);
+  AddScales(Sentence::Verbatim("x"), {1, 0, 0}, &hypotheses);
+  AddScales(Sentence::Verbatim("y"), {0, 1, 0}, &hypotheses);
   return hypotheses;
 }
 
@@ -214,16 +227,26 @@ FilePlace PlaceOf(const DiagnosisInput& input, const Hypothesis& hypothesis,
   return ControlMarksOn(input.survey, input.photos[bad.front()]).front().mark->place;
 }
 
-std::string Told(const DiagnosisInput& input, const Trial& trial, const Explanation& explanation) {
+Sentence Told(const DiagnosisInput& input, const Trial& trial, const Explanation& explanation) {
   std::vector<std::string> names;
   for (const size_t photo : trial.photos) names.push_back(input.photos[photo]);
   const Hypothesis& hypothesis = *explanation.hypothesis;
-  return hypothesis.fault + ". The marks of control points on photo" +
-         (names.size() > 1 ? "s " : " ") + QuotedList(names) +
-         (trial.rms_px ? " fit to " + ShortNumber(*trial.rms_px) + " px (RMS) as given"
-                       : " fit no camera position as given") +
-         ", to " + ShortNumber(explanation.rms_px) + " px " + hypothesis.correction +
-         ". Expected: " + hypothesis.remedy;
+  Sentence::Values values = {{"fault", hypothesis.fault.ToJson()},
+                             {"photos", SaidPhotos(names)},
+                             {"rms", ShortNumber(explanation.rms_px)},
+                             {"correction", hypothesis.correction.ToJson()},
+                             {"remedy", hypothesis.remedy.ToJson()}};
+  if (!trial.rms_px) {
+    return Sentence("axesNoFit",
+                    "{fault}. The marks of control points on {photos} fit no camera position as "
+                    "given, to {rms} px {correction}. Expected: {remedy}",
+                    values);
+  }
+  values["given"] = ShortNumber(*trial.rms_px);
+  return Sentence("axesFit",
+                  "{fault}. The marks of control points on {photos} fit to {given} px (RMS) as "
+                  "given, to {rms} px {correction}. Expected: {remedy}",
+                  values);
 }
 
 }  // namespace
@@ -243,7 +266,9 @@ std::vector<Diagnosis> DiagnoseAxes(const DiagnosisInput& input, const std::vect
   Diagnosis diagnosis{PlaceOf(input, *first.hypothesis, bad), Told(input, trial, first)};
   for (size_t i = 1; i < explanations.size(); ++i) {  // as good, but less common
     if (explanations[i].up < kUpright) continue;
-    diagnosis.message += "; or " + explanations[i].hypothesis->fault;
+    diagnosis.message = Sentence("axesOr", "{first}; or {other}",
+                                 {{"first", diagnosis.message.ToJson()},
+                                  {"other", explanations[i].hypothesis->fault.ToJson()}});
   }
   return {diagnosis};
 }

@@ -139,10 +139,11 @@ class NameDiagnosis {
       }
       if (names.size() < 3) continue;
       return {{first->place,
-               "the control points are in two coordinate systems: " + QuotedList(names) +
-                   " are all shifted by " + Meters(shift) +
-                   " against the others, by what the photos show. Expected: all coordinates in "
-                   "one system"}};
+               Sentence("namesShifted",
+                        "the control points are in two coordinate systems: {names} are all shifted "
+                        "by {shift} against the others, by what the photos show. Expected: all "
+                        "coordinates in one system",
+                        {{"names", SaidNames(names)}, {"shift", Meters(shift)}})}};
     }
     return {};
   }
@@ -156,10 +157,10 @@ class NameDiagnosis {
     return nullptr;
   }
 
-  std::string SeenByPhotos(const ControlPoint& control) const {
+  Json::Value SeenByPhotos(const ControlPoint& control) const {
     std::vector<std::string> photos;
     for (const ControlMark& mark : outliers_.at(&control)) photos.push_back(mark.mark->photo);
-    return "photo" + std::string(photos.size() > 1 ? "s " : " ") + QuotedList(photos);
+    return SaidPhotos(photos);
   }
 
   std::optional<Diagnosis> OfPoint(const ControlPoint& control, const Eigen::Vector3d& seen) {
@@ -175,45 +176,70 @@ class NameDiagnosis {
 
   Diagnosis ExchangedRows(const ControlPoint& one, const ControlPoint& other) {
     explained_.insert({&one, &other});
-    return {one.place, "points '" + one.name + "' and '" + other.name + "' (line " +
-                           std::to_string(other.place.line) +
-                           ") are exchanged: " + SeenByPhotos(one) +
-                           " show each where the other's coordinates are. Did you mean '" +
-                           other.name + "' here, and '" + one.name +
-                           "' there? Expected: the two names exchanged, here or in all marks"};
+    return {one.place,
+            Sentence("namesExchanged",
+                     "points '{one}' and '{other}' (line {line}) are exchanged: {photos} show each "
+                     "where the other's coordinates are. Did you mean '{other}' here, and '{one}' "
+                     "there? Expected: the two names exchanged, here or in all marks",
+                     {{"one", one.name},
+                      {"other", other.name},
+                      {"line", other.place.line},
+                      {"photos", SeenByPhotos(one)}})};
   }
 
   Diagnosis MarkedAsAnother(const ControlPoint& control, const ControlPoint& other) {
     const ImageObservation& mark = *outliers_.at(&control).front().mark;
     return {mark.place,
-            "the marks of '" + control.name + "' show point '" + other.name + "' on " +
-                SeenByPhotos(control) + "; did you mean '" + other.name +
-                "'? Expected: the name of the point shown, or the coordinates of '" + control.name +
-                "' (control_points.csv:" + std::to_string(control.place.line) + ") corrected"};
+            Sentence("namesAnother",
+                     "the marks of '{name}' show point '{other}' on {photos}; did you mean "
+                     "'{other}'? Expected: the name of the point shown, or the coordinates of "
+                     "'{name}' (control_points.csv:{line}) corrected",
+                     {{"name", control.name},
+                      {"other", other.name},
+                      {"photos", SeenByPhotos(control)},
+                      {"line", control.place.line}})};
   }
 
   Diagnosis FarOff(const ControlPoint& control, const Eigen::Vector3d& seen) const {
     const Eigen::Vector3d& given = control.position;
     const Eigen::Vector3d off = given - seen;
     const double reach = ReachOf(control, seen);
-    std::string message = "control point '" + control.name + "' lies " + ShortNumber(off.norm()) +
-                          " m from where " + SeenByPhotos(control) + " show it, " + Meters(seen) +
-                          " instead of " + Meters(given);
+    const Sentence lies("namesFarOff",
+                        "control point '{name}' lies {distance} m from where {photos} show it, "
+                        "{seen} instead of {given}",
+                        {{"name", control.name},
+                         {"distance", ShortNumber(off.norm())},
+                         {"photos", SeenByPhotos(control)},
+                         {"seen", Meters(seen)},
+                         {"given", Meters(given)}});
+    const Sentence::Values values = {{"lies", lies.ToJson()}};
     const Eigen::Vector3d exchanged(given.y(), given.x(), given.z());
     if ((exchanged - seen).norm() < reach) {
-      return {control.place, message + ": its x and y are exchanged. Expected: x east, y north"};
+      return {control.place,
+              Sentence("namesPointSwapped",
+                       "{lies}: its x and y are exchanged. Expected: x east, y north", values)};
     }
     if ((given / 1000 - seen).norm() < reach) {
-      return {control.place, message + ": it is in millimetres. Expected: metres, as the others"};
+      return {control.place,
+              Sentence("namesPointUnit",
+                       "{lies}: it is in millimetres. Expected: metres, as the others", values)};
     }
+    return {control.place, FarOffAlong(values, off, reach), Diagnosis::Kind::kMisfit};
+  }
+
+  static Sentence FarOffAlong(Sentence::Values values, const Eigen::Vector3d& off, double reach) {
     for (int axis = 0; axis < 3; ++axis) {
       if (std::abs(off[axis]) > 4 * reach &&
           (off - off[axis] * Eigen::Vector3d::Unit(axis)).norm() < reach) {
-        message += std::string(": only ") + "xyz"[axis] + " is wrong, is it a slip of a digit?";
+        values["axis"] = std::string(1, "xyz"[axis]);
+        return Sentence("namesOneAxis",
+                        "{lies}: only {axis} is wrong, is it a slip of a digit? Expected: "
+                        "coordinates and marks of one and the same point",
+                        values);
       }
     }
-    return {control.place, message + ". Expected: coordinates and marks of one and the same point",
-            Diagnosis::Kind::kMisfit};
+    return Sentence("namesPointOff",
+                    "{lies}. Expected: coordinates and marks of one and the same point", values);
   }
 
   bool IsGross(const ControlMark& mark) const {
@@ -239,56 +265,93 @@ class NameDiagnosis {
     return nullptr;
   }
 
+  Sentence WhereMarked(const ControlMark& outlier,
+                       const std::optional<Eigen::Vector2d>& expected) const {
+    const ImageObservation& mark = *outlier.mark;
+    Sentence::Values values = {
+        {"name", outlier.control->name}, {"photo", mark.photo}, {"pixel", Pixel(mark.pixel)}};
+    if (!expected) {
+      return Sentence("namesMarked", "point '{name}' is marked on photo '{photo}' at {pixel}",
+                      values);
+    }
+    values["distance"] = ShortNumber((*expected - mark.pixel).norm());
+    values["expected"] = Pixel(*expected);
+    values["rms"] = ShortNumber(rms_px_.at(mark.photo));
+    return Sentence("namesMarkedOff",
+                    "point '{name}' is marked on photo '{photo}' at {pixel}, {distance} px from "
+                    "where its coordinates appear, {expected} (the marks that agree fit to {rms} "
+                    "px)",
+                    values);
+  }
+
   Diagnosis OfMark(const ControlMark& outlier) {
     const ImageObservation& mark = *outlier.mark;
     const ControlPoint& control = *outlier.control;
-    std::string where = "point '" + control.name + "' is marked on photo '" + mark.photo + "' at " +
-                        Pixel(mark.pixel);
     const auto expected = ImageOf(control.position, mark.photo);
-    if (expected) {
-      where += ", " + ShortNumber((*expected - mark.pixel).norm()) +
-               " px from where its coordinates " + "appear, " + Pixel(*expected) +
-               " (the marks that agree fit to " + ShortNumber(rms_px_.at(mark.photo)) + " px)";
-    }
+    const Json::Value where = WhereMarked(outlier, expected).ToJson();
     const auto shown = ShownBy(outlier);
     for (const ControlPoint* other : shown) {
       const ImageObservation* others_mark = MarkOf(other->name, mark.photo);
       if (others_mark && IsImageOf(*others_mark, others_mark->pixel, control)) {
-        return {mark.place, where + ": '" + control.name + "' and '" + other->name + "' (line " +
-                                std::to_string(others_mark->place.line) +
-                                ") are exchanged on this photo; did you mean '" + other->name +
-                                "'? Expected: the two names exchanged"};
+        return {mark.place,
+                Sentence("namesMarksExchanged",
+                         "{where}: '{name}' and '{other}' (line {line}) are exchanged on this "
+                         "photo; did you mean '{other}'? Expected: the two names exchanged",
+                         {{"where", where},
+                          {"name", control.name},
+                          {"other", other->name},
+                          {"line", others_mark->place.line}})};
       }
     }
     if (!shown.empty()) {
-      std::string names;
-      for (const ControlPoint* other : shown) {
-        names += (names.empty() ? "'" : " or '") + other->name + "'";
+      Json::Value names = SaidNames({shown.front()->name});
+      for (size_t i = 1; i < shown.size(); ++i) {
+        names =
+            Sentence("nameOr", "{first} or '{name}'", {{"first", names}, {"name", shown[i]->name}})
+                .ToJson();
       }
-      return {mark.place, where + ": that is where " + names + " is; did you mean " + names +
-                              "? Expected: the name of the point shown"};
+      return {mark.place, Sentence("namesShows",
+                                   "{where}: that is where {names} is; did you mean {names}? "
+                                   "Expected: the name of the point shown",
+                                   {{"where", where}, {"names", names}})};
     }
     return Displaced(outlier, where, expected);
   }
 
-  Diagnosis Displaced(const ControlMark& outlier, const std::string& where,
+  Diagnosis Displaced(const ControlMark& outlier, const Json::Value& where,
                       const std::optional<Eigen::Vector2d>& expected) const {
     const ImageObservation& mark = *outlier.mark;
     const insitu::Camera& camera = Camera(mark.photo).camera;
     const Eigen::Vector2d exchanged(mark.pixel.y(), mark.pixel.x());
     const Eigen::Vector2d from_top(mark.pixel.x(), camera.height() - 1 - mark.pixel.y());
+    Sentence::Values values = {{"where", where}};
     if (IsImageOf(mark, exchanged, *outlier.control)) {
-      return {mark.place, where + ": its x and y are exchanged. Expected: x to the right, y down"};
+      return {
+          mark.place,
+          Sentence("namesMarkSwapped",
+                   "{where}: its x and y are exchanged. Expected: x to the right, y down", values)};
     }
     if (IsImageOf(mark, from_top, *outlier.control)) {
-      return {mark.place, where + ": its y is counted from the bottom. Expected: y from the top"};
+      return {
+          mark.place,
+          Sentence("namesMarkBottom",
+                   "{where}: its y is counted from the bottom. Expected: y from the top", values)};
     }
-    const std::string outside =
-        camera.Sees(mark.pixel) ? "" : ": that is outside photo '" + mark.photo + "'";
+    if (!camera.Sees(mark.pixel)) {
+      values["where"] = Sentence("namesOutside", "{where}: that is outside photo '{photo}'",
+                                 {{"where", where}, {"photo", mark.photo}})
+                            .ToJson();
+    }
+    values["name"] = outlier.control->name;
     return {mark.place,
-            where + outside + ". Expected: the mark of '" + outlier.control->name +
-                (expected ? "' there" : "' on a photo that shows it") +
-                ", another name, or corrected coordinates",
+            expected ? Sentence("namesMarkThere",
+                                "{where}. Expected: the mark of '{name}' there, another name, or "
+                                "corrected coordinates",
+                                values)
+                     : Sentence("namesMarkElsewhere",
+                                "{where}. Expected: the mark of '{name}' on a photo that shows it, "
+                                "another name, or corrected coordinates",
+                                values),
             Diagnosis::Kind::kMisfit};
   }
 

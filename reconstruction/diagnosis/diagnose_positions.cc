@@ -52,21 +52,27 @@ bool Agrees(const Pair& pair, const Eigen::Vector3d& position) {
 
 struct Correction {
   std::function<Eigen::Vector3d(const Eigen::Vector3d&)> apply;
-  std::string fault, remedy;
+  Sentence fault, remedy;
 };
 
 std::vector<Correction> Corrections() {
   const auto times = [](double factor) {
     return [factor](const Eigen::Vector3d& p) { return Eigen::Vector3d(factor * p); };
   };
-  const std::string one_unit = "metres in both files";
+  const Sentence one_unit("positionsUnitDo", "metres in both files");
   return {
-      {[](const auto& p) { return Eigen::Vector3d(p.y(), p.x(), p.z()); }, "have x and y exchanged",
-       "x and y in the same order in both files"},
-      {times(0.001), "are in millimetres and the control points in metres", one_unit},
-      {times(1000), "are in metres and the control points in millimetres", one_unit},
-      {times(0.3048), "are in feet and the control points in metres", one_unit},
-      {times(1 / 0.3048), "are in metres and the control points in feet", one_unit},
+      {[](const auto& p) { return Eigen::Vector3d(p.y(), p.x(), p.z()); },
+       Sentence("positionsSwapped", "have x and y exchanged"),
+       Sentence("positionsSwapDo", "x and y in the same order in both files")},
+      {times(0.001), Sentence("positionsMm", "are in millimetres and the control points in metres"),
+       one_unit},
+      {times(1000),
+       Sentence("positionsControlMm", "are in metres and the control points in millimetres"),
+       one_unit},
+      {times(0.3048), Sentence("positionsFeet", "are in feet and the control points in metres"),
+       one_unit},
+      {times(1 / 0.3048),
+       Sentence("positionsControlFeet", "are in metres and the control points in feet"), one_unit},
   };
 }
 
@@ -76,9 +82,10 @@ bool AgreesCorrected(const Pair& pair, const Eigen::Vector3d& position, double s
   return (position - pair.resected).norm() < std::max(pair.tolerance, 0.01 * site_size);
 }
 
-std::string Off(const Pair& pair) {
-  return ShortNumber((pair.surveyed->position - pair.resected).norm()) +
-         " m from where the control points put it";
+// "that of photo 'a' lies 3 m from where ...".
+Sentence::Values Off(const Pair& pair) {
+  return {{"photo", pair.surveyed->photo},
+          {"distance", ShortNumber((pair.surveyed->position - pair.resected).norm())}};
 }
 
 std::vector<Diagnosis> AllWrong(const std::vector<Pair>& pairs, double site_size) {
@@ -89,10 +96,15 @@ std::vector<Diagnosis> AllWrong(const std::vector<Pair>& pairs, double site_size
       continue;
     }
     const Pair& first = pairs.front();
-    return {{first.surveyed->place, "the camera positions " + correction.fault +
-                                        ": that of photo '" + first.surveyed->photo + "' lies " +
-                                        Off(first) +
-                                        ", corrected it agrees. Expected: " + correction.remedy}};
+    Sentence::Values values = Off(first);
+    values["fault"] = correction.fault.ToJson();
+    values["remedy"] = correction.remedy.ToJson();
+    return {{first.surveyed->place,
+             Sentence("positionsAll",
+                      "the camera positions {fault}: that of photo '{photo}' lies {distance} m "
+                      "from where the control points put it, corrected it agrees. Expected: "
+                      "{remedy}",
+                      values)}};
   }
   return {};
 }
@@ -105,13 +117,24 @@ std::vector<Diagnosis> SomeWrong(const std::vector<Pair>& pairs) {
       return &candidate != &pair && Agrees(candidate, pair.surveyed->position);
     });
     const bool is_named = other != pairs.end();
-    diagnoses.push_back(
-        {pair.surveyed->place,
-         "the camera position of photo '" + pair.surveyed->photo + "' lies " + Off(pair) +
-             (is_named ? "; did you mean photo '" + other->surveyed->photo +
-                             "'? Expected: each position under the photo taken there"
-                       : ". Expected: the centre of the lens, in the system of the control points"),
-         is_named ? Kind::kFault : Kind::kMisfit});
+    Sentence::Values values = Off(pair);
+    if (!is_named) {
+      diagnoses.push_back({pair.surveyed->place,
+                           Sentence("positionsOff",
+                                    "the camera position of photo '{photo}' lies {distance} m from "
+                                    "where the control points put it. Expected: the centre of the "
+                                    "lens, in the system of the control points",
+                                    values),
+                           Kind::kMisfit});
+      continue;
+    }
+    values["other"] = other->surveyed->photo;
+    diagnoses.push_back({pair.surveyed->place,
+                         Sentence("positionsNamed",
+                                  "the camera position of photo '{photo}' lies {distance} m from "
+                                  "where the control points put it; did you mean photo '{other}'? "
+                                  "Expected: each position under the photo taken there",
+                                  values)});
   }
   std::stable_sort(diagnoses.begin(), diagnoses.end(),
                    [](const auto& a, const auto& b) { return a.place.line < b.place.line; });
@@ -146,9 +169,10 @@ std::vector<Diagnosis> SameViews(const DiagnosisInput& input, const std::vector<
       if (!IsSameView(input, fits[i], fits[j])) continue;
       diagnoses.push_back(
           {fits[j].marks.front().mark->place,
-           "photos '" + input.photos[fits[i].photo] + "' and '" + input.photos[fits[j].photo] +
-               "' have one exterior orientation: is one a copy of the other? Expected: each "
-               "photograph once, and others from well apart",
+           Sentence("positionsSameView",
+                    "photos '{one}' and '{other}' have one exterior orientation: is one a copy of "
+                    "the other? Expected: each photograph once, and others from well apart",
+                    {{"one", input.photos[fits[i].photo]}, {"other", input.photos[fits[j].photo]}}),
            Kind::kQuestion});
     }
   }

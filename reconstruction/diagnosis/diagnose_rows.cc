@@ -50,9 +50,10 @@ std::vector<std::string> NamesOf(Points points) {
 }
 
 // Of national coordinates a slip of the unit shows to the digit.
-const char* WordOnUnit(const Points& odd, const Points& rest, int axis) {
+Sentence WordOnUnit(const Points& odd, const Points& rest, int axis) {
   const double ratio = odd.front()->position[axis] / rest.front()->position[axis];
-  return std::abs(ratio / 1000 - 1) < 0.01 ? " (are they in millimetres?)" : "";
+  if (std::abs(ratio / 1000 - 1) >= 0.01) return Sentence::Verbatim("");
+  return Sentence("rowsMillimetres", " (are they in millimetres?)");
 }
 
 std::vector<Diagnosis> TwoSystems(const Points& points) {
@@ -65,12 +66,23 @@ std::vector<Diagnosis> TwoSystems(const Points& points) {
     const auto* first = *std::min_element(odd.begin(), odd.end(), [](const auto* a, const auto* b) {
       return a->place.line < b->place.line;
     });
+    const Sentence::Values values = {{"names", SaidNames(NamesOf(odd))},
+                                     {"distance", ShortNumber(gap.width / 1000)},
+                                     {"count", static_cast<Json::UInt64>(rest.size())},
+                                     {"axis", std::string(1, "xyz"[axis])},
+                                     {"unit", WordOnUnit(odd, rest, axis).ToJson()}};
     return {{first->place,
-             "the control points are in two coordinate systems: " + QuotedList(NamesOf(odd)) +
-                 (odd.size() == 1 ? " lies " : " lie ") + ShortNumber(gap.width / 1000) +
-                 " km from the " + std::to_string(rest.size()) + " others along " + "xyz"[axis] +
-                 WordOnUnit(odd, rest, axis) +
-                 ". Expected: all coordinates in one system and one unit"}};
+             odd.size() == 1
+                 ? Sentence("rowsOneFar",
+                            "the control points are in two coordinate systems: {names} lies "
+                            "{distance} km from the {count} others along {axis}{unit}. Expected: "
+                            "all coordinates in one system and one unit",
+                            values)
+                 : Sentence("rowsSomeFar",
+                            "the control points are in two coordinate systems: {names} lie "
+                            "{distance} km from the {count} others along {axis}{unit}. Expected: "
+                            "all coordinates in one system and one unit",
+                            values)}};
   }
   return {};
 }
@@ -88,10 +100,13 @@ std::vector<Diagnosis> Degrees(const Points& points) {
       spread[0] < 0.1 && spread[1] < 0.1 && spread[2] > 50 * spread.head<2>().maxCoeff();
   if (!are_angles || !is_needle) return {};
   return {{points[0]->place,
-           "x and y of the control points look like longitude and latitude in degrees: they span " +
-               ShortNumber(spread[0]) + " and " + ShortNumber(spread[1]) + ", z spans " +
-               ShortNumber(spread[2]) +
-               ". Expected: metres of a map projection or a local system"}};
+           Sentence("rowsDegrees",
+                    "x and y of the control points look like longitude and latitude in degrees: "
+                    "they span {x} and {y}, z spans {z}. Expected: metres of a map projection or a "
+                    "local system",
+                    {{"x", ShortNumber(spread[0])},
+                     {"y", ShortNumber(spread[1])},
+                     {"z", ShortNumber(spread[2])}})}};
 }
 
 std::vector<Diagnosis> SameCoordinates(const Survey& survey) {
@@ -104,11 +119,13 @@ std::vector<Diagnosis> SameCoordinates(const Survey& survey) {
     const auto [first, is_new] = first_there.emplace(point.position, &point);
     if (is_new) continue;
     diagnoses.push_back({point.place,
-                         "point '" + point.name + "' has the same coordinates as '" +
-                             first->second->name + "' in line " +
-                             std::to_string(first->second->place.line) +
-                             ": is one of them a slip of copying? Expected: each point once, under "
-                             "one name",
+                         Sentence("rowsSamePlace",
+                                  "point '{name}' has the same coordinates as '{other}' in line "
+                                  "{line}: is one of them a slip of copying? Expected: each point "
+                                  "once, under one name",
+                                  {{"name", point.name},
+                                   {"other", first->second->name},
+                                   {"line", first->second->place.line}}),
                          Diagnosis::Kind::kQuestion});
   }
   return diagnoses;
@@ -135,10 +152,13 @@ std::vector<Diagnosis> SameMarks(const Survey& survey) {
     if (marks.size() < 3 || 2 * static_cast<int>(marks.size()) < fewer) continue;
     diagnoses.push_back(
         {marks.front()->place,
-         "photo '" + photos.second + "' has the very marks of photo '" + photos.first + "' on " +
-             std::to_string(marks.size()) +
-             " points: they are the same photograph, or the rows were copied. Expected: each "
-             "photograph and each measurement once, for they would count twice"});
+         Sentence("rowsSameMarks",
+                  "photo '{other}' has the very marks of photo '{one}' on {count} points: they are "
+                  "the same photograph, or the rows were copied. Expected: each photograph and "
+                  "each measurement once, for they would count twice",
+                  {{"one", photos.first},
+                   {"other", photos.second},
+                   {"count", static_cast<Json::UInt64>(marks.size())}})});
   }
   return diagnoses;
 }
@@ -151,12 +171,31 @@ std::vector<Diagnosis> UnusedControl(const Survey& survey) {
   std::vector<Diagnosis> diagnoses;
   for (const ControlPoint& point : survey.control_points) {
     if (in_use.contains(point.name)) continue;
-    const std::string meant = DidYouMean(point.name, WithDigitsOf(point.name, unsurveyed));
+    const Sentence meant = SaidMeant(point.name, WithDigitsOf(point.name, unsurveyed));
     if (meant.empty()) continue;
     diagnoses.push_back({point.place,
-                         "point '" + point.name + "' is marked on no photo and in no polygon" +
-                             meant + " Expected: one name for one point in all files",
+                         Sentence("rowsUnused",
+                                  "point '{name}' is marked on no photo and in no polygon{meant} "
+                                  "Expected: one name for one point in all files",
+                                  {{"name", point.name}, {"meant", meant.ToJson()}}),
                          Diagnosis::Kind::kMisfit, point.name});
+  }
+  return diagnoses;
+}
+
+// Never in silence: a mark that does not count may be one under a wrong name.
+std::vector<Diagnosis> LoneMarks(const Survey& survey) {
+  std::vector<Diagnosis> diagnoses;
+  for (const LoneMark& lone : survey.lone_marks) {
+    diagnoses.push_back({lone.mark.place,
+                         Sentence("rowsLoneMark",
+                                  "point '{name}': one ray only, from photo '{photo}', not "
+                                  "determined; left out. Expected: a mark on a second photo, or a "
+                                  "polygon that holds it{meant}",
+                                  {{"name", lone.mark.point},
+                                   {"photo", lone.mark.photo},
+                                   {"meant", lone.question.ToJson()}}),
+                         Diagnosis::Kind::kQuestion});
   }
   return diagnoses;
 }
@@ -168,7 +207,8 @@ std::vector<Diagnosis> DiagnoseRows(const Survey& survey) {
   for (const ControlPoint& point : survey.control_points) control.push_back(&point);
   std::vector<Diagnosis> diagnoses = TwoSystems(control);
   if (diagnoses.empty()) diagnoses = Degrees(control);
-  for (const auto& part : {SameMarks(survey), UnusedControl(survey), SameCoordinates(survey)}) {
+  for (const auto& part :
+       {SameMarks(survey), UnusedControl(survey), SameCoordinates(survey), LoneMarks(survey)}) {
     diagnoses.insert(diagnoses.end(), part.begin(), part.end());
   }
   return diagnoses;

@@ -10,7 +10,7 @@
 namespace insitu {
 
 // From the rows alone, without any photo: two coordinate systems, degrees, the same coordinates
-// under two names, the same marks on two photos.
+// under two names, the same marks on two photos, points of a single mark that were left out.
 std::vector<Diagnosis> DiagnoseRows(const Survey& survey);
 
 }  // namespace insitu

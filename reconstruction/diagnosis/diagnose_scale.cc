@@ -22,15 +22,15 @@ constexpr double kMuchBetter = 20;      // fit of the photos than the sigmas of 
 // A unit that is taken for metres: what was written is `factor` metres' worth.
 struct Unit {
   double factor;
-  const char* name;
+  Sentence name;
 };
-constexpr Unit kUnits[] = {{1000, "millimetres"}, {1 / 0.3048, "feet"}};
 
-const Unit* UnitOfRatio(double ratio, double tolerance) {
-  for (const Unit& unit : kUnits) {
-    if (std::abs(ratio / unit.factor - 1) < tolerance) return &unit;
+std::optional<Unit> UnitOfRatio(double ratio, double tolerance) {
+  for (const Unit& unit : {Unit{1000, Sentence("unitMillimetres", "millimetres")},
+                           Unit{1 / 0.3048, Sentence("unitFeet", "feet")}}) {
+    if (std::abs(ratio / unit.factor - 1) < tolerance) return unit;
   }
-  return nullptr;
+  return std::nullopt;
 }
 
 double Median(std::vector<double> values) {
@@ -62,10 +62,31 @@ std::vector<Distance> DistancesOf(const Survey& survey) {
   return distances;
 }
 
-std::string Told(const Distance& distance) {
-  return "the distance from '" + distance.from->name + "' to '" + distance.to->name + "' is " +
-         ShortNumber(distance.constraint->value) + " m, their coordinates are " +
-         ShortNumber(distance.surveyed) + " m apart";
+Json::Value Told(const Distance& distance) {
+  return Sentence("scaleApart",
+                  "the distance from '{from}' to '{to}' is {value} m, their coordinates are "
+                  "{surveyed} m apart",
+                  {{"from", distance.from->name},
+                   {"to", distance.to->name},
+                   {"value", ShortNumber(distance.constraint->value)},
+                   {"surveyed", ShortNumber(distance.surveyed)}})
+      .ToJson();
+}
+
+Sentence Question(const Distance& distance, const std::optional<Unit>& points,
+                  const std::optional<Unit>& value) {
+  Sentence::Values values = {{"apart", Told(distance)}};
+  if (!points && !value) {
+    return Sentence("scaleDiffer", "{apart}. Expected: both alike, in metres", values);
+  }
+  values["unit"] = (points ? points : value)->name.ToJson();
+  return points
+             ? Sentence("scalePointsUnit",
+                        "{apart}: are the control points in {unit}? Expected: both alike, in "
+                        "metres",
+                        values)
+             : Sentence("scaleValueUnit",
+                        "{apart}: is value_m in {unit}? Expected: both alike, in metres", values);
 }
 
 // Measured distances against coordinates: all by the same factor, or one alone. Millimetres and
@@ -78,27 +99,26 @@ std::vector<Diagnosis> AgainstDistances(const Survey& survey) {
   }
   if (ratios.empty()) return {};
   const double ratio = Median(ratios);
-  const Unit* control_unit = UnitOfRatio(ratio, 0.02);
+  const std::optional<Unit> control_unit = UnitOfRatio(ratio, 0.02);
   if (control_unit && ratios.size() > 1) {
+    const FilePlace& place = distances.front().constraint->place;
     return {{survey.control_points.front().place,
-             "the control points are in " + std::string(control_unit->name) + ": " +
-                 Told(distances.front()) + " (" +
-                 distances.front().constraint->place.path.filename().string() + ":" +
-                 std::to_string(distances.front().constraint->place.line) +
-                 "). Expected: coordinates and sigmas in metres"}};
+             Sentence("scaleControl",
+                      "the control points are in {unit}: {apart} ({file}:{line}). Expected: "
+                      "coordinates and sigmas in metres",
+                      {{"unit", control_unit->name.ToJson()},
+                       {"apart", Told(distances.front())},
+                       {"file", place.path.filename().string()},
+                       {"line", place.line}})}};
   }
   std::vector<Diagnosis> diagnoses;
   for (size_t i = 0; i < distances.size(); ++i) {
     const Distance& distance = distances[i];
     if (std::abs(distance.surveyed - distance.constraint->value) < 10 * distance.sigma) continue;
-    const Unit* points = ratios[i] > 1 ? UnitOfRatio(ratios[i], 0.02) : nullptr;
-    const Unit* value = ratios[i] < 1 ? UnitOfRatio(1 / ratios[i], 0.02) : nullptr;
-    const std::string question =
-        points  ? ": are the control points in " + std::string(points->name) + "?"
-        : value ? ": is value_m in " + std::string(value->name) + "?"
-                : ".";
-    diagnoses.push_back({distance.constraint->place,
-                         Told(distance) + question + " Expected: both alike, in metres",
+    std::optional<Unit> points, value;
+    if (ratios[i] > 1) points = UnitOfRatio(ratios[i], 0.02);
+    if (ratios[i] < 1) value = UnitOfRatio(1 / ratios[i], 0.02);
+    diagnoses.push_back({distance.constraint->place, Question(distance, points, value),
                          points || value ? Kind::kFault : Kind::kMisfit});
   }
   return diagnoses;
@@ -136,25 +156,43 @@ std::vector<Diagnosis> Implausible(const DiagnosisInput& input,
   const FilePlace place = input.survey.control_points.front().place;
   const auto [distance, fit, sigma] = PlausibilityOf(input, fits);
   const bool is_whole = AreWholeNumbers(input.survey);
-  const std::string stand =
-      "the cameras stand " + ShortNumber(distance) + " m from the control points";
+  const Sentence::Values values = {{"distance", ShortNumber(distance)}};
   std::vector<Diagnosis> diagnoses;
-  if (distance > kVeryFarAway || (distance > kFarAway && is_whole)) {
-    diagnoses.push_back({place,
-                         stand + (is_whole ? ", whose coordinates are whole numbers" : "") +
-                             ": are these in millimetres? Expected: metres; photos alone "
-                             "cannot tell the scale, a distance in constraints.json can",
-                         Kind::kMisfit});
+  if (is_whole && distance > kFarAway) {
+    diagnoses.push_back(
+        {place,
+         Sentence("scaleWhole",
+                  "the cameras stand {distance} m from the control points, whose coordinates are "
+                  "whole numbers: are these in millimetres? Expected: metres; photos alone cannot "
+                  "tell the scale, a distance in constraints.json can",
+                  values),
+         Kind::kMisfit});
+  } else if (distance > kVeryFarAway) {
+    diagnoses.push_back(
+        {place,
+         Sentence("scaleFar",
+                  "the cameras stand {distance} m from the control points: are these in "
+                  "millimetres? Expected: metres; photos alone cannot tell the scale, a distance "
+                  "in constraints.json can",
+                  values),
+         Kind::kMisfit});
   } else if (distance < kTooClose) {
     diagnoses.push_back(
-        {place, stand + ": are their coordinates in kilometres? Expected: metres", Kind::kMisfit});
+        {place,
+         Sentence("scaleClose",
+                  "the cameras stand {distance} m from the control points: are their coordinates "
+                  "in kilometres? Expected: metres",
+                  values),
+         Kind::kMisfit});
   }
   if (sigma > kLargeSigma && fit * kMuchBetter < sigma) {
-    diagnoses.push_back({place,
-                         "the control points have sigmas of " + ShortNumber(sigma) +
-                             " m, but fit the photos to " + ShortNumber(fit) +
-                             " m: are the sigmas in millimetres? Expected: metres",
-                         Kind::kQuestion});
+    diagnoses.push_back(
+        {place,
+         Sentence("scaleSigmas",
+                  "the control points have sigmas of {sigma} m, but fit the photos to {fit} m: are "
+                  "the sigmas in millimetres? Expected: metres",
+                  {{"sigma", ShortNumber(sigma)}, {"fit", ShortNumber(fit)}}),
+         Kind::kQuestion});
   }
   return diagnoses;
 }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "calibration/files/error.h"
+#include "calibration/files/sentence.h"
 #include "calibration/lens/camera.h"
 #include "reconstruction/survey/survey.h"
 
@@ -18,13 +19,18 @@ struct Diagnosis {
     kQuestion,  // it fits, but is hardly meant so
   };
   FilePlace place;
-  std::string message;  // what is wrong, what shows it, what to do
+  Sentence message;  // what is wrong, what shows it, what to do
   Kind kind = Kind::kFault;
   std::string unused_control = {};  // the control point, where it is one that nothing refers to
 };
 
 // "observations.csv:12: message".
 std::string Text(const Diagnosis& diagnosis);
+
+// Names in quotes, as QuotedList has them, and "photo 'a'", "photos 'a' and 'b'"; to be values of a
+// message.
+Json::Value SaidNames(const std::vector<std::string>& names);
+Json::Value SaidPhotos(const std::vector<std::string>& names);
 
 // What is diagnosed; `cameras` go with `photos`.
 struct DiagnosisInput {

@@ -20,7 +20,7 @@ constexpr double kBadFit = 5;  // [sigma], far beyond chance and beyond sigmas t
 bool IsFault(const Diagnosis& diagnosis) { return diagnosis.kind == Diagnosis::Kind::kFault; }
 
 InputError ErrorOf(const Diagnosis& diagnosis) {
-  return InputError(diagnosis.place.path, diagnosis.place.line, diagnosis.message);
+  return InputError(diagnosis.place.path, diagnosis.place.line, diagnosis.message.text());
 }
 
 void Append(std::vector<Diagnosis> more, std::vector<Diagnosis>* all) {

@@ -21,7 +21,8 @@ namespace insitu {
 //   twice, coordinates or sigmas in millimetres, degrees instead of metres;
 // - marks: x and y exchanged, y counted from the bottom, named as another point, exchanged, far
 // off,
-//   the same marks on two photos, two photos of one exterior orientation;
+//   the same marks on two photos, two photos of one exterior orientation, points left out for
+//   their single mark;
 // - camera positions and distances in another unit or system than the control, or exchanged.
 //
 // Photos with fewer than four control points (five, to find single faults) are not judged.

@@ -130,8 +130,9 @@ Json::Value CsvSurveyText::RowOfCells(const std::vector<std::string_view>& cells
     if (Holds(table_.numbers, column)) {
       const auto value = ParseNumber(text);
       if (!value) {
-        throw InputError(path_, number,
-                         "\"" + text + "\" in column \"" + column + "\", expected a finite number");
+        std::string message = "\"" + text;
+        message += "\" in column \"" + column;
+        throw InputError(path_, number, message += "\", expected a finite number");
       }
       row[column] = *value;
     } else if (!text.empty() && !column.empty() && !row.isMember(column)) {

@@ -34,6 +34,20 @@ EditedTable SampleTable(const std::string& name) {
                    {"photo", "x", "y", "polygon"});
 }
 
+// The certificate of scanned film, its list of fiducial marks, and where they are on each scan.
+std::vector<EditedTable> FilmTables() {
+  std::vector<EditedTable> tables = {
+      JsonTable("film", "calibration/film.json", TableForm::kRoot, {},
+                {"focal_mm", "principal_point_mm", "distortion", "transformation"}),
+      JsonTable("film_marks", "calibration/film.json", TableForm::kList, {"mark"},
+                {"mark", "x_mm", "y_mm"}),
+      CsvTable("fiducials", {"photo", "mark"}, {"mark", "x_mm", "y_mm", "photo", "x", "y"},
+               {"x_mm", "y_mm", "x", "y"}, false)};
+  tables[1].member = "fiducials";
+  tables[2].file = "calibration/fiducials.csv";
+  return tables;
+}
+
 std::vector<EditedTable> MakeTables() {
   const Fields position = {"x", "y", "z", "sigma_x", "sigma_y", "sigma_z"};
   const Fields pixel = {"x", "y", "sigma"};
@@ -51,7 +65,7 @@ std::vector<EditedTable> MakeTables() {
                true),
       CsvTable("camera_positions", {"photo"}, with({"photo"}, {"role"}), position, false),
       JsonTable("polygons", "survey/polygons.json", TableForm::kList, {"name"},
-                {"name", "vertices", "photo", "material", "mask"}),
+                {"name", "vertices", "holes", "photo", "material", "mask"}),
       JsonTable("sun", "survey/directions.json", TableForm::kList, {"shadow", "object"},
                 {"object", "shadow"}),
       JsonTable("zenith", "survey/directions.json", TableForm::kList, {"bottom", "top"},
@@ -66,6 +80,8 @@ std::vector<EditedTable> MakeTables() {
       JsonTable("drafts", "survey/drafts.json", TableForm::kList, {"id"}, {"id"}),
       JsonTable("site", "site.json", TableForm::kRoot, {}, {"name"}),
   };
+  const std::vector<EditedTable> film = FilmTables();
+  tables.insert(tables.end(), film.begin(), film.end());
   for (EditedTable& table : tables) table.is_null_when_empty = table.name == "haze";
   return tables;
 }

@@ -19,7 +19,7 @@ enum class TableForm {
 
 struct EditedTable {
   std::string name;
-  std::string file;  // below the site's folder
+  std::string file;  // below the site's folder; film's may be in a folder of calibration/ instead
   TableForm form = TableForm::kCsv;
   std::string member = {};                // of the root, of lists and members
   std::vector<std::string> key = {};      // fields; empty: the whole row, or none (kRoot)

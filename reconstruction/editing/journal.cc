@@ -103,6 +103,7 @@ void Journal::Read() {
 }
 
 void Journal::Append(const Json::Value& entry) {
+  if (!is_name_on_disk_) SyncName();
   const std::string line = OneLineJson(entry) + "\n";
   if (WriteAll(descriptor_, line) && fsync(descriptor_) == 0) {
     size_ += static_cast<off_t>(line.size());
@@ -111,6 +112,34 @@ void Journal::Append(const Json::Value& entry) {
   const std::string reason = std::strerror(errno);
   const bool is_cut = ftruncate(descriptor_, size_) == 0;
   RefuseJournal(path_, reason + (is_cut ? "" : "; its last line may be torn"));
+}
+
+void Journal::Replace(const std::vector<Json::Value>& entries) {
+  std::string text;
+  for (const Json::Value& entry : entries) text += OneLineJson(entry) + "\n";
+  int descriptor = -1;
+  try {
+    WriteWhole(path_, [&](const std::filesystem::path& temporary) {
+      const int flags = O_RDWR | O_CREAT | O_TRUNC | O_APPEND | O_CLOEXEC;
+      descriptor = open(temporary.c_str(), flags, 0666);
+      if (descriptor < 0 || !WriteAll(descriptor, text) || fsync(descriptor) != 0) {
+        RefuseJournal(temporary, std::strerror(errno));
+      }
+    });
+  } catch (const std::exception& error) {
+    if (descriptor >= 0) close(descriptor);
+    throw InputError(path_, std::string("cannot be made shorter: ") + error.what());
+  }
+  close(descriptor_);
+  descriptor_ = descriptor;
+  size_ = static_cast<off_t>(text.size());
+  is_name_on_disk_ = false;
+  SyncName();
+}
+
+void Journal::SyncName() {
+  SyncToDisk(path_.parent_path());
+  is_name_on_disk_ = true;
 }
 
 void SyncToDisk(const std::filesystem::path& path) {

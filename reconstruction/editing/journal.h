@@ -30,12 +30,18 @@ class Journal {
   // On return the entry is on disk. Throws InputError: it is not, and the file is as it was.
   void Append(const Json::Value& entry);
 
+  // Puts these in the place of all entries: whoever is killed meanwhile leaves the old ones or the
+  // new ones, whole. Throws InputError: the file is as it was.
+  void Replace(const std::vector<Json::Value>& entries);
+
  private:
   void Read();
+  void SyncName();
 
   std::filesystem::path path_;
   int descriptor_ = -1;
   off_t size_ = 0;
+  bool is_name_on_disk_ = true;  // else a power failure would bring back what was replaced
   std::vector<Json::Value> entries_;
   std::optional<std::string> remark_;
 };

@@ -2,6 +2,7 @@
 // A JSON file of a site as a text: lists of rows, rows by name, and the root's other members.
 #pragma once
 
+#include <filesystem>
 #include <list>
 #include <map>
 #include <optional>

@@ -6,6 +6,7 @@
 #include <unordered_map>
 
 #include "calibration/files/error.h"
+#include "reconstruction/editing/make_survey_text.h"
 
 namespace insitu {
 namespace {

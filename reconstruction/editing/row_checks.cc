@@ -118,6 +118,23 @@ Fault FaultOfPosition(const Json::Value& row) {
                     FaultOfSigma(row, "sigma_z"));
 }
 
+// Every vertex of a polygon occurs once, in its outline or in one hole.
+Fault FaultOfHoles(const Json::Value& holes, std::set<std::string> taken) {
+  if (holes.isNull()) return std::nullopt;
+  if (!holes.isArray()) return "holes are no list";
+  for (const Json::Value& hole : holes) {
+    if (!hole.isArray() || hole.size() < 3) return "a hole has not three vertices";
+    for (const Json::Value& vertex : hole) {
+      if (!vertex.isString()) return "a hole's vertex is no name";
+      if (const Fault fault = FaultOfPoint("vertex", vertex.asString())) return fault;
+      if (!taken.insert(vertex.asString()).second) {
+        return "vertex " + Quoted(vertex.asString()) + " occurs twice, in the outline or a hole";
+      }
+    }
+  }
+  return std::nullopt;
+}
+
 Fault FaultOfPolygon(const Json::Value& row, const Texts& photos) {
   std::set<std::string> distinct;
   if (!row["vertices"].isArray()) return "vertices are no list";
@@ -131,6 +148,7 @@ Fault FaultOfPolygon(const Json::Value& row, const Texts& photos) {
            std::to_string(distinct.size()) +
            " of them distinct; expected at least three, all distinct";
   }
+  if (const Fault fault = FaultOfHoles(row["holes"], distinct)) return fault;
   if (!row["mask"].isNull() && !row["mask"].isString()) return "mask is no name of a file";
   return FirstFault(FaultOfName("name", RowText(row, "name")),
                     FaultOfName("material", RowText(row, "material")),
@@ -212,6 +230,36 @@ Fault FaultOfReflectance(const Json::Value& rgb) {
   return is_fine ? Fault() : "daylight_reflectance_rgb: expected three numbers above 0 and up to 1";
 }
 
+Fault FaultOfMillimetres(const Json::Value& row) {
+  return FirstFault(FaultOfName("mark", RowText(row, "mark")), FaultOfNumber(row, "x_mm"),
+                    FaultOfNumber(row, "y_mm"));
+}
+
+Fault FaultOfDistortion(const Json::Value& rows) {
+  if (rows.isNull()) return std::nullopt;
+  double last = 0;
+  for (const Json::Value& row : rows) {
+    const bool rises = row.isArray() && row.size() == 2 && row[0].isNumeric() &&
+                       row[1].isNumeric() && row[0].asDouble() > last;
+    if (!rises) return "distortion: expected [radius_mm, distortion_mm] with radii rising from > 0";
+    last = row[0].asDouble();
+  }
+  return rows.isArray() && rows.size() != 1 ? Fault() : "distortion: expected two radii or more";
+}
+
+// Of a certificate as far as it is typed.
+Fault FaultOfCertificate(const Json::Value& row) {
+  const Json::Value& point = row["principal_point_mm"];
+  const bool has_point =
+      point.isArray() && point.size() == 2 && point[0].isNumeric() && point[1].isNumeric();
+  if (!point.isNull() && !has_point) return "principal_point_mm: expected two numbers";
+  return FirstFault(row["focal_mm"].isNull() ? Fault() : FaultOfSigma(row, "focal_mm"),
+                    FaultOfDistortion(row["distortion"]),
+                    row["transformation"].isNull()
+                        ? Fault()
+                        : FaultOfWord(row, "transformation", {"affine", "projective"}));
+}
+
 // Anywhere in a value: what JSON could not hold.
 Fault FaultWithin(const Json::Value& value) {
   if (value.isNumeric() && !std::isfinite(value.asDouble())) return "a number is not finite";
@@ -230,6 +278,7 @@ Fault FaultOfCsvRow(const EditedTable& table, const Json::Value& row, const Text
                       FaultOfWord(row, "role", {"control", "check"}));
   }
   if (const Fault fault = FaultOfPhotoName(row, photos)) return fault;
+  if (table.name == "fiducials") return FirstFault(FaultOfMillimetres(row), FaultOfPixel(row));
   if (table.name == "camera_positions") {
     return FirstFault(FaultOfPosition(row),
                       FaultOfWord(row, "role", {"fixed", "weighted", "free"}));
@@ -259,6 +308,8 @@ std::optional<std::string> FaultOfRow(const EditedTable& table, const Json::Valu
     return FirstFault(FaultOfPhotoName(row, photos), FaultOfPixel(row), name);
   }
   if (table.name == "light") return FaultOfReflectance(row["daylight_reflectance_rgb"]);
+  if (table.name == "film") return FaultOfCertificate(row);
+  if (table.name == "film_marks") return FaultOfMillimetres(row);
   if (table.name == "materials") return FaultOfName("name", RowText(row, "name"));
   if (table.name == "drafts" && row["id"].isNull()) return "id is missing";
   return std::nullopt;

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "calibration/files/error.h"
+#include "reconstruction/editing/make_survey_text.h"
 #include "reconstruction/editing/merge_rows.h"
 #include "reconstruction/editing/row_checks.h"
 
@@ -139,9 +140,8 @@ EditOutcome SiteEdit::Apply(const Operation& operation) {
   if (operation.edits.empty()) return Refused(revision(), "the operation has no edits");
   const std::string refusal = RefusalOf(operation.edits, true);
   if (!refusal.empty()) return Refused(revision(), refusal);
-  return Do(operation, EqualRows::kRefused, {}, [&](std::vector<Json::Value> traces) {
-    history_.AddEdit(operation, std::move(traces));
-  });
+  return Do(operation, EqualRows::kRefused, {},
+            [&](const std::vector<Json::Value>& traces) { history_.AddEdit(operation, traces); });
 }
 
 EditOutcome SiteEdit::Undo(const std::string& id) {
@@ -166,7 +166,7 @@ EditOutcome SiteEdit::Redo(const std::string& id) {
   if (!refusal.empty()) return Refused(revision(), refusal);
   EditOutcome outcome =
       Do(operation, EqualRows::kAllowed, {},
-         [&](std::vector<Json::Value> traces) { history_.AddRedo(id, std::move(traces)); });
+         [&](const std::vector<Json::Value>& traces) { history_.AddRedo(id, traces); });
   if (!outcome.conflicts.empty()) history_.DropRedo();
   return outcome;
 }

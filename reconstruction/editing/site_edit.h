@@ -59,7 +59,7 @@ class SiteEdit {
  public:
   // `photos` are the names that rows may give. The folder survey/ may be missing. Throws
   // InputError: somebody else edits the site, the journal cannot be read or written.
-  SiteEdit(SitePaths site, std::vector<std::string> photos);
+  SiteEdit(SitePaths site, std::vector<std::string> photos, const HistoryLimits& limits = {});
 
   int revision() const { return history_.revision(); }
   int saved_revision() const { return saved_revision_; }
@@ -107,6 +107,7 @@ class SiteEdit {
   void Remember(const SiteFile& file, const std::string& text,
                 const std::vector<RowEdit>& pending = {});
   void RememberOnDisk(const SiteFile& file, const std::vector<RowEdit>& pending = {});
+  void ShortenJournal();
   void SaveFile(SiteFile& file, SaveReport* report);
   SiteFile& FileOf(const EditedTable& table);
   const SiteFile& FileOf(const EditedTable& table) const;
@@ -123,6 +124,7 @@ class SiteEdit {
   std::vector<SiteFile> files_;
   OutsideChanges found_;
   int saved_revision_ = 0;
+  bool can_shorten_ = true;  // the journal; else it was tried in vain
 };
 
 }  // namespace insitu

@@ -6,6 +6,7 @@
 #include "calibration/files/error.h"
 #include "calibration/files/sha256.h"
 #include "calibration/files/whole_file.h"
+#include "reconstruction/editing/make_survey_text.h"
 #include "reconstruction/editing/merge_rows.h"
 #include "reconstruction/editing/site_edit.h"
 
@@ -34,7 +35,7 @@ int SavedAt(const std::vector<FileMark>& marks, const FileMark& mark) {
 
 Operation OutsideOperation(const SiteFile& file, int revision, std::vector<RowEdit> edits) {
   const std::string number = std::to_string(revision + 1);
-  return {"outside " + number, "Changed in " + file.name + " by another program", std::move(edits)};
+  return {"outside " + number, "Changed in " + file.told + " by another program", std::move(edits)};
 }
 
 template <typename Items>
@@ -44,19 +45,36 @@ void AppendTo(Items& items, const Items& more) {
 
 }  // namespace
 
-SiteEdit::SiteEdit(SitePaths site, std::vector<std::string> photos)
+SiteEdit::SiteEdit(SitePaths site, std::vector<std::string> photos, const HistoryLimits& limits)
     : site_(std::move(site)),
       photos_(std::move(photos)),
       lock_(site_, "insitu-prepare", PrepareFolder(site_) / ".lock"),
-      history_(PrepareFolder(site_) / "journal.jsonl"),
+      history_(PrepareFolder(site_) / "journal.jsonl", limits),
       files_(SiteFiles(site_.root, PrepareFolder(site_) / "files")) {
   if (history_.remark()) found_.remarks.push_back(*history_.remark());
   RemoveLeftovers(site_.survey());
+  RemoveLeftovers(site_.boards());
   RemoveLeftovers(PrepareFolder(site_));
   saved_revision_ = revision();
   for (SiteFile& file : files_) Open(file);
   history_.ForgetDone();
   if (is_saved()) saved_revision_ = revision();
+  ShortenJournal();
+}
+
+// Once all is in the files and their copies, the journal need not tell how it came there. A journal
+// that stays long is as good: what prevents it is said once.
+void SiteEdit::ShortenJournal() {
+  if (!history_.IsLong() || !can_shorten_) return;
+  try {
+    const bool is_settled = std::all_of(files_.begin(), files_.end(), [](const SiteFile& file) {
+      return !file.is_changed && !file.fault && ReadIfThere(file.copy) == file.on_disk;
+    });
+    if (is_settled) history_.Shorten();
+  } catch (const std::exception& error) {
+    can_shorten_ = false;
+    found_.remarks.emplace_back(error.what());
+  }
 }
 
 // The file's content as its tables, without what the journal has on top.
@@ -122,7 +140,7 @@ void SiteEdit::TakeIn(SiteFile& file, const std::string& on_disk, OutsideChanges
   if (on_disk.empty() && file.was_read) {
     file.on_disk.clear();
     file.is_changed = true;
-    changes->remarks.push_back(file.name + " was removed; it is written again");
+    changes->remarks.push_back(file.told + " was removed; it is written again");
     return;
   }
   if (!file.was_read) {
@@ -231,6 +249,7 @@ SaveReport SiteEdit::Save() {
     }
   }
   if (report.is_saved()) saved_revision_ = revision();
+  ShortenJournal();
   return report;
 }
 

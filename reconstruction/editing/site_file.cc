@@ -7,8 +7,10 @@
 #include <fstream>
 #include <system_error>
 
+#include "calibration/camera_files/film.h"
 #include "calibration/files/error.h"
 #include "calibration/files/whole_file.h"
+#include "calibration/program/site.h"
 #include "reconstruction/editing/journal.h"
 
 namespace insitu {
@@ -45,6 +47,13 @@ void WriteOnDisk(const fs::path& temporary, const fs::path& target, const std::s
   SyncToDisk(temporary);
 }
 
+// Of film the folder that holds it.
+fs::path PathOf(const EditedTable& table, const fs::path& site) {
+  const fs::path file(table.file), calibration = SitePaths{site}.boards();
+  if (site / file.parent_path() != calibration) return site / file;
+  return FilmFolder(calibration) / file.filename();
+}
+
 }  // namespace
 
 std::vector<SiteFile> SiteFiles(const fs::path& site, const fs::path& copies) {
@@ -52,9 +61,13 @@ std::vector<SiteFile> SiteFiles(const fs::path& site, const fs::path& copies) {
   for (const EditedTable& table : EditedTables()) {
     if (files.empty() || files.back().name != table.file) {
       std::error_code none;
-      const fs::path path = site / table.file;
+      const fs::path path = PathOf(table, site);
       const fs::path target = fs::is_symlink(path, none) ? fs::weakly_canonical(path, none) : path;
-      files.push_back({table.file, target.empty() ? path : target, copies / path.filename(), {}});
+      files.push_back({table.file,
+                       path.lexically_relative(site).string(),
+                       target.empty() ? path : target,
+                       copies / path.filename(),
+                       {}});
     }
     files.back().tables.push_back(table);
   }
@@ -90,7 +103,7 @@ FileFault FaultOf(const SiteFile& file, const std::exception& error) {
                             : path.size();
     text = text.substr(std::min(used + 1, text.size()));
   }
-  return {file.name, line, text};
+  return {file.told, line, text};
 }
 
 std::optional<std::string> ReplaceFile(const fs::path& path, const std::string& text,

@@ -22,7 +22,8 @@ struct FileFault {
 
 // The tables of a file, as they stand now and as the file was when it was last read.
 struct SiteFile {
-  std::string name;            // below the site's folder
+  std::string name;            // as its tables have it
+  std::string told;            // below the site's folder, for people
   std::filesystem::path path;  // a link is followed
   std::filesystem::path copy;  // of what was last read or written, for after a crash
   std::vector<EditedTable> tables;

@@ -37,10 +37,17 @@ struct FileMark {
   std::vector<RowEdit> pending = {};
 };
 
+// When a journal is made shorter, and what it holds then.
+struct HistoryLimits {
+  size_t entries = 10000;  // of the journal, from which on it is long
+  size_t steps = 2000;     // that can be undone, and redone
+  size_t ids = 20000;      // revisions whose ids are known, of pages that ask again
+};
+
 class SiteHistory {
  public:
   // Throws InputError as Journal does.
-  explicit SiteHistory(const std::filesystem::path& journal);
+  explicit SiteHistory(const std::filesystem::path& journal, const HistoryLimits& limits = {});
 
   int revision() const { return revision_; }
   const std::optional<std::string>& remark() const { return journal_.remark(); }
@@ -57,20 +64,31 @@ class SiteHistory {
   void ForgetDone() { read_.clear(); }
 
   // Each puts an entry on disk first and throws InputError, nothing changed, if that fails.
-  void AddEdit(const Operation& operation, std::vector<Json::Value> traces);
+  void AddEdit(const Operation& operation, const std::vector<Json::Value>& traces);
   void AddOutside(const Operation& operation);
-  void AddUndo(const std::string& id);                                   // of ToUndo()
-  void AddRedo(const std::string& id, std::vector<Json::Value> traces);  // of ToRedo()
+  void AddUndo(const std::string& id);                                          // of ToUndo()
+  void AddRedo(const std::string& id, const std::vector<Json::Value>& traces);  // of ToRedo()
   void DropUndo();  // ToUndo() cannot be undone any more
   void DropRedo();
+  bool IsLong() const { return entry_count_ >= limits_.entries; }
+
+  // Puts one entry in the place of all, the history within its limits: to be called while the last
+  // mark of each file is of what the file and its copy hold, and holds all that was done. Throws
+  // InputError: the journal is as it was.
+  void Shorten();
+
   void AddMark(const std::string& file, const std::string& hash,
                const std::vector<RowEdit>& pending = {});
 
  private:
   void Do(const Json::Value& entry, bool is_reading);
+  void DoStep(const Json::Value& entry, const std::string& kind, bool is_reading);
+  void Begin(const Json::Value& entry);
   void Append(Json::Value entry);
 
   Journal journal_;
+  HistoryLimits limits_;
+  size_t entry_count_ = 0;  // of the journal, but for the one of Shorten
   int revision_ = 0;
   std::vector<HistoryStep> done_, undone_;
   std::vector<DoneEdits> read_;

@@ -6,8 +6,6 @@
 #include <json/value.h>
 
 #include <cstddef>
-#include <filesystem>
-#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -41,11 +39,5 @@ class SurveyText {
 
 // Where a text stops being UTF-8 (a zero byte is none either); nullopt: it is UTF-8.
 std::optional<size_t> FirstNotUtf8(const std::string& text);
-
-// Of the file with these tables. Throws InputError at the line: the text cannot be understood, or
-// is not UTF-8. `path` is for messages.
-std::unique_ptr<SurveyText> MakeSurveyText(const std::vector<EditedTable>& tables,
-                                           const std::filesystem::path& path,
-                                           const std::string& text);
 
 }  // namespace insitu

@@ -7,6 +7,7 @@
 #include "calibration/files/text_table.h"
 #include "calibration/files/whole_file.h"
 #include "calibration/photo/photograph.h"
+#include "reconstruction/exchange/read_survey_file.h"
 #include "reconstruction/exchange/survey_crs.h"
 
 namespace insitu {

@@ -17,6 +17,14 @@ Eigen::Vector3d OutlineNormal(const std::vector<Eigen::Vector3d>& vertices) {
   return twice_area.stableNormalized();
 }
 
+double AreaOf(const std::vector<Eigen::Vector3d>& vertices) {
+  Eigen::Vector3d twice_area = Eigen::Vector3d::Zero();
+  for (size_t i = 1; i + 1 < vertices.size(); ++i) {
+    twice_area += (vertices[i] - vertices[0]).cross(vertices[i + 1] - vertices[0]);
+  }
+  return twice_area.norm() / 2;
+}
+
 Plane FitPlane(const std::vector<Eigen::Vector3d>& points) {
   INSITU_CHECK(points.size() >= 3);
   Eigen::Vector3d mean = Eigen::Vector3d::Zero();

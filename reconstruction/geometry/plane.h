@@ -19,6 +19,9 @@ struct Plane {
 // vertex); zero for an outline without area.
 Eigen::Vector3d OutlineNormal(const std::vector<Eigen::Vector3d>& vertices);
 
+// Within an outline that does not cross itself [m^2].
+double AreaOf(const std::vector<Eigen::Vector3d>& vertices);
+
 // Least-squares plane through at least three points, its point their centroid, its sign arbitrary.
 Plane FitPlane(const std::vector<Eigen::Vector3d>& points);
 

@@ -9,7 +9,6 @@
 #include <utility>
 
 #include "calibration/files/error.h"
-#include "reconstruction/geometry/triangulate.h"
 
 namespace insitu {
 namespace {
@@ -118,6 +117,37 @@ bool RayScene::IsOccluded(const Ray& ray) const {
   return query.tfar < 0;  // Embree's mark of an occluded ray
 }
 
+std::array<std::optional<RayHit>, kPacketSize> RayScene::NearestOfPacket(
+    const Eigen::Vector3d& origin, std::span<const Eigen::Vector3d> directions,
+    std::span<const double> far) const {
+  INSITU_CHECK(directions.size() <= kPacketSize && far.size() == directions.size());
+  alignas(64) int valid[kPacketSize] = {};
+  RTCRayHit16 query{};
+  for (size_t i = 0; i < directions.size(); ++i) {
+    valid[i] = -1;
+    query.ray.org_x[i] = static_cast<float>(origin.x());
+    query.ray.org_y[i] = static_cast<float>(origin.y());
+    query.ray.org_z[i] = static_cast<float>(origin.z());
+    query.ray.dir_x[i] = static_cast<float>(directions[i].x());
+    query.ray.dir_y[i] = static_cast<float>(directions[i].y());
+    query.ray.dir_z[i] = static_cast<float>(directions[i].z());
+    query.ray.tfar[i] = static_cast<float>(far[i]);
+    query.ray.mask[i] = ~0u;
+    query.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
+  }
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+  rtcIntersect16(valid, embree_->scene, &context, &query);
+  std::array<std::optional<RayHit>, kPacketSize> hits;
+  for (size_t i = 0; i < directions.size(); ++i) {
+    if (query.hit.geomID[i] == RTC_INVALID_GEOMETRY_ID) continue;
+    hits[i] = RayHit{
+        query.ray.tfar[i], static_cast<int>(query.hit.primID[i]), {query.hit.u[i], query.hit.v[i]}};
+  }
+  return hits;
+}
+
 uint16_t RayScene::OcclusionMask(const Eigen::Vector3d& origin,
                                  std::span<const Eigen::Vector3f> directions, double near) const {
   constexpr size_t kLanes = 16;
@@ -151,10 +181,10 @@ PolygonMesh MeshOfPolygons(const SceneGeometry& scene) {
   TriangleMesh& mesh = result.mesh;
   for (size_t p = 0; p < scene.polygons.size(); ++p) {
     const Polygon& polygon = scene.polygons[p];
-    const auto triangles = Triangulate(polygon.vertices, polygon.normal);
+    const auto triangles = TrianglesOf(polygon);
     INSITU_CHECK(triangles.has_value());  // the adjustment refuses outlines that cross themselves
     const int base = static_cast<int>(mesh.vertices.size());
-    for (const Eigen::Vector3d& vertex : polygon.vertices) {
+    for (const Eigen::Vector3d& vertex : AllVertices(polygon)) {
       mesh.vertices.push_back((vertex - scene.origin).cast<float>());
     }
     for (const Eigen::Vector3i& triangle : *triangles) {

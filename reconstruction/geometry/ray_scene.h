@@ -4,6 +4,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <cstdint>
 #include <limits>
 #include <memory>
@@ -34,6 +35,8 @@ struct TriangleMesh {
   std::vector<Eigen::Vector3i> triangles;
 };
 
+constexpr int kPacketSize = 16;
+
 class RayScene {
  public:
   explicit RayScene(const TriangleMesh& mesh);  // an empty mesh is allowed: nothing is ever hit
@@ -43,6 +46,12 @@ class RayScene {
 
   std::optional<RayHit> Nearest(const Ray& ray) const;
   bool IsOccluded(const Ray& ray) const;
+
+  // Up to 16 directions from one origin at once (Embree packets), each to its own `far`, where hits
+  // end: what Nearest says of each. Fastest where the directions lie close together.
+  std::array<std::optional<RayHit>, kPacketSize> NearestOfPacket(
+      const Eigen::Vector3d& origin, std::span<const Eigen::Vector3d> directions,
+      std::span<const double> far) const;
 
   // Up to 16 directions from one origin at once (Embree packets). Bit i of the result: direction i
   // is blocked between `near` and infinity.

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "reconstruction/geometry/scene_geometry.h"
 
-#include "calibration/files/json_file.h"
+#include <algorithm>
+
 #include "reconstruction/geometry/intersection.h"
 #include "reconstruction/geometry/plane.h"
-#include "reconstruction/geometry/triangulate.h"
+#include "reconstruction/geometry/polygon_rings.h"
 
 namespace insitu {
 namespace {
@@ -27,6 +28,7 @@ Json::Value PolygonToJson(const Polygon& polygon, const std::vector<PosedCamera>
   for (const Eigen::Vector3d& vertex : polygon.vertices) {
     json["vertices"].append(ToJson(Eigen::VectorXd(vertex)));
   }
+  if (!polygon.holes.empty()) json["holes"] = HolesToJson(polygon.holes);
   if (polygon.covariance.size() > 0) json["covariance"] = ToJson(polygon.covariance);
   return json;
 }
@@ -58,12 +60,13 @@ Polygon PolygonFromJson(const JsonNode& node, const std::vector<PosedCamera>& ca
     polygon.vertices.push_back(vertex.Vector3());
   }
   if (polygon.vertices.size() < 3) throw node.Error("expected at least three vertices");
-  if (!HasInterior(polygon)) {
-    throw node.Error("the outline of polygon '" + polygon.name + "' crosses itself or has no area");
+  if (const auto holes = node.Find("holes")) polygon.holes = HolesFromJson(*holes);
+  if (const auto fault = FaultOfRings(polygon.vertices, polygon.holes, polygon.normal)) {
+    throw node.Error("polygon '" + polygon.name + "': " + fault->text);
   }
   if (const auto covariance = node.Find("covariance")) {
     polygon.covariance = covariance->Matrix();
-    const auto rows = static_cast<Eigen::Index>(3 * polygon.vertices.size());
+    const auto rows = static_cast<Eigen::Index>(3 * AllVertices(polygon).size());
     if (polygon.covariance.rows() != rows || polygon.covariance.cols() != rows) {
       throw covariance->Error("expected three rows and columns a vertex");
     }
@@ -90,9 +93,42 @@ Eigen::MatrixXd CovarianceFromJson(const JsonNode& node, const Camera& camera) {
 
 }  // namespace
 
-bool HasInterior(const Polygon& polygon) {
-  return Triangulate(polygon.vertices, polygon.normal).has_value();
+std::vector<Eigen::Vector3d> AllVertices(const Polygon& polygon) {
+  std::vector<Eigen::Vector3d> vertices = polygon.vertices;
+  for (const auto& hole : polygon.holes) vertices.insert(vertices.end(), hole.begin(), hole.end());
+  return vertices;
 }
+
+double AreaOf(const Polygon& polygon) {
+  double area = AreaOf(polygon.vertices);
+  for (const auto& hole : polygon.holes) area -= AreaOf(hole);
+  return std::max(area, 0.0);
+}
+
+Json::Value HolesToJson(const std::vector<std::vector<Eigen::Vector3d>>& holes) {
+  Json::Value json(Json::arrayValue);
+  for (const auto& hole : holes) {
+    Json::Value& ring = json.append(Json::Value(Json::arrayValue));
+    for (const Eigen::Vector3d& vertex : hole) ring.append(ToJson(Eigen::VectorXd(vertex)));
+  }
+  return json;
+}
+
+std::vector<std::vector<Eigen::Vector3d>> HolesFromJson(const JsonNode& node) {
+  std::vector<std::vector<Eigen::Vector3d>> holes;
+  for (const JsonNode& ring : node.Items()) {
+    std::vector<Eigen::Vector3d>& hole = holes.emplace_back();
+    for (const JsonNode& vertex : ring.Items()) hole.push_back(vertex.Vector3());
+    if (hole.size() < 3) throw ring.Error("expected a hole of at least three vertices");
+  }
+  return holes;
+}
+
+std::optional<std::vector<Eigen::Vector3i>> TrianglesOf(const Polygon& polygon) {
+  return TriangulateRings(polygon.vertices, polygon.holes, polygon.normal);
+}
+
+bool HasInterior(const Polygon& polygon) { return TrianglesOf(polygon).has_value(); }
 
 void WriteSceneGeometry(const SitePaths& site, const SceneGeometry& scene) {
   Json::Value json;
@@ -152,6 +188,9 @@ std::optional<Eigen::Vector3d> PointOnPolygon(const PosedCamera& camera,
   const auto outline = ProjectOutline(polygon.vertices, polygon.normal, inside);
   const auto point = ProjectOutline({*hit}, polygon.normal, inside);
   if (!IsInside(outline, point[0])) return std::nullopt;
+  for (const auto& hole : polygon.holes) {
+    if (IsInside(ProjectOutline(hole, polygon.normal, inside), point[0])) return std::nullopt;
+  }
   return hit;
 }
 

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "calibration/files/json_file.h"
 #include "calibration/lens/camera.h"
 #include "calibration/program/site.h"
 
@@ -19,9 +20,17 @@ struct Polygon {
   Eigen::Vector3d normal;                 // unit, outward, of the adjusted plane
   std::optional<int> photo;               // image attribute: index into SceneGeometry::cameras
   std::string material;                   // material attribute
-  // 3n x 3n [m^2], joint, of the vertices in their order; empty where nothing is known.
+  // 3n x 3n [m^2], joint, of AllVertices in their order; empty where nothing is known.
   Eigen::MatrixXd covariance = {};
+  std::vector<std::vector<Eigen::Vector3d>> holes =
+      {};  // in its plane, within it, either way round
 };
+
+// The outline's vertices, then each hole's. [m], world
+std::vector<Eigen::Vector3d> AllVertices(const Polygon& polygon);
+
+// Without its holes. [m^2]
+double AreaOf(const Polygon& polygon);
 
 // A measured direction in the world frame.
 struct Direction {
@@ -41,15 +50,23 @@ struct SceneGeometry {
   double vertex_sigma = 0;  // [m], the median posterior sigma of a vertex coordinate
 };
 
-// Whether its outline neither crosses itself nor is without area, as rays need it.
+// Triangles of it, indices into AllVertices, about its normal; nullopt: FaultOfRings has a reason.
+std::optional<std::vector<Eigen::Vector3i>> TrianglesOf(const Polygon& polygon);
+
+// Whether it has TrianglesOf, as rays need it.
 bool HasInterior(const Polygon& polygon);
 
 // work/reconstruction/scene.json and the .cameramodel files beside it. Reading throws InputError.
 void WriteSceneGeometry(const SitePaths& site, const SceneGeometry& scene);
 SceneGeometry ReadSceneGeometry(const SitePaths& site);
 
+// The member "holes" of a polygon: a list of lists of vertices. Reading throws InputError at a hole
+// of fewer than three.
+Json::Value HolesToJson(const std::vector<std::vector<Eigen::Vector3d>>& holes);
+std::vector<std::vector<Eigen::Vector3d>> HolesFromJson(const JsonNode& node);
+
 // The point of a polygon that a pixel of `camera` sees, ignoring everything before it; nullopt if
-// the line of sight misses the polygon.
+// the line of sight misses the polygon or goes through a hole.
 std::optional<Eigen::Vector3d> PointOnPolygon(const PosedCamera& camera,
                                               const Eigen::Vector2d& pixel, const Polygon& polygon);
 

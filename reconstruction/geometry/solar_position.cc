@@ -69,9 +69,9 @@ double JulianDayOfDate(int year, int month, int day) {
     --year;
     month += 12;
   }
-  const int century = year / 100;
+  const int century = year / 100, leap_centuries = century / 4;
   return std::floor(365.25 * (year + 4716)) + std::floor(30.6001 * (month + 1)) + day +
-         (2 - century + century / 4) - 1524.5;
+         (2 - century + leap_centuries) - 1524.5;
 }
 
 int DaysOfMonth(int year, int month) {

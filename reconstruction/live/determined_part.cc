@@ -8,6 +8,7 @@
 #include "calibration/files/error.h"
 #include "reconstruction/adjustment/planarity.h"
 #include "reconstruction/adjustment/start_growth.h"
+#include "reconstruction/live/left_out_reasons.h"
 
 namespace insitu {
 namespace {
@@ -25,19 +26,6 @@ std::string MessageAt(const InputError& error, const FilePlace& place) {
   const std::string start = InputError(place.path, place.line, "").what();
   const std::string text = error.what();
   return text.compare(0, start.size(), start) == 0 ? text.substr(start.size()) : text;
-}
-
-std::string ReasonOfPhoto(const StartGrowth& growth, size_t photo) {
-  static const char* const kMissing[] = {"three control points", "two more control points",
-                                         "one more control point"};
-  const StartGrowth::PhotoMarks marks = growth.MarksOf(photo);
-  if (marks.known.size() < 3) return kMissing[marks.known.size()];
-  const std::string count = std::to_string(marks.known.size());
-  if (!growth.CanResect(photo)) {
-    return "its " + count + " known points lie on one line, one more well beside it";
-  }
-  return "no place of the camera explains its " + count +
-         " known points: is one marked in the wrong place or under the wrong name?";
 }
 
 // Prunes a copy of a survey. Every pass grows the start values anew, for what is left out may have
@@ -90,7 +78,7 @@ class PartFinder {
       place_of_point_.try_emplace(point.name, point.place);
     }
     for (const PolygonOutline& polygon : survey.polygons) {
-      for (const std::string& vertex : polygon.vertices) {
+      for (const std::string& vertex : AllVertices(polygon)) {
         place_of_point_.try_emplace(vertex, polygon.place);
       }
     }
@@ -108,7 +96,8 @@ class PartFinder {
     if (index != index_of_photo_.end() && cameras_[index->second].Sees(pixel)) return false;
     const bool is_known = index != index_of_photo_.end();
     LeaveOut({kind, name, photo,
-              is_known ? "marked outside the photograph" : "the lens of its photo is not known",
+              is_known ? Sentence("markOutside", "marked outside the photograph")
+                       : Sentence("markNoLens", "the lens of its photo is not known"),
               place, is_known});
     return true;
   }
@@ -132,7 +121,8 @@ class PartFinder {
     try {
       growth->PlaceByTiePoints();
     } catch (const InputError& contradiction) {
-      LeaveOut({LeftOut::Kind::kObservation, "tie points", "", contradiction.what(), {}, true});
+      LeaveOut(
+          {LeftOut::Kind::kObservation, "tie points", "", SentenceOf(contradiction), {}, true});
       part_.survey.tie_points.reset();
     }
   }
@@ -186,30 +176,26 @@ class PartFinder {
     for (size_t photo = 0; photo < photos_.size(); ++photo) {
       if (growth.IsPosed(photo) || is_left_out_[photo]) continue;
       const auto place = place_of_photo_.find(photos_[photo]);
-      LeaveOut({LeftOut::Kind::kPhoto, photos_[photo], "", ReasonOfPhoto(growth, photo),
+      LeaveOut({LeftOut::Kind::kPhoto, photos_[photo], "",
+                ReasonOfPhoto(growth.MarksOf(photo).known.size(), growth.CanResect(photo)),
                 place == place_of_photo_.end() ? FileOfObservations(part_.survey) : place->second,
                 growth.CanResect(photo)});
       is_left_out_[photo] = true;
     }
   }
 
-  std::string ReasonOfPoint(const StartGrowth& growth, const std::string& name) const {
-    const size_t rays = growth.Rays(name);
-    if (rays == 1) return "one ray, needs a second photograph";
-    if (rays > 1) return "its rays hardly meet, needs a photograph from another side";
-    const auto photos = photos_of_point_.find(name);
-    if (photos == photos_of_point_.end()) return "no ray, needs two photographs";
-    const std::string first = *photos->second.begin();
-    if (photos->second.size() == 1) return "one ray, and its photo " + first + " is not placed";
-    return "none of its " + std::to_string(photos->second.size()) + " photos is placed";
+  Sentence ReasonOf(const StartGrowth& growth, const std::string& point) const {
+    const auto photos = photos_of_point_.find(point);
+    return ReasonOfPoint(growth.Rays(point), photos == photos_of_point_.end()
+                                                 ? std::set<std::string>()
+                                                 : photos->second);
   }
 
   void LeaveOutPoints(const StartGrowth& growth) {
     const std::set<std::string>& unknown = growth.unknown();
     for (const std::string& name : unknown) {
       if (!points_told_.insert(name).second) continue;
-      LeaveOut(
-          {LeftOut::Kind::kPoint, name, "", ReasonOfPoint(growth, name), place_of_point_.at(name)});
+      LeaveOut({LeftOut::Kind::kPoint, name, "", ReasonOf(growth, name), place_of_point_.at(name)});
     }
   }
 
@@ -221,7 +207,7 @@ class PartFinder {
     for (const EdgeMark& edge : part_.survey.edges) {
       if (!is_out(edge)) continue;
       LeaveOut({LeftOut::Kind::kEdge, Joined({edge.from, edge.to}), edge.photo,
-                "its photo is not placed", edge.place});
+                Sentence("edgePhotoOut", "its photo is not placed"), edge.place});
     }
     std::erase_if(part_.survey.edges, is_out);
     std::erase_if(part_.survey.camera_positions, is_out);
@@ -237,19 +223,19 @@ class PartFinder {
   void Prune(std::vector<Row>* rows, const Fault& fault) {
     std::erase_if(*rows, [&](const Row& row) {
       std::optional<LeftOut> found = fault(row);
-      if (found) LeaveOut(*std::move(found));
-      return found.has_value();
+      if (!found) return false;
+      LeaveOut(std::move(*found));
+      return true;
     });
   }
 
-  static std::optional<LeftOut> Undetermined(LeftOut::Kind kind, const char* part,
+  static std::optional<LeftOut> Undetermined(LeftOut::Kind kind, ReasonByName* reason,
                                              const std::string& name,
                                              const std::vector<std::string>& names,
                                              const FilePlace& place, const Points& points) {
     for (const std::string& needed : names) {
       if (points.contains(needed)) continue;
-      return LeftOut{kind, name, "",
-                     std::string("its ") + part + " " + needed + " is not determined", place};
+      return LeftOut{kind, name, "", reason(needed), place};
     }
     return std::nullopt;
   }
@@ -258,19 +244,19 @@ class PartFinder {
     using Kind = LeftOut::Kind;
     Survey& survey = part_.survey;
     Prune(&survey.polygons, [&](const PolygonOutline& polygon) {
-      return Undetermined(Kind::kPolygon, "vertex", polygon.name, polygon.vertices, polygon.place,
-                          points);
+      return Undetermined(Kind::kPolygon, NoVertex, polygon.name, AllVertices(polygon),
+                          polygon.place, points);
     });
     const auto of_pairs = [&](Kind kind) {
       return [&points, kind](const DirectionPair& pair) {
-        return Undetermined(kind, "point", Joined({pair.from, pair.to}), {pair.from, pair.to},
+        return Undetermined(kind, NoPoint, Joined({pair.from, pair.to}), {pair.from, pair.to},
                             pair.place, points);
       };
     };
     Prune(&survey.sun_pairs, of_pairs(Kind::kSun));
     Prune(&survey.zenith_pairs, of_pairs(Kind::kZenith));
     Prune(&survey.edges, [&](const EdgeMark& edge) {
-      auto fault = Undetermined(Kind::kEdge, "end", Joined({edge.from, edge.to}),
+      auto fault = Undetermined(Kind::kEdge, NoEnd, Joined({edge.from, edge.to}),
                                 {edge.from, edge.to}, edge.place, points);
       if (fault) fault->photo = edge.photo;
       return fault;
@@ -285,10 +271,9 @@ class PartFinder {
       const std::string name = Joined(c.polygons.empty() ? c.points : c.polygons);
       for (const std::string& polygon : c.polygons) {
         if (polygons.contains(polygon)) continue;
-        return LeftOut{LeftOut::Kind::kConstraint, name, "",
-                       "its polygon " + polygon + " is not determined", c.place};
+        return LeftOut{LeftOut::Kind::kConstraint, name, "", NoPolygon(polygon), c.place};
       }
-      return Undetermined(LeftOut::Kind::kConstraint, "point", name, c.points, c.place, points);
+      return Undetermined(LeftOut::Kind::kConstraint, NoPoint, name, c.points, c.place, points);
     });
   }
 
@@ -301,24 +286,33 @@ class PartFinder {
         RequirePlanar(one, points, options_.plane_sigma);
         return std::nullopt;
       } catch (const InputError& error) {
-        return LeftOut{LeftOut::Kind::kPolygon,         polygon.name,  "",
-                       MessageAt(error, polygon.place), polygon.place, true};
+        return LeftOut{LeftOut::Kind::kPolygon,
+                       polygon.name,
+                       "",
+                       Sentence::Verbatim(MessageAt(error, polygon.place)),
+                       polygon.place,
+                       true};
       }
     });
     PruneOpposingPairs(LeftOut::Kind::kSun, points, &part_.survey.sun_pairs);
     PruneOpposingPairs(LeftOut::Kind::kZenith, points, &part_.survey.zenith_pairs);
     Prune(&part_.survey.edges, [&](const EdgeMark& edge) -> std::optional<LeftOut> {
       if (Step(edge.from, edge.to, points).norm() > kApart) return std::nullopt;
-      return LeftOut{LeftOut::Kind::kEdge, Joined({edge.from, edge.to}),
-                     edge.photo,           "its ends lie in the same place",
-                     edge.place,           true};
+      return LeftOut{
+          LeftOut::Kind::kEdge, Joined({edge.from, edge.to}),
+          edge.photo,           Sentence("edgeOnePlace", "its ends lie in the same place"),
+          edge.place,           true};
     });
     Prune(&part_.survey.constraints, [&](const GeometricConstraint& c) -> std::optional<LeftOut> {
       if (c.kind == GeometricConstraint::Kind::kHeight) return std::nullopt;
       for (size_t i = 0; i + 1 < c.points.size(); i += 2) {
         if (Step(c.points[i], c.points[i + 1], points).norm() > kApart) continue;
-        return LeftOut{LeftOut::Kind::kConstraint,         Joined(c.points), "",
-                       "its points lie in the same place", c.place,          true};
+        return LeftOut{LeftOut::Kind::kConstraint,
+                       Joined(c.points),
+                       "",
+                       Sentence("constraintOnePlace", "its points lie in the same place"),
+                       c.place,
+                       true};
       }
       return std::nullopt;
     });
@@ -335,9 +329,13 @@ class PartFinder {
     for (const DirectionPair& pair : *pairs) sum += Step(pair.from, pair.to, points);
     Prune(pairs, [&](const DirectionPair& pair) -> std::optional<LeftOut> {
       if (Step(pair.from, pair.to, points).dot(sum) > 0) return std::nullopt;
-      return LeftOut{kind,       Joined({pair.from, pair.to}),
-                     "",         "points away from the other pairs: are its ends exchanged?",
-                     pair.place, true};
+      return LeftOut{
+          kind,
+          Joined({pair.from, pair.to}),
+          "",
+          Sentence("pairOpposed", "points away from the other pairs: are its ends exchanged?"),
+          pair.place,
+          true};
     });
   }
 

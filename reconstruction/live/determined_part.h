@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "calibration/files/sentence.h"
 #include "calibration/lens/camera.h"
 #include "calibration/lens/rigid3.h"
 #include "reconstruction/adjustment/adjustment_options.h"
@@ -30,7 +31,7 @@ struct LeftOut {
   Kind kind = Kind::kPhoto;
   std::string name;      // of the photo, point or polygon; else the points or polygons it joins
   std::string photo;     // of observations and edges, else empty
-  std::string reason;    // in plain words: "one more control point"
+  Sentence reason;       // in plain words: "needs one more control point"
   FilePlace place = {};  // where it is stated; line 0: in that file, or not yet
   bool is_contradiction = false;  // it is not unfinished but wrong
 };

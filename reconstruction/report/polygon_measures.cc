@@ -7,6 +7,9 @@
 #include <cmath>
 #include <map>
 #include <set>
+#include <string>
+
+#include "reconstruction/geometry/plane.h"
 
 namespace insitu {
 namespace {
@@ -18,10 +21,11 @@ Eigen::MatrixXd VertexCovariance(const Adjustment& adjustment, const PolygonOutl
   if (joint.size() > 0) return joint;
   std::map<std::string, const AdjustedPoint*> points;
   for (const AdjustedPoint& point : adjustment.points) points[point.name] = &point;
-  const auto count = static_cast<Eigen::Index>(outline.vertices.size());
+  const std::vector<std::string> names = AllVertices(outline);
+  const auto count = static_cast<Eigen::Index>(names.size());
   Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(3 * count, 3 * count);
   for (Eigen::Index i = 0; i < count; ++i) {
-    covariance.block<3, 3>(3 * i, 3 * i) = points.at(outline.vertices[i])->covariance;
+    covariance.block<3, 3>(3 * i, 3 * i) = points.at(names[i])->covariance;
   }
   return covariance;
 }
@@ -30,31 +34,49 @@ double Sigma(const Eigen::VectorXd& gradient, const Eigen::MatrixXd& covariance)
   return std::sqrt(std::max(0.0, gradient.dot(covariance * gradient)));
 }
 
+// Adds one ring's edges, and what it encloses to the area or, of a hole, from it.
+struct RingMeasurer {
+  const Eigen::Vector3d& normal;
+  const Eigen::MatrixXd& covariance;
+  PolygonMeasures& measures;
+  Eigen::VectorXd area_gradient;
+
+  // `first`: the ring's first vertex among all.
+  void Add(const std::vector<Eigen::Vector3d>& ring, size_t first, double sign) {
+    const size_t count = ring.size();
+    const auto row = [&](size_t i) { return static_cast<Eigen::Index>(3 * (first + i)); };
+    for (size_t i = 0; i < count; ++i) {
+      const size_t next = (i + 1) % count, previous = (i + count - 1) % count;
+      const Eigen::Vector3d edge = ring[next] - ring[i];
+      Eigen::VectorXd gradient = Eigen::VectorXd::Zero(covariance.rows());
+      gradient.segment<3>(row(i)) = -edge.normalized();
+      gradient.segment<3>(row(next)) = edge.normalized();
+      measures.edges.push_back({edge.norm(), Sigma(gradient, covariance)});
+      // 2 area = normal . sum x_i x x_(i+1), about a vertex so that large coordinates lose nothing.
+      const Eigen::Vector3d a = ring[i] - ring[0], b = ring[next] - ring[0];
+      measures.area.value += sign * normal.dot(a.cross(b)) / 2;
+      area_gradient.segment<3>(row(i)) = sign * (ring[next] - ring[previous]).cross(normal) / 2;
+    }
+  }
+};
+
 }  // namespace
 
 PolygonMeasures MeasurePolygon(const Adjustment& adjustment, const PolygonOutline& outline,
                                size_t index) {
-  const std::vector<Eigen::Vector3d>& vertices = adjustment.scene.polygons[index].vertices;
-  const Eigen::Vector3d& normal = adjustment.scene.polygons[index].normal;
+  const Polygon& polygon = adjustment.scene.polygons[index];
   const Eigen::MatrixXd covariance = VertexCovariance(adjustment, outline, index);
-  const size_t count = vertices.size();
   PolygonMeasures measures;
-  measures.is_joint = adjustment.scene.polygons[index].covariance.size() > 0;
-  Eigen::VectorXd area_gradient = Eigen::VectorXd::Zero(covariance.rows());
-  for (size_t i = 0; i < count; ++i) {
-    const size_t next = (i + 1) % count, previous = (i + count - 1) % count;
-    const auto row = static_cast<Eigen::Index>(3 * i);
-    const Eigen::Vector3d edge = vertices[next] - vertices[i];
-    Eigen::VectorXd gradient = Eigen::VectorXd::Zero(covariance.rows());
-    gradient.segment<3>(row) = -edge.normalized();
-    gradient.segment<3>(static_cast<Eigen::Index>(3 * next)) = edge.normalized();
-    measures.edges.push_back({edge.norm(), Sigma(gradient, covariance)});
-    // 2 area = normal . sum x_i x x_(i+1), about a vertex so that large coordinates lose nothing.
-    const Eigen::Vector3d a = vertices[i] - vertices[0], b = vertices[next] - vertices[0];
-    measures.area.value += normal.dot(a.cross(b)) / 2;
-    area_gradient.segment<3>(row) = (vertices[next] - vertices[previous]).cross(normal) / 2;
+  measures.is_joint = polygon.covariance.size() > 0;
+  RingMeasurer measurer{polygon.normal, covariance, measures,
+                        Eigen::VectorXd::Zero(covariance.rows())};
+  measurer.Add(polygon.vertices, 0, 1);
+  size_t first = polygon.vertices.size();
+  for (const auto& hole : polygon.holes) {  // which may turn either way
+    measurer.Add(hole, first, polygon.normal.dot(OutlineNormal(hole)) > 0 ? -1 : 1);
+    first += hole.size();
   }
-  measures.area.sigma = Sigma(area_gradient, covariance);
+  measures.area.sigma = Sigma(measurer.area_gradient, covariance);
   return measures;
 }
 

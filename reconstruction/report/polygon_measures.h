@@ -15,8 +15,8 @@ struct UncertainValue {
 };
 
 struct PolygonMeasures {
-  UncertainValue area;                // [m^2]
-  std::vector<UncertainValue> edges;  // [m], the i-th from vertex i to the next
+  UncertainValue area;                // [m^2], without holes
+  std::vector<UncertainValue> edges;  // [m], of the outline, then of each hole: vertex to next
   bool is_joint = false;  // from the joint covariance of the vertices; else they count as
                           // independent, which for neighbours is on the safe side as a rule only
 };

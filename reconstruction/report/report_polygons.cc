@@ -38,9 +38,10 @@ using PlaneRows = std::map<std::pair<std::string, std::string>, const Observatio
 
 Json::Value Vertices(const PolygonOutline& outline, const PlaneRows& rows, double sigma0) {
   Json::Value json(Json::arrayValue);
-  for (const std::string& name : outline.vertices) {
+  const auto add = [&](const std::string& name, int hole) {
     Json::Value vertex;
     vertex["name"] = name;
+    if (hole > 0) vertex["hole"] = hole;
     for (const char* key : {"off_plane_mm", "off_plane_sigma_mm", "w"}) vertex[key] = Json::Value();
     const auto found = rows.find({outline.name, name});
     if (found != rows.end()) {
@@ -52,6 +53,12 @@ Json::Value Vertices(const PolygonOutline& outline, const PlaneRows& rows, doubl
       if (row.w) vertex["w"] = *row.w;
     }
     json.append(vertex);
+  };
+  for (const std::string& name : outline.vertices) add(name, 0);
+  int hole = 0;
+  for (const auto& ring : outline.holes) {
+    ++hole;
+    for (const std::string& name : ring) add(name, hole);
   }
   return json;
 }
@@ -79,13 +86,17 @@ Json::Value OutlineReport(const PolygonOutline& outline, const PolygonMeasures& 
   json["sigma_basis"] =
       measures.is_joint ? "joint covariance of the vertices" : "vertices taken as independent";
   json["edges"] = Json::Value(Json::arrayValue);
-  const size_t count = outline.vertices.size();
-  for (size_t i = 0; i < count; ++i) {
-    Json::Value edge = Length(measures.edges[i]);
-    edge["from"] = outline.vertices[i];
-    edge["to"] = outline.vertices[(i + 1) % count];
-    json["edges"].append(edge);
-  }
+  const auto add = [&](const std::vector<std::string>& ring) {
+    for (size_t i = 0; i < ring.size(); ++i) {
+      Json::Value edge = Length(measures.edges[json["edges"].size()]);
+      edge["from"] = ring[i];
+      edge["to"] = ring[(i + 1) % ring.size()];
+      json["edges"].append(edge);
+    }
+  };
+  add(outline.vertices);
+  for (const auto& hole : outline.holes) add(hole);
+  json["holes"] = static_cast<Json::UInt64>(outline.holes.size());
   return json;
 }
 

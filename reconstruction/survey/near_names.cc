@@ -77,14 +77,24 @@ std::set<std::string> WithDigitsOf(const std::string& name, const std::set<std::
   return alike;
 }
 
-std::string DidYouMean(const std::string& name, const std::set<std::string>& known) {
+Sentence SaidMeant(const std::string& name, const std::set<std::string>& known) {
   const std::vector<std::string> names = NearNames(name, known);
-  std::string question;
-  for (size_t i = 0; i < names.size(); ++i) {
-    const bool is_last = i + 1 == names.size();
-    question += (i == 0 ? "; did you mean '" : is_last ? " or '" : ", '") + names[i] + "'";
+  switch (names.size()) {
+    case 0:
+      return Sentence::Verbatim("");
+    case 1:
+      return Sentence("meantOne", "; did you mean '{a}'?", {{"a", names[0]}});
+    case 2:
+      return Sentence("meantTwo", "; did you mean '{a}' or '{b}'?",
+                      {{"a", names[0]}, {"b", names[1]}});
+    default:
+      return Sentence("meantThree", "; did you mean '{a}', '{b}' or '{c}'?",
+                      {{"a", names[0]}, {"b", names[1]}, {"c", names[2]}});
   }
-  return question.empty() ? question : question + "?";
+}
+
+std::string DidYouMean(const std::string& name, const std::set<std::string>& known) {
+  return SaidMeant(name, known).text();
 }
 
 }  // namespace insitu

@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "calibration/files/sentence.h"
+
 namespace insitu {
 
 // The known names nearest to `name`, at most three, in their order. First those that differ only in
@@ -18,6 +20,7 @@ std::vector<std::string> NearNames(const std::string& name, const std::set<std::
 std::set<std::string> WithDigitsOf(const std::string& name, const std::set<std::string>& known);
 
 // "; did you mean 'P7' or 'P8'?", to be put at a message's end; empty without near names.
+Sentence SaidMeant(const std::string& name, const std::set<std::string>& known);
 std::string DidYouMean(const std::string& name, const std::set<std::string>& known);
 
 }  // namespace insitu

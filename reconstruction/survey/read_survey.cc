@@ -41,6 +41,7 @@ Survey ReadSurvey(const SitePaths& site, const std::vector<std::string>& photos,
   }
   RequireKnownPoints(survey);
   RequireNoNamesOfTiePoints(survey);
+  LeaveOutLoneMarks(&survey);
   return survey;
 }
 

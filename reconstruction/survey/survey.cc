@@ -7,6 +7,12 @@
 
 namespace insitu {
 
+std::vector<std::string> AllVertices(const PolygonOutline& polygon) {
+  std::vector<std::string> names = polygon.vertices;
+  for (const auto& hole : polygon.holes) names.insert(names.end(), hole.begin(), hole.end());
+  return names;
+}
+
 std::vector<JoinedPoints> JoinedByPairs(const Survey& survey) {
   std::vector<JoinedPoints> joined;
   for (const DirectionPair& pair : survey.sun_pairs) {
@@ -27,7 +33,7 @@ std::vector<JoinedPoints> JoinedByPairs(const Survey& survey) {
 std::set<std::string> PointsInUse(const Survey& survey) {
   std::set<std::string> names;
   for (const PolygonOutline& polygon : survey.polygons) {
-    names.insert(polygon.vertices.begin(), polygon.vertices.end());
+    for (const std::string& vertex : AllVertices(polygon)) names.insert(vertex);
   }
   for (const ImageObservation& mark : survey.observations) names.insert(mark.point);
   for (const JoinedPoints& points : JoinedByPairs(survey)) {
@@ -47,12 +53,17 @@ FilePlace PlaceOfPoint(const Survey& survey, const std::string& name) {
     return std::find(names.begin(), names.end(), name) != names.end();
   };
   for (const PolygonOutline& polygon : survey.polygons) {
-    if (has(polygon.vertices)) return polygon.place;
+    if (has(AllVertices(polygon))) return polygon.place;
   }
   for (const JoinedPoints& points : JoinedByPairs(survey)) {
     if (has(points.names)) return points.place;
   }
   throw CheckError(__FILE__, __LINE__, "the point is in the survey");
+}
+
+FilePlace FileOfObservations(const Survey& survey) {
+  if (!survey.observations.empty()) return {survey.observations[0].place.path, 0};
+  return {"survey/observations.csv", 0};
 }
 
 }  // namespace insitu

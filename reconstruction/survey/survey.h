@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "calibration/files/error.h"
+#include "calibration/files/sentence.h"
 #include "reconstruction/survey/tie_points.h"
 
 namespace insitu {
@@ -42,7 +43,11 @@ struct PolygonOutline {
   std::string material;
   std::optional<std::string> mask;  // a PNG in survey/, white where the polygon is really visible
   FilePlace place;
+  std::vector<std::vector<std::string>> holes = {};  // each >= 3 names, whichever way they turn
 };
+
+// A polygon's point names: its outline's, then each hole's.
+std::vector<std::string> AllVertices(const PolygonOutline& polygon);
 
 // directions.json: a sun pair points from a shadow to the point that casts it, a zenith pair from
 // bottom to top.
@@ -88,6 +93,12 @@ struct GeometricConstraint {
   FilePlace place;
 };
 
+// The only mark of a point that is named nowhere else: one ray, which determines nothing.
+struct LoneMark {
+  ImageObservation mark;
+  Sentence question;  // "; did you mean 'P7'?", or empty
+};
+
 struct Survey {
   std::vector<ControlPoint> control_points;
   std::vector<ImageObservation> observations;
@@ -98,7 +109,8 @@ struct Survey {
   std::vector<EdgeMark> edges;
   std::vector<GeometricConstraint> constraints;
   std::optional<TiePoints> tie_points =
-      {};  // in their own frame; of insitu-tie-points, if it was run
+      {};                                 // in their own frame; of insitu-tie-points, if it was run
+  std::vector<LoneMark> lone_marks = {};  // none of these is among the observations
 };
 
 // Points that a pair, an edge or a constraint joins.
@@ -116,5 +128,8 @@ std::set<std::string> PointsInUse(const Survey& survey);
 // Where a point is first stated: its first mark, else its control row, polygon, direction pair,
 // edge or constraint.
 FilePlace PlaceOfPoint(const Survey& survey, const std::string& name);
+
+// Where the marks stand, for faults that none of them is to blame for.
+FilePlace FileOfObservations(const Survey& survey);
 
 }  // namespace insitu

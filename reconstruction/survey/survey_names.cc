@@ -17,7 +17,7 @@ using Names = std::set<std::string>;
 Names Vertices(const Survey& survey) {
   Names names;
   for (const PolygonOutline& polygon : survey.polygons) {
-    names.insert(polygon.vertices.begin(), polygon.vertices.end());
+    for (const std::string& vertex : AllVertices(polygon)) names.insert(vertex);
   }
   return names;
 }
@@ -36,23 +36,28 @@ Names NotMarkedOn(const std::string& photo, Names names, const Survey& survey) {
   return names;
 }
 
-// A point that two photos show needs no other file: it ties them together. But a name near to one
-// that the photo lacks is rather a slip.
+// Surveyed, vertices, or joined by pairs.
+Names NamedBesidesMarks(const Survey& survey) {
+  Names names = Surveyed(survey);
+  names.merge(Vertices(survey));
+  for (const JoinedPoints& points : JoinedByPairs(survey)) {
+    names.insert(points.names.begin(), points.names.end());
+  }
+  return names;
+}
+
+// A point of marks alone needs no other file. But a name near to one that the photo lacks is rather
+// a slip.
 void RequireKnownMarks(const Survey& survey, const Names& known) {
-  std::map<std::string, int> photos_of_point;
-  for (const ImageObservation& mark : survey.observations) ++photos_of_point[mark.point];
   for (const ImageObservation& mark : survey.observations) {
     if (known.contains(mark.point)) continue;
     const Names missing = NotMarkedOn(mark.photo, known, survey);
-    if (photos_of_point.at(mark.point) > 1 &&
-        NearNames(mark.point, WithDigitsOf(mark.point, missing)).empty()) {
-      continue;
-    }
+    if (NearNames(mark.point, WithDigitsOf(mark.point, missing)).empty()) continue;
     throw InputError(mark.place.path, mark.place.line,
                      "point '" + mark.point +
                          "' is unknown, expected a point of control_points.csv, polygons.json, "
-                         "directions.json, edges.csv or constraints.json, or one marked on two "
-                         "photos" +
+                         "directions.json, edges.csv or constraints.json, or a name that is not so "
+                         "near to that of one" +
                          DidYouMean(mark.point, missing));
   }
 }
@@ -86,11 +91,28 @@ void RequireKnownPoints(const Survey& survey) {
   const std::vector<JoinedPoints> joined = JoinedByPairs(survey);
   Names found = Surveyed(survey);
   found.merge(Vertices(survey));
-  Names known = found;
-  for (const JoinedPoints& points : joined) known.insert(points.names.begin(), points.names.end());
-  RequireKnownMarks(survey, known);
+  RequireKnownMarks(survey, NamedBesidesMarks(survey));
   for (const ImageObservation& mark : survey.observations) found.insert(mark.point);
   RequireFoundEnds(joined, found);
+}
+
+void LeaveOutLoneMarks(Survey* survey) {
+  const Names known = NamedBesidesMarks(*survey);
+  std::map<std::string, int> marks_of_point;
+  Names all = known;
+  for (const ImageObservation& mark : survey->observations) {
+    ++marks_of_point[mark.point];
+    all.insert(mark.point);
+  }
+  const auto is_lone = [&](const ImageObservation& mark) {
+    return marks_of_point.at(mark.point) == 1 && !known.contains(mark.point);
+  };
+  for (const ImageObservation& mark : survey->observations) {
+    if (!is_lone(mark)) continue;
+    const Names missing = NotMarkedOn(mark.photo, all, *survey);
+    survey->lone_marks.push_back({mark, SaidMeant(mark.point, WithDigitsOf(mark.point, missing))});
+  }
+  std::erase_if(survey->observations, is_lone);
 }
 
 void RequireNoNamesOfTiePoints(const Survey& survey) {

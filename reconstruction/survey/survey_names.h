@@ -16,8 +16,12 @@ std::optional<std::string> FaultOfPhoto(const std::string& photo,
 
 // Marks must be of points that another file names, that an edge or a constraint joins, or that two
 // photos show; the ends of pairs, edges and constraints must be surveyed, marked or vertices.
-// Throws InputError.
+// Throws InputError. A point that a single mark names is no fault, if its name is near to none that
+// its photo lacks: somebody is still measuring. LeaveOutLoneMarks finds it.
 void RequireKnownPoints(const Survey& survey);
+
+// Moves the marks of such points from the observations to the lone marks.
+void LeaveOutLoneMarks(Survey* survey);
 
 // Throws InputError at the first place of a point that is named "tie_" and six digits or more, as
 // points of image matching are.

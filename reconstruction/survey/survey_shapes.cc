@@ -43,8 +43,25 @@ void RequireKnownKeys(const JsonNode& node, const std::string& what,
   }
 }
 
+// Lists of names, of which a polygon has each once: rings that touch enclose nothing between them.
+void ReadHoles(const JsonNode& node, std::set<std::string> taken, PolygonOutline* polygon) {
+  for (const JsonNode& hole : node.Items()) {
+    polygon->holes.push_back(hole.Texts());
+    const std::vector<std::string>& names = polygon->holes.back();
+    if (names.size() < 3) {
+      throw hole.Error("a hole of polygon '" + polygon->name + "' has " +
+                       std::to_string(names.size()) + " vertices, expected at least three");
+    }
+    for (const std::string& name : names) {
+      if (taken.insert(name).second) continue;
+      throw hole.Error("a hole of polygon '" + polygon->name + "' has vertex '" + name +
+                       "', which the polygon has already; expected each vertex once");
+    }
+  }
+}
+
 PolygonOutline ReadPolygon(const JsonNode& node, const std::vector<std::string>& photos) {
-  RequireKnownKeys(node, "a polygon", {"name", "vertices", "photo", "material", "mask"});
+  RequireKnownKeys(node, "a polygon", {"name", "vertices", "photo", "material", "mask", "holes"});
   PolygonOutline polygon;
   polygon.name = node.At("name").Text();
   polygon.place = {node.path(), node.line()};
@@ -56,6 +73,7 @@ PolygonOutline ReadPolygon(const JsonNode& node, const std::vector<std::string>&
                      std::to_string(distinct.size()) +
                      " of them distinct; expected at least three, all distinct");
   }
+  if (const auto holes = node.Find("holes")) ReadHoles(*holes, distinct, &polygon);
   if (const auto photo = node.Find("photo")) {
     polygon.photo = photo->Text();
     if (const auto fault = FaultOfPhoto(*polygon.photo, photos)) throw photo->Error(*fault);

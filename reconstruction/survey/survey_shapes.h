@@ -9,8 +9,8 @@
 
 namespace insitu {
 
-// {"polygons": [{"name", "vertices": [...], "photo", "material", "mask"}, ...]}; photo and mask may
-// be null or missing.
+// {"polygons": [{"name", "vertices": [...], "holes": [[...], ...], "photo", "material", "mask"}]};
+// holes, photo and mask may be null or missing.
 std::vector<PolygonOutline> ReadPolygons(const std::filesystem::path& path,
                                          const std::vector<std::string>& photos);
 

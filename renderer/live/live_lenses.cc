@@ -17,7 +17,7 @@ LivePhoto ReadLivePhoto(const SitePaths& site, const std::filesystem::path& path
   LivePhoto photo{path.stem().string(), {}};
   if (!camera.empty()) photo.lens.camera = camera;
   if (!std::filesystem::exists(site.camera(camera))) {
-    photo.no_lens_because = "its lens is not known yet: run insitu-calibrate";
+    photo.no_lens_because = Sentence("noLens", "its lens is not known yet: run insitu-calibrate");
     return photo;
   }
   try {
@@ -28,7 +28,7 @@ LivePhoto ReadLivePhoto(const SitePaths& site, const std::filesystem::path& path
     }
   } catch (const InputError& error) {
     photo.camera.reset();
-    photo.no_lens_because = error.what();
+    photo.no_lens_because = SentenceOf(error);
   }
   return photo;
 }
@@ -46,7 +46,7 @@ std::vector<LivePhoto> ReadLivePhotos(const SitePaths& site) {
   } catch (const InputError& error) {
     photos.clear();
     for (const auto& path : paths) {
-      photos.push_back({path.stem().string(), {}, {}, error.what()});
+      photos.push_back({path.stem().string(), {}, {}, SentenceOf(error)});
     }
   }
   return photos;

@@ -6,6 +6,7 @@
 
 #include "calibration/files/error.h"
 #include "calibration/files/json_file.h"
+#include "calibration/files/sentence.h"
 #include "calibration/files/wording.h"
 #include "radiometry/light_report.h"
 #include "radiometry/measure_daylight.h"
@@ -75,39 +76,48 @@ void AdviseOnHaze(const LightMeasurement& measured, Json::Value* advice) {
       std::minmax_element(haze.begin(), haze.end(),
                           [](const auto& a, const auto& b) { return a.distance < b.distance; });
   if (farthest->distance > kShortBase * nearest->distance) return;
-  advice->append(
-      Formatted("haze: all samples lie %.0f to %.0f m away; one of the same material much "
-                "nearer or farther tells more",
-                nearest->distance, farthest->distance));
+  advice->append(Sentence("adviceHaze",
+                          "haze: all samples lie {near} to {far} m away; one of the same material "
+                          "much nearer or farther tells more",
+                          {{"near", Number("%.0f", nearest->distance)},
+                           {"far", Number("%.0f", farthest->distance)}})
+                     .ToJson());
 }
 
-void AdviseOnResiduals(const std::string& kind, const std::vector<PixelSample>& samples,
+void AdviseOnResiduals(const Sentence& kind, const std::vector<PixelSample>& samples,
                        const std::vector<double>& residuals, const SceneGeometry& scene,
                        Json::Value* advice) {
   for (size_t i = 0; i < residuals.size(); ++i) {
     if (std::abs(residuals[i]) < kGrossResidual) continue;
     const PixelSample& sample = samples[i];
     advice->append(
-        Formatted("%s: the sample at %.0f, %.0f on %s is %+.0f %% off: another material, a "
-                  "shadow or a reflection?",
-                  kind.c_str(), sample.pixel.x(), sample.pixel.y(),
-                  scene.cameras[sample.photo].photo.c_str(), 100 * residuals[i]));
+        Sentence("adviceOff",
+                 "{kind}: the sample at {x}, {y} on {photo} is {percent} % off: another material, "
+                 "a shadow or a reflection?",
+                 {{"kind", kind.ToJson()},
+                  {"x", Number("%.0f", sample.pixel.x())},
+                  {"y", Number("%.0f", sample.pixel.y())},
+                  {"photo", scene.cameras[sample.photo].photo},
+                  {"percent", Number("%+.0f", 100 * residuals[i])}})
+            .ToJson());
   }
 }
 
 Json::Value AdviceJson(const LightMeasurement& measured) {
   const SceneGeometry& scene = measured.environment.scene;
   Json::Value advice(Json::arrayValue);
-  for (const std::string& warning : measured.warnings) advice.append(warning);
+  for (const Sentence& warning : measured.warnings) advice.append(warning.ToJson());
   if (measured.daylight_fit.condition > kFairLight) {
-    advice.append(
-        "daylight: one more sample in open shade and one in deep shade tell sun, sky and "
-        "ambient light better apart");
+    advice.append(Sentence("adviceShade",
+                           "daylight: one more sample in open shade and one in deep shade tell "
+                           "sun, sky and ambient light better apart")
+                      .ToJson());
   }
   AdviseOnHaze(measured, &advice);
-  AdviseOnResiduals("haze", measured.samples.haze, measured.air_fit.residuals, scene, &advice);
-  AdviseOnResiduals("daylight", measured.samples.daylight, measured.daylight_fit.residuals, scene,
-                    &advice);
+  AdviseOnResiduals(Sentence("nameHaze", "haze"), measured.samples.haze, measured.air_fit.residuals,
+                    scene, &advice);
+  AdviseOnResiduals(Sentence("nameDaylight", "daylight"), measured.samples.daylight,
+                    measured.daylight_fit.residuals, scene, &advice);
   return advice;
 }
 
@@ -138,12 +148,13 @@ const std::vector<Photograph>& LinearPhotos::Of(const SceneGeometry& scene) {
   return photos_;
 }
 
-Json::Value LiveLight(const SitePaths& site, const SceneGeometry& scene, LinearPhotos& photos) {
+Json::Value LiveLight(const SitePaths& site, const SceneGeometry& scene, LinearPhotos& photos,
+                      std::shared_ptr<const NaturalEnvironment>* environment) {
   if (!std::filesystem::exists(site.survey() / "samples.json")) return Json::nullValue;
   Json::Value message;
   message["failed"] = Json::nullValue;
   message["left_out"] = message["advice"] = Json::Value(Json::arrayValue);
-  std::vector<InputError> left_out;
+  std::vector<Sentence> left_out;
   try {
     const LightMeasurement measured =
         MeasureDaylightSoFar(site, scene, photos.Of(scene), &left_out);
@@ -154,10 +165,11 @@ Json::Value LiveLight(const SitePaths& site, const SceneGeometry& scene, LinearP
     message["samples"]["daylight"] =
         ResidualsJson(measured.samples.daylight, measured.daylight_fit.residuals, scene);
     message["advice"] = AdviceJson(measured);
+    if (environment) *environment = std::make_shared<NaturalEnvironment>(measured.environment);
   } catch (const std::exception& error) {
-    message["failed"] = error.what();
+    SentenceOf(error).SayIn(&message, "failed");
   }
-  for (const InputError& fault : left_out) message["left_out"].append(fault.what());
+  for (const Sentence& fault : left_out) message["left_out"].append(fault.ToJson());
   return message;
 }
 

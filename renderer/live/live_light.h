@@ -10,6 +10,7 @@
 
 #include "calibration/photo/photograph.h"
 #include "calibration/program/site.h"
+#include "radiometry/natural_environment.h"
 #include "reconstruction/geometry/scene_geometry.h"
 
 namespace insitu {
@@ -33,6 +34,8 @@ class LinearPhotos {
 // Both inversions on survey/samples.json as it stands, in the adjusted scene. {failed, haze,
 // daylight, samples: {haze: [{photo, x, y, residual}], daylight: [...]}, left_out: [text], advice:
 // [text]}; `failed` says what is missing, else null. Null without any sample. Throws nothing.
-Json::Value LiveLight(const SitePaths& site, const SceneGeometry& scene, LinearPhotos& photos);
+// `environment`, if given, receives what was measured, null where it failed.
+Json::Value LiveLight(const SitePaths& site, const SceneGeometry& scene, LinearPhotos& photos,
+                      std::shared_ptr<const NaturalEnvironment>* environment = nullptr);
 
 }  // namespace insitu

@@ -2,6 +2,7 @@
 #include "renderer/live/live_polygons.h"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <map>
@@ -109,9 +110,8 @@ struct ImagedOutline {
 };
 
 // One edge, in runs of parts that are all seen or all hidden.
-void AddEdge(const Obstacles& obstacles, int polygon, size_t edge, const PosedCamera& posed,
-             const LensView& view, ImagedOutline* outline) {
-  const std::vector<Eigen::Vector3d>& vertices = obstacles.polygons()[polygon].vertices;
+void AddEdge(const Obstacles& obstacles, int polygon, const std::vector<Eigen::Vector3d>& vertices,
+             size_t edge, const PosedCamera& posed, const LensView& view, ImagedOutline* outline) {
   const Eigen::Vector3d& from = vertices[edge];
   const Eigen::Vector3d& to = vertices[(edge + 1) % vertices.size()];
   const auto at = [&](double part) -> Eigen::Vector3d {
@@ -131,21 +131,43 @@ void AddEdge(const Obstacles& obstacles, int polygon, size_t edge, const PosedCa
 ImagedOutline OutlineIn(const PosedCamera& posed, const LensView& view, const Obstacles& obstacles,
                         int polygon) {
   ImagedOutline outline;
-  for (size_t edge = 0; edge < obstacles.polygons()[polygon].vertices.size(); ++edge) {
-    AddEdge(obstacles, polygon, edge, posed, view, &outline);
-  }
+  const Polygon& drawn = obstacles.polygons()[polygon];
+  const auto add = [&](const std::vector<Eigen::Vector3d>& ring) {
+    for (size_t edge = 0; edge < ring.size(); ++edge) {
+      AddEdge(obstacles, polygon, ring, edge, posed, view, &outline);
+    }
+  };
+  add(drawn.vertices);
+  for (const auto& hole : drawn.holes) add(hole);
   return outline;
 }
 
 }  // namespace
 
-double AreaOf(const Polygon& polygon) {
-  Eigen::Vector3d twice = Eigen::Vector3d::Zero();
-  const auto& vertices = polygon.vertices;
-  for (size_t i = 1; i + 1 < vertices.size(); ++i) {
-    twice += (vertices[i] - vertices[0]).cross(vertices[i + 1] - vertices[0]);
+std::optional<size_t> PolygonSeenAt(const std::vector<Polygon>& polygons, const PosedCamera& camera,
+                                    const Eigen::Vector2d& pixel) {
+  struct Seen {
+    size_t polygon;
+    Eigen::Vector3d point;
+    double distance;
+  };
+  std::vector<Seen> seen;  // however many stand before it
+  for (size_t i = 0; i < polygons.size(); ++i) {
+    const auto point = PointOnPolygon(camera, pixel, polygons[i]);
+    if (!point) continue;
+    seen.push_back({i, *point, (*point - Center(camera.cam_from_world)).norm()});
   }
-  return 0.5 * twice.norm();
+  if (seen.empty()) return std::nullopt;
+  const auto first = std::min_element(seen.begin(), seen.end(), [](const auto& a, const auto& b) {
+    return a.distance < b.distance;
+  });
+  size_t smallest = first->polygon;
+  for (const Seen& other : seen) {
+    const double apart = std::abs(polygons[first->polygon].normal.dot(other.point - first->point));
+    const bool is_smaller = AreaOf(polygons[other.polygon]) < AreaOf(polygons[smallest]);
+    if (apart <= kCoplanar && is_smaller) smallest = other.polygon;
+  }
+  return smallest;
 }
 
 Json::Value ImagedPolygons(const Survey& survey, const SolvedSurvey& solved,

@@ -4,6 +4,7 @@
 
 #include <json/value.h>
 
+#include <optional>
 #include <vector>
 
 #include "calibration/lens/camera.h"
@@ -13,11 +14,14 @@
 
 namespace insitu {
 
-double AreaOf(const Polygon& polygon);  // [m^2]
+// Index of the polygon that a pixel sees first; of several that lie on each other, as a path on a
+// lawn, the smallest. nullopt: none.
+std::optional<size_t> PolygonSeenAt(const std::vector<Polygon>& polygons, const PosedCamera& camera,
+                                    const Eigen::Vector2d& pixel);
 
 // {NAME: {planarity_mm, area_m2, off_vertical_deg|null, images: {PHOTO: [[[x, y]...]...]}, hidden}}
 // of the polygons of `survey`, the part that `solved` is of. `hidden`, shaped as `images`, has the
-// parts of the outline that another polygon stands before.
+// parts of the outline and of holes that another polygon stands before.
 Json::Value ImagedPolygons(const Survey& survey, const SolvedSurvey& solved,
                            const std::vector<PosedCamera>& cameras);
 

@@ -2,12 +2,18 @@
 #include "renderer/live/live_predictions.h"
 
 #include <Eigen/Eigenvalues>
+#include <algorithm>
 #include <cmath>
+#include <map>
+#include <string>
 
 #include "calibration/files/json_file.h"
+#include "reconstruction/adjustment/adjusted_scene.h"
 #include "reconstruction/adjustment/adjusted_unknowns.h"
 #include "reconstruction/geometry/lens_view.h"
 #include "reconstruction/geometry/projection_uncertainty.h"
+#include "reconstruction/live/one_ray.h"
+#include "renderer/live/live_polygons.h"
 
 namespace insitu {
 namespace {
@@ -68,9 +74,7 @@ class PhotoCovariance {
 class Predictor {
  public:
   Predictor(const SolvedSurvey& solved, const std::vector<PosedCamera>& cameras)
-      : solved_(solved),
-        cameras_(cameras),
-        own_(CameraCovariances(solved.survey_network.network, solved.solution)) {
+      : cameras_(cameras), own_(CameraCovariances(solved.survey_network.network, solved.solution)) {
     for (size_t i = 0; i < cameras.size(); ++i) {
       views_.emplace_back(cameras[i].camera);
       covariances_.emplace_back(solved, i, own_[i]);
@@ -81,18 +85,31 @@ class Predictor {
     return Point(point.position, point.covariance, point.rays, column);
   }
 
+  static Json::Value OnPlane(const PointOnPlane& point, const std::string& polygon) {
+    Json::Value told = About(point.position, point.covariance, 1);
+    told["plane"] = polygon;
+    for (const auto& [photo, image] : point.images) told["images"][photo] = EllipseOf(image);
+    return told;
+  }
+
   Json::Value Surveyed(const ControlPoint& point) const {
     return Point(point.position, point.sigma.cwiseAbs2().asDiagonal(), 0, std::nullopt);
   }
 
  private:
-  Json::Value Point(const Eigen::Vector3d& position, const Eigen::Matrix3d& covariance, int rays,
-                    std::optional<int> column) const {
+  static Json::Value About(const Eigen::Vector3d& position, const Eigen::Matrix3d& covariance,
+                           int rays) {
     Json::Value point;
     point["xyz"] = ToJson(position);
     point["sigma"] = ToJson(Eigen::Vector3d(covariance.diagonal().cwiseSqrt()));
     point["rays"] = rays;
     point["images"] = Json::objectValue;
+    return point;
+  }
+
+  Json::Value Point(const Eigen::Vector3d& position, const Eigen::Matrix3d& covariance, int rays,
+                    std::optional<int> column) const {
+    Json::Value point = About(position, covariance, rays);
     for (size_t i = 0; i < cameras_.size(); ++i) {
       if (!views_[i].PixelOf(cameras_[i].cam_from_world * position)) continue;
       PointUncertainty uncertain{covariance, {}};
@@ -104,14 +121,45 @@ class Predictor {
     return point;
   }
 
-  const SolvedSurvey& solved_;
   const std::vector<PosedCamera>& cameras_;
   std::vector<Eigen::MatrixXd> own_;
   std::vector<LensView> views_;
   std::vector<PhotoCovariance> covariances_;
 };
 
+// The marks on `cameras` that are a point's only one there, but of the points that are known.
+std::vector<const ImageObservation*> SingleMarks(const Survey& survey, const Json::Value& known,
+                                                 const std::vector<PosedCamera>& cameras) {
+  std::map<std::string, std::vector<const ImageObservation*>> marks;
+  for (const ImageObservation& mark : survey.observations) {
+    const bool is_posed = std::any_of(cameras.begin(), cameras.end(), [&](const auto& camera) {
+      return camera.photo == mark.photo && camera.camera.Sees(mark.pixel);
+    });
+    if (is_posed && !known.isMember(mark.point)) marks[mark.point].push_back(&mark);
+  }
+  std::vector<const ImageObservation*> single;
+  for (const auto& [point, own] : marks) {
+    if (own.size() == 1) single.push_back(own[0]);
+  }
+  return single;
+}
+
 }  // namespace
+
+void AddPointsOnPlanes(const Survey& survey, const Survey& part, const SolvedSurvey& solved,
+                       const std::vector<PosedCamera>& cameras, double plane_sigma,
+                       Json::Value* points) {
+  const std::vector<Polygon> polygons = AdjustedPolygons(part, solved.survey_network);
+  for (const ImageObservation* mark : SingleMarks(survey, *points, cameras)) {
+    const auto camera = std::find_if(cameras.begin(), cameras.end(),
+                                     [&](const auto& each) { return each.photo == mark->photo; });
+    const auto seen = PolygonSeenAt(polygons, *camera, mark->pixel);
+    if (!seen) continue;
+    const auto point = WhereRayMeets(solved, {mark->photo, mark->pixel, mark->sigma_px},
+                                     part.polygons[*seen], plane_sigma);
+    if (point) (*points)[mark->point] = Predictor::OnPlane(*point, polygons[*seen].name);
+  }
+}
 
 Json::Value PredictedPoints(const Survey& survey, const SolvedSurvey& solved,
                             const std::vector<PosedCamera>& cameras) {

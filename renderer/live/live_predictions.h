@@ -19,4 +19,10 @@ namespace insitu {
 Json::Value PredictedPoints(const Survey& survey, const SolvedSurvey& solved,
                             const std::vector<PosedCamera>& cameras);
 
+// Adds those that a single mark shows on a polygon of `part`, what `solved` is of: "plane" has the
+// polygon's name. `plane_sigma` [m] as of the adjustment.
+void AddPointsOnPlanes(const Survey& survey, const Survey& part, const SolvedSurvey& solved,
+                       const std::vector<PosedCamera>& cameras, double plane_sigma,
+                       Json::Value* points);
+
 }  // namespace insitu

@@ -27,7 +27,7 @@ Json::Value ToPage(const LeftOut& what) {
   told["kind"] = Word(what.kind);
   told["name"] = what.name;
   if (!what.photo.empty()) told["photo"] = what.photo;
-  told["reason"] = what.reason;
+  what.reason.SayIn(&told, "reason");
   told["file"] = what.place.path.string();
   told["line"] = what.place.line;
   return told;
@@ -38,10 +38,10 @@ class DiagnosisTeller {
  public:
   explicit DiagnosisTeller(const Survey& survey) : survey_(survey) {}
 
-  Json::Value Tell(const char* kind, const std::string& text, const FilePlace& place) const {
+  Json::Value Tell(const char* kind, const Sentence& text, const FilePlace& place) const {
     Json::Value told;
     told["kind"] = kind;
-    told["text"] = text;
+    text.SayIn(&told, "text");
     told["file"] = place.path.string();
     told["line"] = place.line;
     AddSubject(place, &told);
@@ -191,12 +191,12 @@ class Solver {
     if (!blind.empty()) survey_.tie_points.reset();
   }
 
-  void LeaveOutPhoto(const std::string& name, const std::string& reason, const FilePlace& place) {
+  void LeaveOutPhoto(const std::string& name, const Sentence& reason, const FilePlace& place) {
     result_.message["left_out"].append(
         ToPage(LeftOut{LeftOut::Kind::kPhoto, name, "", reason, place}));
     Json::Value& photo = result_.message["photos"][name];
     photo["oriented"] = false;
-    photo["why"] = reason;
+    reason.SayIn(&photo, "why");
   }
 
   // What start values seemed to determine and the adjustment does not, as a point that only a
@@ -230,11 +230,13 @@ class Solver {
     return std::erase_if(survey_.observations, [&](const ImageObservation& mark) {
              if (!points.contains(mark.point)) return false;
              if (is_behind && mark.photo != error.photo) return false;
-             unsolvable_.push_back({LeftOut::Kind::kObservation, mark.point, mark.photo,
-                                    is_behind ? "its point would lie behind the photo"
-                                              : "the marks do not determine its point: one more "
-                                                "photograph, from another side",
-                                    mark.place, is_behind});
+             unsolvable_.push_back(
+                 {LeftOut::Kind::kObservation, mark.point, mark.photo,
+                  is_behind ? Sentence("markBehind", "its point would lie behind the photo")
+                            : Sentence("markWeak",
+                                       "the marks do not determine its point: "
+                                       "one more photograph, from another side"),
+                  mark.place, is_behind});
              return true;
            }) > 0;
   }
@@ -242,12 +244,15 @@ class Solver {
   // Of points that planes alone were to hold.
   bool ErasePolygonsOf(const UnsolvableSurvey& error) {
     return std::erase_if(survey_.polygons, [&](const PolygonOutline& polygon) {
-             const auto held = std::find_first_of(polygon.vertices.begin(), polygon.vertices.end(),
+             const std::vector<std::string> vertices = AllVertices(polygon);
+             const auto held = std::find_first_of(vertices.begin(), vertices.end(),
                                                   error.points.begin(), error.points.end());
-             if (held == polygon.vertices.end()) return false;
+             if (held == vertices.end()) return false;
              unsolvable_.push_back(
                  {LeftOut::Kind::kPolygon, polygon.name, "",
-                  "the planes through its vertex " + *held + " do not determine it: mark it",
+                  Sentence("polygonHeld",
+                           "the planes through its vertex {vertex} do not determine it: mark it",
+                           {{"vertex", *held}}),
                   polygon.place});
              return true;
            }) > 0;
@@ -256,10 +261,12 @@ class Solver {
   void TellFailure(const InputError& error) {
     const auto [text, place] = Parted(error);
     result_.message["failed"] = text;
-    result_.message["diagnoses"].append(DiagnosisTeller(input_.survey).Tell("misfit", text, place));
+    result_.message["diagnoses"].append(
+        DiagnosisTeller(input_.survey).Tell("misfit", Sentence::Verbatim(text), place));
     for (const std::string& photo : part_.photos) {
       result_.message["photos"][photo]["oriented"] = false;
-      result_.message["photos"][photo]["why"] = "the adjustment fails";
+      Sentence("photoFails", "the adjustment fails")
+          .SayIn(&result_.message["photos"][photo], "why");
     }
   }
 
@@ -284,14 +291,17 @@ class Solver {
       if (!what.is_contradiction) continue;
       told.append(teller.Tell(
           "misfit",
-          std::string(Word(what.kind)) + " '" + what.name + "' is left out: " + what.reason,
+          Sentence(
+              "leftOut", "{kind} '{name}' is left out: {reason}",
+              {{"kind", Word(what.kind)}, {"name", what.name}, {"reason", what.reason.ToJson()}}),
           what.place));
     }
     for (const std::string& photo : part_.placed_by_points) {
       told.append(teller.Tell("question",
-                              "photo '" + photo +
-                                  "' is placed by points of other photos alone; "
-                                  "insitu-reconstruct wants three control points on it",
+                              Sentence("placedByPoints",
+                                       "photo '{photo}' is placed by points of other photos "
+                                       "alone; insitu-reconstruct wants three control points on it",
+                                       {{"photo", photo}}),
                               FileOfObservations(input_.survey)));
       told[told.size() - 1]["photo"] = photo;
     }
@@ -338,6 +348,8 @@ class Solver {
   void TellPoints() {
     const SolvedSurvey& solved = *result_.solved;
     result_.message["points"] = PredictedPoints(input_.survey, solved, result_.cameras);
+    AddPointsOnPlanes(input_.survey, part_.survey, solved, result_.cameras,
+                      input_.options.plane_sigma, &result_.message["points"]);
     Adjustment adjustment;
     adjustment.points = AdjustedPoints(solved.survey_network.network, solved.solution);
     adjustment.poses = AdjustedPoses(solved.survey_network.network, solved.solution);

@@ -10,14 +10,15 @@
 #include <string>
 #include <vector>
 
+#include "calibration/files/sentence.h"
 #include "calibration/lens/camera.h"
+#include "calibration/lens/photo_lens.h"
 #include "calibration/lens/rigid3.h"
 #include "reconstruction/adjustment/adjustment_options.h"
-#include "reconstruction/adjustment/photo_lens.h"
 #include "reconstruction/adjustment/solve_survey.h"
 #include "reconstruction/geometry/scene_geometry.h"
-#include "reconstruction/geometry/solar_position.h"
 #include "reconstruction/survey/survey.h"
+#include "renderer/live/live_sun.h"
 
 namespace insitu {
 
@@ -26,14 +27,7 @@ struct LivePhoto {
   std::string name;
   std::optional<Camera> camera;
   PhotoLens lens = {};
-  std::string no_lens_because = {};  // where there is no camera: what to do
-};
-
-// What the almanac needs, of site.json.
-struct LiveSite {
-  GeographicPlace place;
-  Eigen::Vector3d true_north;        // unit, world
-  std::optional<double> julian_day;  // UTC; nullopt: no time, or none that says its offset
+  Sentence no_lens_because = {};  // where there is no camera: what to do
 };
 
 struct LiveInput {

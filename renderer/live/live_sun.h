@@ -4,13 +4,21 @@
 
 #include <json/value.h>
 
+#include <Eigen/Core>
 #include <optional>
 
 #include "reconstruction/adjustment/solve_survey.h"
+#include "reconstruction/geometry/solar_position.h"
 #include "reconstruction/survey/survey.h"
-#include "renderer/live/live_solution.h"
 
 namespace insitu {
+
+// What the almanac needs, of site.json.
+struct LiveSite {
+  GeographicPlace place;
+  Eigen::Vector3d true_north;        // unit, world
+  std::optional<double> julian_day;  // UTC; nullopt: no time, or none that says its offset
+};
 
 // {azimuth_deg, elevation_deg, sigma_deg, pairs, ephemeris}; null without sun pairs. Without a site
 // the azimuth counts from the y axis.

@@ -36,8 +36,9 @@ LiveState LiveWorker::Adjust(int revision) {
 }
 
 void LiveWorker::AddLight(int revision, LiveState* state) {
+  state->is_lit = true;
   if (!state->result.scene) return;
-  state->light = LiveLight(site_, *state->result.scene, linear_);
+  state->light = LiveLight(site_, *state->result.scene, linear_, &state->environment);
   if (state->light.isNull()) return;
   state->light["type"] = "light";
   state->light["revision"] = revision;

@@ -5,6 +5,8 @@
 #include <json/value.h>
 
 #include <map>
+#include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,9 +19,11 @@ namespace insitu {
 
 // The newest results.
 struct LiveState {
-  LiveResult result;                     // its message holds type and revision
-  Json::Value light, building;           // messages, maybe null
-  std::vector<std::string> file_faults;  // files that took no part
+  LiveResult result;            // its message holds type and revision
+  Json::Value light, building;  // messages, maybe null
+  bool is_lit = false;          // false: light and building are still to come
+  std::shared_ptr<const NaturalEnvironment> environment;  // what `light` tells of; null: nothing
+  std::vector<std::string> file_faults;                   // files that took no part
 };
 
 // Not safe for several threads at once.

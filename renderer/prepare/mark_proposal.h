@@ -8,6 +8,7 @@
 #include <string>
 #include <variant>
 
+#include "calibration/files/sentence.h"
 #include "calibration/lens/camera.h"
 
 namespace insitu {
@@ -20,7 +21,7 @@ struct MarkProposal {
 };
 
 // What speaks against a proposal, for people.
-using NoProposal = std::string;
+using NoProposal = Sentence;
 
 // Grey values around the whole pixel nearest to a place.
 struct GreyPatch {
@@ -32,6 +33,12 @@ struct GreyPatch {
 // 1987] None: it lies more than 2.5 px away, or an edge or an even surface is there and no corner.
 std::variant<MarkProposal, NoProposal> RefineCorner(const GreyPatch& patch,
                                                     const Eigen::Vector2d& pixel);
+
+// The centre of a point-symmetric figure near the middle: a cross, dot or ring, as fiducial marks
+// are. By the correlation of 21 x 21 pixels with themselves turned by 180 degrees. None: it lies
+// more than 4 px away, or a line or an even surface is there.
+std::variant<MarkProposal, NoProposal> RefineSymmetric(const GreyPatch& patch,
+                                                       const Eigen::Vector2d& pixel);
 
 // The place in `other`, within `radius` [px] of `predicted`, that looks like the surroundings of
 // `pixel`: `other_from_photo` is how offsets there [px] follow from offsets here. By normalised

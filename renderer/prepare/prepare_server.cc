@@ -6,6 +6,9 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <memory>
 #include <opencv2/imgcodecs.hpp>
 #include <thread>
 #include <utility>
@@ -22,6 +25,7 @@
 #include "renderer/prepare/prepare_page.h"
 #include "renderer/prepare/prepare_session.h"
 #include "renderer/prepare/questions.h"
+#include "renderer/prepare/relit_photos.h"
 #include "renderer/prepare/site_from_exif.h"
 #include "renderer/prepare/stage_runs.h"
 
@@ -31,6 +35,8 @@ namespace {
 constexpr int kPatchRadius = 40;      // [px], of what proposals look at
 constexpr double kSearchSigmas = 3;   // of a prediction
 constexpr double kWidestSearch = 25;  // [px]
+constexpr int kHighestPort = 65535;
+constexpr int kMostPanes = 4;
 
 WebResponse JsonResponse(const Json::Value& json, int status = 200) {
   WebResponse response;
@@ -45,14 +51,16 @@ class PrepareService {
   PrepareService(const SitePaths& site, std::function<void(std::string)> send)
       : site_(site),
         paths_(ListPhotographs(site)),
-        tiles_(paths_),
+        tiles_(paths_, site.root / "work/prepare/overviews"),
         send_(std::move(send)),
         session_(site, send_),
+        relit_(paths_, [this] { return session_.live(); }),
         runs_(site, [this](const Json::Value& message) {
           send_(OneLineJson(message));
           if (message.isMember("status")) session_.Reload();
         }) {
     AddRoutes();
+    overviews_ = std::jthread([this](const std::stop_token& stop) { MakeFirstOverviews(stop); });
   }
 
   WebResponse Answer(const WebRequest& request) const {
@@ -63,6 +71,7 @@ class PrepareService {
 
   void Stop() {
     runs_.End();
+    relit_.Stop();
     session_.Stop();
   }
 
@@ -74,6 +83,8 @@ class PrepareService {
     routes_["GET /api/site"] = [this](const WebRequest&) { return JsonResponse(Site()); };
     routes_["GET /api/tile"] = [this](const WebRequest& r) { return Tile(r); };
     routes_["GET /api/patch"] = [this](const WebRequest& r) { return Patch(r); };
+    routes_["GET /api/relit"] = [this](const WebRequest& r) { return Relit(r, false); };
+    routes_["GET /api/relit_picture"] = [this](const WebRequest& r) { return Relit(r, true); };
     routes_["GET /api/value"] = [this](const WebRequest& r) { return Value(r); };
     Post("op", [this](const Json::Value& q) { return Told(session_.Apply(q)); });
     Post("undo", [this](const Json::Value& q) { return Told(session_.Undo(q["id"].asString())); });
@@ -103,6 +114,16 @@ class PrepareService {
     routes_["POST /api/" + name] = [answer](const WebRequest& request) {
       return answer(ParseJson("request", request.body));
     };
+  }
+
+  // What the page shows first, while the browser opens.
+  void MakeFirstOverviews(const std::stop_token& stop) {
+    for (int i = 0; i < std::min(tiles_.count(), kMostPanes) && !stop.stop_requested(); ++i) {
+      try {
+        tiles_.Tile(i, tiles_.SizeOf(i).levels - 1, 0, 0);
+      } catch (const std::exception&) {  // the page is told when it asks
+      }
+    }
   }
 
   static WebResponse Told(const PrepareSession::Answer& answer) {
@@ -146,6 +167,17 @@ class PrepareService {
     return response;
   }
 
+  WebResponse Relit(const WebRequest& request, bool is_picture) {
+    const auto light = request.query.find("light");
+    const RelitPhotos::Answer answer = relit_.Ask(
+        QueryInteger(request, "photo"), light == request.query.end() ? "" : light->second);
+    if (!is_picture || !answer.jpeg) return JsonResponse(answer.body, answer.status);
+    WebResponse response;
+    response.type = "image/jpeg";
+    response.body = *answer.jpeg;
+    return response;
+  }
+
   WebResponse Value(const WebRequest& request) {
     const PixelValue value = tiles_.Value(QueryInteger(request, "photo"),
                                           QueryInteger(request, "x"), QueryInteger(request, "y"));
@@ -175,7 +207,7 @@ class PrepareService {
   static Json::Value ProposalJson(const std::variant<MarkProposal, NoProposal>& found) {
     Json::Value json;
     if (const auto* why = std::get_if<NoProposal>(&found)) {
-      json["error"] = *why;
+      why->SayIn(&json, "error");
       return json;
     }
     const auto& proposal = std::get<MarkProposal>(found);
@@ -189,7 +221,9 @@ class PrepareService {
 
   Json::Value Refine(const Json::Value& question) {
     const Eigen::Vector2d pixel(question["x"].asDouble(), question["y"].asDouble());
-    return ProposalJson(RefineCorner(GreyAround(question["photo"].asString(), pixel), pixel));
+    const GreyPatch patch = GreyAround(question["photo"].asString(), pixel);
+    const bool is_fiducial = question["fiducial"].asBool();
+    return ProposalJson(is_fiducial ? RefineSymmetric(patch, pixel) : RefineCorner(patch, pixel));
   }
 
   // The point on all photos that lack it and where it is predicted.
@@ -223,7 +257,8 @@ class PrepareService {
     const auto here =
         std::find_if(live.result.cameras.begin(), live.result.cameras.end(),
                      [&](const PosedCamera& camera) { return camera.photo == photo; });
-    if (here == live.result.cameras.end()) return ProposalJson(NoProposal("not oriented"));
+    if (here == live.result.cameras.end())
+      return ProposalJson(Sentence("matchNotOriented", "not oriented"));
     const Eigen::Vector3d normal = (Center(here->cam_from_world) - world).normalized() +
                                    (Center(other.cam_from_world) - world).normalized();
     const Eigen::Vector2d predicted(seen["x"].asDouble(), seen["y"].asDouble());
@@ -251,13 +286,26 @@ class PrepareService {
   PhotoTiles tiles_;
   const std::function<void(std::string)> send_;
   PrepareSession session_;
+  RelitPhotos relit_;
   StageRuns runs_;
   std::map<std::string, Route> routes_;
+  std::jthread overviews_;
 };
 
-LoopbackServerOptions ServerOptions(const PrepareOptions& options, const std::string& token) {
+// Where the port stands under which the site's page was served last. What the page could not send
+// stands in the browser under that address.
+std::filesystem::path PortFile(const SitePaths& site) { return site.root / "work/prepare/port"; }
+
+// 0: none.
+int LastPort(const SitePaths& site) {
+  std::ifstream file(PortFile(site));
+  int port = 0;
+  return file >> port && port > 0 && port <= kHighestPort ? port : 0;
+}
+
+LoopbackServerOptions ServerOptions(int port, const std::string& token) {
   LoopbackServerOptions server;
-  server.port = options.port;
+  server.port = port;
   server.token = token;
   server.public_resources = PreparePage();
   server.slow_paths = {"/api/tile", "/api/patch", "/api/value", "/api/refine", "/api/match"};
@@ -281,22 +329,47 @@ class EndSignals {
   sigset_t signals_ = {};
 };
 
+// At the port asked for, else at the site's last one if that is free; `remark` if it is not.
+std::unique_ptr<LoopbackServer> MakeServer(const SitePaths& site, const PrepareOptions& options,
+                                           const std::string& token,
+                                           const LoopbackServerCallbacks& callbacks,
+                                           std::string* remark) {
+  const int last = options.port == 0 ? LastPort(site) : 0;
+  if (last != 0) {
+    try {
+      return std::make_unique<LoopbackServer>(ServerOptions(last, token), callbacks);
+    } catch (const InputError&) {
+      *remark = "port " + std::to_string(last) +
+                ", under which this site's page was opened last, is taken by another program: what "
+                "that page had not sent yet comes in when it is opened with --port " +
+                std::to_string(last);
+    }
+  }
+  return std::make_unique<LoopbackServer>(ServerOptions(options.port, token), callbacks);
+}
+
+// Not a fault if it cannot be written: then the next port is another one.
+void NotePort(const SitePaths& site, int port) { std::ofstream(PortFile(site)) << port << "\n"; }
+
 }  // namespace
 
-void ServePrepare(const SitePaths& site, const PrepareOptions& options,
-                  const std::function<void(const std::string&)>& tell) {
+void ServePrepare(const SitePaths& site, const PrepareOptions& options, const TellAddress& tell) {
   const EndSignals end;
   const std::string token = NewToken();
   std::atomic<LoopbackServer*> windows = nullptr;
   PrepareService service(site, [&windows](std::string text) {
     if (LoopbackServer* server = windows) server->Send(std::move(text));
   });
-  LoopbackServer server(ServerOptions(options, token),
-                        {.on_request = [&](const WebRequest& r) { return service.Answer(r); }});
+  std::string remark;
+  const auto made =
+      MakeServer(site, options, token,
+                 {.on_request = [&](const WebRequest& r) { return service.Answer(r); }}, &remark);
+  LoopbackServer& server = *made;
+  NotePort(site, server.port());
   windows = &server;  // what was told before that, the page asks for when it comes
   const std::string url = server.address() + "#" + token;
   std::jthread serving([&] { server.Run(); });
-  tell(url);
+  tell(url, remark);
   {
     const auto page = options.opens_browser ? std::make_unique<OpenedPage>(url) : nullptr;
     end.Wait();

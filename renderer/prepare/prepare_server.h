@@ -6,14 +6,16 @@
 //   GET  /api/tile?photo&level&x&y     JPEG, 512 px; photo is an index
 //   GET  /api/patch?photo&x&y&r        PNG, lossless
 //   GET  /api/value?photo&x&y          one pixel
+//   GET  /api/relit?photo&light        light: none, sun; 202 until it is made (relit_photos.h)
+//   GET  /api/relit_picture?...        then its JPEG
 //   POST /api/op                       an operation (operation.h): 200 {revision}, 409 {conflicts}
 //   POST /api/undo, /api/redo {id}     200 {revision, operation}
 //   POST /api/epipolar, /api/measure, /api/best_photo, /api/polygon_at, /api/import   questions.h
-//   POST /api/refine {photo, x, y}, /api/match {photo, point}    mark_proposal.h
+//   POST /api/refine {photo, x, y, fiducial}, /api/match {photo, point}    mark_proposal.h
 //   POST /api/run {stage}, /api/stop   stages of the site; exif-camera and exif-site:
 //   site_from_exif.h GET  /api/live                     WebSocket: op, saved, not_saved, adjusted,
 //   light, building,
-//                                      todo, run, outside, fault
+//                                      film (film_message.h), todo, run, outside, fault
 #pragma once
 
 #include <functional>
@@ -24,14 +26,17 @@
 namespace insitu {
 
 struct PrepareOptions {
-  int port = 0;  // 0: any that is free
+  int port = 0;  // 0: the site's last one, else any that is free
   bool opens_browser = true;
 };
 
+// Receives the address with its token, and what is to be known of it, or "".
+using TellAddress = std::function<void(const std::string& url, const std::string& remark)>;
+
 // Serves until a signal ends it: SIGINT, SIGTERM, SIGHUP. What was confirmed is then in the
-// survey's files. `tell` receives the address with its token. Throws InputError: no photographs,
+// survey's files. Without a port asked for, the site's last one is taken if it is free, for what a
+// page could not send stands in the browser under its address. Throws InputError: no photographs,
 // another server has the site, the port is taken.
-void ServePrepare(const SitePaths& site, const PrepareOptions& options,
-                  const std::function<void(const std::string&)>& tell);
+void ServePrepare(const SitePaths& site, const PrepareOptions& options, const TellAddress& tell);
 
 }  // namespace insitu

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "renderer/prepare/prepare_session.h"
 
+#include <algorithm>
 #include <chrono>
 #include <condition_variable>
 #include <mutex>
@@ -12,6 +13,7 @@
 #include "reconstruction/editing/edited_tables.h"
 #include "reconstruction/editing/site_edit.h"
 #include "renderer/live/live_worker.h"
+#include "renderer/prepare/film_message.h"
 #include "renderer/prepare/to_do.h"
 
 namespace insitu {
@@ -79,8 +81,13 @@ struct PrepareSession::Parts {
   }
 
   Json::Value ToDoNow() const {
-    return ToDo({site, edit.Tables(), live->result.message, live->light, live->file_faults});
+    const Json::Value tables = edit.Tables();
+    return ToDo({site, tables, live->result.message, live->light, FilmMessage(site, tables, sizes),
+                 live->file_faults});
   }
+
+  // Null where there is no film.
+  Json::Value FilmNow() const { return FilmMessage(site, edit.Tables(), sizes); }
 
   void TellOperation(const Operation& operation, const char* kind) const {
     Json::Value message;
@@ -90,6 +97,13 @@ struct PrepareSession::Parts {
     message["kind"] = kind;
     message["history"] = History();
     Tell(message);
+    const bool is_of_film =
+        std::any_of(operation.edits.begin(), operation.edits.end(),
+                    [](const RowEdit& change) { return IsOfFilm(change.table); });
+    if (!is_of_film) return;
+    Json::Value film = FilmNow();
+    if (film.isNull()) film["type"] = "film";
+    Tell(film);
   }
 
   Answer Done(const EditOutcome& outcome, const char* kind) {
@@ -134,6 +148,14 @@ struct PrepareSession::Parts {
       text += fault.file + ":" + std::to_string(fault.line) + ": " + fault.text + "\n";
     }
     return text;
+  }
+
+  // Why what an operation says of film cannot be in the site; "" if it can.
+  std::string RefusedFilm(const Operation& operation) const {
+    for (const RowEdit& change : operation.edits) {
+      if (IsOfFilm(change.table) && change.after.isObject()) return RefusalOfFilm(site);
+    }
+    return "";
   }
 
   // Of the pixels that an operation places; "" if all lie on their photographs.
@@ -297,6 +319,7 @@ Json::Value PrepareSession::Site() {
   site["adjusted"] = parts.live->result.message;
   site["light"] = parts.live->light;
   site["building"] = parts.live->building;
+  site["film"] = parts.FilmNow();
   site["todo"] = parts.ToDoNow();
   return site;
 }
@@ -304,9 +327,10 @@ Json::Value PrepareSession::Site() {
 PrepareSession::Answer PrepareSession::Apply(const Json::Value& operation) {
   const Operation asked = OperationFromJson(operation);
   const std::lock_guard lock(parts_->mutex);
-  EditOutcome off_frame;
-  off_frame.refused = parts_->OffFrame(asked);
-  if (!off_frame.is_done()) return parts_->Done(off_frame, "edit");
+  EditOutcome refusal;
+  refusal.refused = parts_->OffFrame(asked);
+  if (refusal.is_done()) refusal.refused = parts_->RefusedFilm(asked);
+  if (!refusal.is_done()) return parts_->Done(refusal, "edit");
   return parts_->Do([&] { return parts_->edit.Apply(asked); }, "edit");
 }
 

@@ -10,17 +10,19 @@
 #include "calibration/files/error.h"
 #include "calibration/files/json_file.h"
 #include "calibration/files/whole_file.h"
-#include "reconstruction/exchange/survey_file.h"
+#include "reconstruction/exchange/read_survey_file.h"
 #include "reconstruction/geometry/best_photo.h"
 #include "reconstruction/geometry/epipolar_curve.h"
 #include "reconstruction/live/derived_quantity.h"
+#include "reconstruction/live/one_ray.h"
 #include "renderer/live/live_polygons.h"
 
 namespace insitu {
 namespace {
 
 constexpr double kInDegrees = 180 / std::numbers::pi;
-constexpr double kCoplanar = 0.05;       // [m], between polygons that touch
+constexpr double kMarkSigma = 0.5;       // [px], of a mark that states none
+constexpr double kCurve = 0.05;          // [px], of a polyline from the curve
 constexpr double kSurveyedSigma = 0.01;  // [m], of pasted points that state none
 
 InputError NotKnown(const std::string& what) { return {"question", what}; }
@@ -44,22 +46,6 @@ Eigen::Vector3d PositionOf(const LiveState& live, const std::string& point) {
   return {xyz[0].asDouble(), xyz[1].asDouble(), xyz[2].asDouble()};
 }
 
-struct SeenPolygon {
-  const Polygon* polygon;
-  Eigen::Vector3d point;  // [m], world
-};
-
-// Every polygon in a pixel's line of sight, however many stand before it.
-std::vector<SeenPolygon> PolygonsAt(const SceneGeometry& scene, const PosedCamera& camera,
-                                    const Eigen::Vector2d& pixel) {
-  std::vector<SeenPolygon> seen;
-  for (const Polygon& polygon : scene.polygons) {
-    if (const auto point = PointOnPolygon(camera, pixel, polygon))
-      seen.push_back({&polygon, *point});
-  }
-  return seen;
-}
-
 void RequireKnown(const std::optional<DerivedQuantity>& quantity) {
   if (!quantity) throw NotKnown("not all of these points are adjusted, or two are in one place");
 }
@@ -67,17 +53,24 @@ void RequireKnown(const std::optional<DerivedQuantity>& quantity) {
 }  // namespace
 
 Json::Value EpipolarAnswer(const LiveState& live, const Json::Value& question) {
+  const double sigma = question.get("sigma", kMarkSigma).asDouble();
+  const SingleMark mark{question["photo"].asString(),
+                        {question["x"].asDouble(), question["y"].asDouble()},
+                        sigma > 0 ? sigma : kMarkSigma};
+  const PosedCamera& other = CameraOf(live, question["other"].asString());
   const std::vector<Polyline> pieces =
-      EpipolarCurve(CameraOf(live, question["photo"].asString()),
-                    {question["x"].asDouble(), question["y"].asDouble()},
-                    CameraOf(live, question["other"].asString()));
+      EpipolarCurve(CameraOf(live, mark.photo), mark.pixel, other, kCurve);
   Json::Value answer;
-  answer["curve"] = Json::Value(Json::arrayValue);
+  answer["curve"] = answer["band"] = Json::Value(Json::arrayValue);
   const auto longest =
       std::max_element(pieces.begin(), pieces.end(),
                        [](const auto& a, const auto& b) { return a.size() < b.size(); });
   if (longest == pieces.end()) return answer;
   for (const Eigen::Vector2d& at : *longest) answer["curve"].append(ToJson(Eigen::VectorXd(at)));
+  for (const Eigen::Vector2d& across :
+       EpipolarBand(*live.result.solved, mark, other.photo, *longest)) {
+    answer["band"].append(ToJson(Eigen::VectorXd(across)));
+  }
   return answer;
 }
 
@@ -127,23 +120,11 @@ Json::Value BestPhotoAnswer(const LiveState& live, const Json::Value& question) 
 Json::Value PolygonAtAnswer(const LiveState& live, const Json::Value& question) {
   const PosedCamera& camera = CameraOf(live, question["photo"].asString());
   if (!live.result.scene) throw NotKnown("nothing is adjusted yet");
-  const std::vector<SeenPolygon> seen =
-      PolygonsAt(*live.result.scene, camera, {question["x"].asDouble(), question["y"].asDouble()});
+  const std::vector<Polygon>& polygons = live.result.scene->polygons;
+  const auto seen =
+      PolygonSeenAt(polygons, camera, {question["x"].asDouble(), question["y"].asDouble()});
   Json::Value answer;
-  answer["polygon"] = Json::nullValue;
-  if (seen.empty()) return answer;
-  const Eigen::Vector3d center = Center(camera.cam_from_world);
-  const auto first = std::min_element(seen.begin(), seen.end(), [&](const auto& a, const auto& b) {
-    return (a.point - center).squaredNorm() < (b.point - center).squaredNorm();
-  });
-  const SeenPolygon* smallest = &*first;
-  for (const SeenPolygon& other : seen) {
-    const double apart = std::abs(first->polygon->normal.dot(other.point - first->point));
-    if (apart <= kCoplanar && AreaOf(*other.polygon) < AreaOf(*smallest->polygon)) {
-      smallest = &other;
-    }
-  }
-  answer["polygon"] = smallest->polygon->name;
+  answer["polygon"] = seen ? Json::Value(polygons[*seen].name) : Json::Value();
   return answer;
 }
 

@@ -12,7 +12,8 @@ namespace insitu {
 // Each takes and answers as the page's protocol has it (prepare_server.h) and throws InputError:
 // something is missing in the question, or not known.
 
-// {photo, x, y, other} -> {curve: [[x, y]...]}, its longest piece; empty: not determined.
+// {photo, x, y, sigma, other} -> {curve: [[x, y]...], band: [[dx, dy]...]}: its longest piece, and
+// for each place how far the 95 % band reaches on either side; empty: not determined.
 Json::Value EpipolarAnswer(const LiveState& live, const Json::Value& question);
 
 // {points: [a, b]} -> {distance_m, sigma_m, height_m, height_sigma_m}; [a, b, c] -> {angle_deg,

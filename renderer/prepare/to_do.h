@@ -14,7 +14,7 @@ namespace insitu {
 struct ToDoInput {
   SitePaths site;
   Json::Value tables;                    // as SiteEdit has them
-  Json::Value adjusted, light;           // messages, maybe null
+  Json::Value adjusted, light, film;     // messages, maybe null
   std::vector<std::string> file_faults;  // files that take no part
 };
 

@@ -111,20 +111,43 @@ LightDirections ChooseLightDirections(const MontageScene& scene, const Eigen::Ve
   return {sun, ray % stride, stride};
 }
 
+SplitSun SplitSunlight(const MontageScene& scene, const SurfacePoint& surface,
+                       const LightDirections& directions, bool natural_needed) {
+  SplitSun sun;
+  const Eigen::Vector3d origin = surface.position + kSurveyClearance * surface.normal;
+  const double cosine = SunCosine(scene, surface, directions);
+  if (cosine <= 0) return sun;
+  const bool is_blocked = MayMeetBuilding(scene, origin, directions.sun) &&
+                          IsBlocked(scene.artificial_rays, {origin, directions.sun});
+  if (!is_blocked && !natural_needed) return sun;
+  if (IsBlocked(scene.natural_rays, {origin, directions.sun})) return sun;
+  sun.natural = cosine * scene.natural.light.sun_solid_angle;
+  if (is_blocked) sun.blocked = sun.natural;
+  return sun;
+}
+
+double SunOnBuilding(const MontageScene& scene, const SurfacePoint& surface,
+                     const LightDirections& directions) {
+  const double cosine = SunCosine(scene, surface, directions);
+  const Eigen::Vector3d origin = surface.position + kBuildingClearance * surface.normal;
+  const Ray to_sun = {origin, directions.sun};
+  if (cosine <= 0 || IsBlocked(scene.artificial_rays, to_sun) ||
+      IsBlocked(scene.natural_rays, to_sun)) {
+    return 0;
+  }
+  return cosine * scene.natural.light.sun_solid_angle;
+}
+
 SplitLight SplitDaylight(const MontageScene& scene, const SurfacePoint& surface,
                          const LightDirections& directions, bool natural_needed) {
   SplitLight light;
   const Eigen::Vector3d origin = surface.position + kSurveyClearance * surface.normal;
-  const double sun_cosine = SunCosine(scene, surface, directions);
-  const bool sun_blocked = sun_cosine > 0 && MayMeetBuilding(scene, origin, directions.sun) &&
-                           IsBlocked(scene.artificial_rays, {origin, directions.sun});
   const FacetSet hidden = FacetsBehindBuilding(scene, surface, origin, directions);
-  if (!natural_needed && !sun_blocked && hidden.none()) return light;
+  const SplitSun sun = SplitSunlight(scene, surface, directions, natural_needed || hidden.any());
+  light.natural.sun = sun.natural;
+  light.blocked.sun = sun.blocked;
+  if (!natural_needed && sun.blocked == 0 && hidden.none()) return {};
   light.natural.ambient = std::numbers::pi;
-  if (sun_cosine > 0 && !IsBlocked(scene.natural_rays, {origin, directions.sun})) {
-    light.natural.sun = sun_cosine * scene.natural.light.sun_solid_angle;
-    if (sun_blocked) light.blocked.sun = light.natural.sun;
-  }
   double visible = 0, blocked = 0;
   ForFacets(
       scene, surface, directions, [](int) { return true; },
@@ -146,12 +169,7 @@ LightGeometry DaylightOnBuilding(const MontageScene& scene, const SurfacePoint& 
   LightGeometry light;
   light.ambient = std::numbers::pi;
   const Eigen::Vector3d origin = surface.position + kBuildingClearance * surface.normal;
-  const double sun_cosine = SunCosine(scene, surface, directions);
-  const Ray to_sun = {origin, directions.sun};
-  if (sun_cosine > 0 && !IsBlocked(scene.artificial_rays, to_sun) &&
-      !IsBlocked(scene.natural_rays, to_sun)) {
-    light.sun = sun_cosine * scene.natural.light.sun_solid_angle;
-  }
+  light.sun = SunOnBuilding(scene, surface, directions);
   const FacetSet hidden = FacetsBehindBuilding(scene, surface, origin, directions);
   double visible = 0;
   ForFacets(

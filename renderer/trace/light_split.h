@@ -31,6 +31,16 @@ struct SplitLight {
 SplitLight SplitDaylight(const MontageScene& scene, const SurfacePoint& surface,
                          const LightDirections& directions, bool natural_needed);
 
+// The sun's part alone.
+struct SplitSun {
+  double natural = 0, blocked = 0;  // n.d_s Omega_s [sr]
+};
+SplitSun SplitSunlight(const MontageScene& scene, const SurfacePoint& surface,
+                       const LightDirections& directions, bool natural_needed);
+// What of it reaches a point of the building: n.d_s Omega_s [sr].
+double SunOnBuilding(const MontageScene& scene, const SurfacePoint& surface,
+                     const LightDirections& directions);
+
 // Light at a point of the building: what neither the site nor the building itself blocks.
 LightGeometry DaylightOnBuilding(const MontageScene& scene, const SurfacePoint& surface,
                                  const LightDirections& directions);

@@ -73,18 +73,11 @@ bool IsLevel(const SceneGeometry& scene, const Polygon& polygon) {
   return polygon.normal.dot(scene.zenith.unit) > std::cos(10 * std::numbers::pi / 180);
 }
 
-double Area(const Polygon& polygon) {
-  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  const std::vector<Eigen::Vector3d>& v = polygon.vertices;
-  for (size_t i = 2; i < v.size(); ++i) sum += (v[i - 1] - v[0]).cross(v[i] - v[0]);
-  return sum.norm() / 2;
-}
-
 std::optional<int> LargestLevelPolygon(const SceneGeometry& scene) {
   std::optional<int> largest;
   for (size_t i = 0; i < scene.polygons.size(); ++i) {
     if (!IsLevel(scene, scene.polygons[i])) continue;
-    const bool larger = !largest || Area(scene.polygons[i]) > Area(scene.polygons[*largest]);
+    const bool larger = !largest || AreaOf(scene.polygons[i]) > AreaOf(scene.polygons[*largest]);
     if (larger) largest = static_cast<int>(i);
   }
   return largest;
@@ -98,17 +91,21 @@ MontageScene MakeMontageScene(NaturalEnvironment natural, const ArtificialEnviro
   INSITU_CHECK(natural.input_images.size() == images.size());
   const Eigen::Vector3d origin = natural.scene.origin;
   PolygonMesh polygons = MeshOfPolygons(natural.scene);
-  const TriangleMesh building = LocalMesh(artificial, origin);
+  TriangleMesh building = LocalMesh(artificial, origin);
+  RayScene natural_rays(polygons.mesh), artificial_rays(building);
+  const InfluenceBox box = BoxAround(building);
   MontageScene scene{.natural = std::move(natural),
-                     .natural_rays = RayScene(polygons.mesh),
+                     .natural_mesh = std::move(polygons.mesh),
+                     .natural_rays = std::move(natural_rays),
                      .polygon_of_triangle = std::move(polygons.polygon_of_triangle),
                      .material_of_polygon = {},
                      .ground = {},
-                     .artificial_rays = RayScene(building),
+                     .artificial_mesh = std::move(building),
+                     .artificial_rays = std::move(artificial_rays),
                      .artificial_normals = TriangleNormals(artificial),
                      .material_of_triangle = artificial.material_of_triangle,
                      .artificial_materials = {},
-                     .building_box = BoxAround(building),
+                     .building_box = box,
                      .lamps = {},
                      .facets = {},
                      .facet_directions = {},
@@ -116,7 +113,8 @@ MontageScene MakeMontageScene(NaturalEnvironment natural, const ArtificialEnviro
                      .solar_disc_radius = 0,
                      .input_images = std::move(images),
                      .images = {},
-                     .mean_brdf_of_polygon = {}};
+                     .mean_brdf_of_polygon = {},
+                     .interreflected = {}};
   const NaturalEnvironment& site = scene.natural;
   scene.ground = LargestLevelPolygon(site.scene);
   for (const Polygon& polygon : site.scene.polygons) {

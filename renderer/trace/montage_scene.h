@@ -4,6 +4,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -12,6 +13,7 @@
 #include "radiometry/natural_environment.h"
 #include "reconstruction/geometry/ray_scene.h"
 #include "renderer/building/artificial_environment.h"
+#include "renderer/trace/irradiance_map.h"
 
 namespace insitu {
 
@@ -46,13 +48,17 @@ struct InfluenceBox {
 
 constexpr int kMostFacets = 4 * kMostPolarFacets * kMostPolarFacets;
 
+struct InterreflectedLight;
+
 struct MontageScene {
   NaturalEnvironment natural;
+  TriangleMesh natural_mesh;
   RayScene natural_rays;
   std::vector<int> polygon_of_triangle;
   std::vector<SpectralMaterial> material_of_polygon;
   std::optional<int> ground;  // the largest polygon that lies level; its plane goes on beyond it
 
+  TriangleMesh artificial_mesh;
   RayScene artificial_rays;
   std::vector<Eigen::Vector3d> artificial_normals;  // of each triangle, unit
   std::vector<int> material_of_triangle;
@@ -69,6 +75,10 @@ struct MontageScene {
   std::vector<LocalImage> images;    // the same with their pinhole cameras
   // Mean BRDF of each polygon's material over the photographs, for polygons that none shows.
   std::vector<Spectrum> mean_brdf_of_polygon;
+
+  // Light among surfaces; null: the paper's uniform ambient light [Durisch92, Eq. (4)]. It refers
+  // to this scene, which must not be moved once it has it.
+  std::shared_ptr<const InterreflectedLight> interreflected;
 
   PhotographedSite Photographed() const {
     return {natural.scene, natural_rays, polygon_of_triangle, images, natural.air, natural.spectra};

@@ -11,6 +11,8 @@
 
 #include "calibration/files/error.h"
 #include "calibration/lens/sight_map.h"
+#include "calibration/photo/photograph.h"
+#include "renderer/trace/outline.h"
 #include "renderer/trace/sampling.h"
 #include "renderer/trace/trace.h"
 
@@ -64,11 +66,25 @@ struct PixelSum {
   }
 };
 
-void AddRay(const ViewWork& view, const PixelSampler& sampler, int x, int y, PixelSum& sum) {
-  const Eigen::Vector2d pixel = Eigen::Vector2d(x, y) + sampler.InPixel(sum.rays);
+// The line of sight of a position on the photograph; beyond its frame that of the border.
+Ray SightOf(const ViewWork& view, const Eigen::Vector2d& pixel) {
+  const Eigen::Vector2d last(view.photo.width - 0.5, view.photo.height - 0.5);
+  const Eigen::Vector2d inside = pixel.cwiseMax(-0.5).cwiseMin(last);
+  return {view.center, view.local_from_cam * view.sights.Direction(inside)};
+}
+
+// [px]; nullopt: ideal.
+std::optional<double> SpreadSigma(const ViewWork& view, int x, int y) {
+  if (!view.options.point_spread) return std::nullopt;
+  return view.options.point_spread->SigmaAt({x, y}, view.photo.width, view.photo.height);
+}
+
+void AddRay(const ViewWork& view, const PixelSampler& sampler, int x, int y,
+            const std::optional<double>& sigma, PixelSum& sum) {
+  const Eigen::Vector2d offset =
+      sigma ? sampler.Spread(sum.rays, *sigma) : sampler.InPixel(sum.rays);
   PrimaryRay primary;
-  primary.ray.origin = view.center;
-  primary.ray.direction = view.local_from_cam * view.sights.Direction(pixel);
+  primary.ray = SightOf(view, Eigen::Vector2d(x, y) + offset);
   primary.apparent_rgb = view.photo.Rgb(x, y);
   primary.light = ChooseLightDirections(view.scene, sampler.OnDisc(sum.rays), sum.rays);
   const RayOutcome outcome = TracePrimary(view.scene, primary);
@@ -83,15 +99,57 @@ void AddRay(const ViewWork& view, const PixelSampler& sampler, int x, int y, Pix
   }
 }
 
-PixelSum SamplePixel(const ViewWork& view, int x, int y) {
+bool IsEnough(const RenderOptions& options, const PixelSum& sum, bool near_outline) {
+  if (sum.rays < options.fewest_rays) return false;
+  const bool is_mixed = sum.building_rays > 0 && sum.building_rays < sum.rays;
+  if (options.point_spread && (near_outline || is_mixed)) {
+    // The first rays may all miss what spreads into the pixel.
+    if (sum.rays < options.most_rays) return false;
+    return sum.rays >= options.outline_rays || sum.statistics.StandardError() <= options.tolerance;
+  }
+  return sum.rays >= options.most_rays || !sum.IsChanged() ||
+         sum.statistics.StandardError() <= options.tolerance;
+}
+
+PixelSum SamplePixel(const ViewWork& view, int x, int y, bool near_outline) {
   const PixelSampler sampler(x, y);
+  const std::optional<double> sigma = SpreadSigma(view, x, y);
   PixelSum sum;
   do {
-    for (int i = 0; i < 4; ++i) AddRay(view, sampler, x, y, sum);
-  } while (sum.rays < view.options.fewest_rays ||
-           (sum.rays < view.options.most_rays && sum.IsChanged() &&
-            sum.statistics.StandardError() > view.options.tolerance));
+    for (int i = 0; i < 4; ++i) AddRay(view, sampler, x, y, sigma, sum);
+  } while (!IsEnough(view.options, sum, near_outline));
   return sum;
+}
+
+// The noise that a computed pixel lacks: that of its radiance, less what came with the photograph's
+// share in it.
+Eigen::Vector3d MissingGrain(const Grain& grain, const PixelSum& sum, const Eigen::Vector3d& photo,
+                             const Eigen::Vector3d& mean, int x, int y) {
+  const Eigen::Array3d site = (sum.rays - sum.building_rays) * photo + sum.change;
+  const Eigen::Array3d share = site / (sum.rays * photo.array().max(1e-9));
+  const Eigen::Array3d present = share.square() * grain.Variance(photo).array();
+  const Eigen::Array3d missing = (grain.Variance(mean).array() - present).max(0).sqrt();
+  return missing * UnitGrain(grain, x, y, 0).array();
+}
+
+// Of the pixels of a tile.
+Outline OutlineIn(const ViewWork& view, const PointSpread& spread, const Tile& tile) {
+  const double sigma = std::max(spread.center_sigma, spread.corner_sigma);
+  return {view.scene,
+          {tile.left, tile.top},
+          {tile.right, tile.bottom},
+          static_cast<int>(std::ceil(kSpreadReach * sigma)),
+          [&view](const Eigen::Vector2d& pixel) { return SightOf(view, pixel); }};
+}
+
+// Whether a change is too small to be seen in any channel.
+bool IsWithinReach(const Eigen::Vector3d& before, const Eigen::Vector3d& after, double reach) {
+  for (int c = 0; c < 3; ++c) {
+    const double change =
+        SrgbFromLinear(std::max(0.0, after[c])) - SrgbFromLinear(std::max(0.0, before[c]));
+    if (std::abs(change) * 255 > reach) return false;
+  }
+  return true;
 }
 
 struct Counts {
@@ -99,13 +157,20 @@ struct Counts {
 };
 
 void RenderTile(const ViewWork& view, const Tile& tile, Raster& result, Counts& counts) {
+  std::optional<Outline> outline;
+  if (const auto& spread = view.options.point_spread) outline = OutlineIn(view, *spread, tile);
   for (int y = tile.top; y < tile.bottom; ++y) {
     for (int x = tile.left; x < tile.right; ++x) {
-      const PixelSum sum = SamplePixel(view, x, y);
+      const PixelSum sum = SamplePixel(view, x, y, outline && outline->IsNear(x, y));
       counts.rays += sum.rays;
       if (!sum.IsChanged()) continue;  // the photograph's pixel stays
+      const Eigen::Vector3d photo = view.photo.Rgb(x, y);
+      Eigen::Vector3d mean = sum.Mean(photo);
+      const bool may_stay = sum.building_rays == 0 || outline;
+      if (may_stay && IsWithinReach(photo, mean, view.options.reach)) continue;
+      if (view.options.grain) mean += MissingGrain(*view.options.grain, sum, photo, mean, x, y);
       ++(sum.building_rays > 0 ? counts.building : counts.changed);
-      result.SetRgb(x, y, sum.Mean(view.photo.Rgb(x, y)).cwiseMax(0));
+      result.SetRgb(x, y, mean.cwiseMax(0));
     }
   }
 }
@@ -120,7 +185,10 @@ void RenderOptions::Check() const {
   INSITU_CHECK(fewest_rays >= 4 && fewest_rays % 4 == 0);
   INSITU_CHECK(most_rays >= fewest_rays && most_rays % 4 == 0);
   INSITU_CHECK(tolerance > 0);
+  INSITU_CHECK(reach >= 0);
   INSITU_CHECK(threads >= 0);
+  INSITU_CHECK(outline_rays >= most_rays && outline_rays % 4 == 0);
+  INSITU_CHECK(!point_spread || (point_spread->center_sigma > 0 && point_spread->corner_sigma > 0));
 }
 
 RenderResult RenderMontage(const MontageScene& scene, const PosedCamera& camera,

@@ -3,8 +3,10 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 
 #include "calibration/photo/raster.h"
+#include "radiometry/light/image_quality.h"
 #include "renderer/trace/montage_scene.h"
 
 namespace insitu {
@@ -13,7 +15,13 @@ struct RenderOptions {
   int fewest_rays = 4;       // a pixel, a multiple of 4
   int most_rays = 16;        // a pixel, a multiple of 4
   double tolerance = 0.004;  // standard error of a pixel in sRGB units (1 = white) that is enough
+  double reach = 0.5;        // change in 8-bit sRGB codes up to which the photograph's pixel stays
   int threads = 0;           // 0: as many as there are cores
+  // How the photograph spreads a point: what is computed is spread alike. nullopt: each pixel is
+  // the mean over its square.
+  std::optional<PointSpread> point_spread = {};
+  int outline_rays = 32;  // with a point spread: a pixel that the outline may spread into, at most
+  std::optional<Grain> grain = {};  // noise that computed pixels get; nullopt: none
 
   void Check() const;  // throws CheckError that names the field that is wrong
 };

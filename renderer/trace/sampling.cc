@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "calibration/photo/photograph.h"
 
@@ -40,6 +41,18 @@ PixelSampler::PixelSampler(int x, int y) {
 
 Eigen::Vector2d PixelSampler::InPixel(int ray) const {
   return SpreadPoint(pixel_shift_, ray) - Eigen::Vector2d::Constant(0.5);
+}
+
+Eigen::Vector2d PixelSampler::Spread(int ray, double sigma) const {
+  // By radius: of a Gaussian of unit variance cut off at c, exp(-c^2/2) = 0.0111 is missing, and
+  // its variance is 1 - c^2/2 * 0.0111 / (1 - 0.0111).
+  constexpr double kCut = 3, kMissing = 0.011108996538242306;
+  static const double kWider = 1 / std::sqrt(1 - kCut * kCut / 2 * kMissing / (1 - kMissing));
+  static_assert(kCut * 1.027 < kSpreadReach);
+  const Eigen::Vector2d point = SpreadPoint(pixel_shift_, ray);
+  const double radius = kWider * sigma * std::sqrt(-2 * std::log(1 - point.x() * (1 - kMissing)));
+  const double angle = 2 * std::numbers::pi * point.y();
+  return {radius * std::cos(angle), radius * std::sin(angle)};
 }
 
 Eigen::Vector2d PixelSampler::OnDisc(int ray) const { return SpreadPoint(disc_shift_, ray); }

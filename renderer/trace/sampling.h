@@ -8,13 +8,18 @@
 
 namespace insitu {
 
+constexpr double kSpreadReach = 3.1;
+
 // Well-spread pseudo-random positions, seeded by the pixel alone.
 class PixelSampler {
  public:
   PixelSampler(int x, int y);
 
   Eigen::Vector2d InPixel(int ray) const;  // offset from the pixel's centre, [-0.5, 0.5)^2
-  Eigen::Vector2d OnDisc(int ray) const;   // for the sun's disc, [0, 1)^2
+  // Offset [px] as the light of a point spreads over the film: a Gaussian of this sigma [px], cut
+  // off at kSpreadReach sigma and so much wider that its variance stays.
+  Eigen::Vector2d Spread(int ray, double sigma) const;
+  Eigen::Vector2d OnDisc(int ray) const;  // for the sun's disc, [0, 1)^2
 
  private:
   Eigen::Vector2d pixel_shift_, disc_shift_;

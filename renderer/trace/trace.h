@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 
 #include "renderer/trace/light_split.h"
 #include "renderer/trace/montage_scene.h"
@@ -23,6 +24,9 @@ struct RayOutcome {
   Eigen::Vector3d rgb = Eigen::Vector3d::Zero();
 };
 
+// Whether the building is the first that a ray of the current camera meets.
+bool HitsBuilding(const MontageScene& scene, const Ray& ray);
+
 // Cases A (no object: no change), C (the building) and D (the site: D1, D2, D3).
 RayOutcome TracePrimary(const MontageScene& scene, const PrimaryRay& primary);
 
@@ -34,16 +38,21 @@ constexpr int kMaxMirrors = 4;
 Spectrum TraceSecondary(const MontageScene& scene, const Ray& ray, const LightDirections& light,
                         World world, int depth);
 
-// Case C: true colour of the building at a point, looked at from `to_viewer` (unit).
+// Case C: true colour of the building at a point, looked at from `to_viewer` (unit). `around` is
+// the light of sky and surroundings there; nullopt: the paper's.
 Spectrum BuildingColor(const MontageScene& scene, const SurfacePoint& surface,
                        const SpectralMaterial& material, const Eigen::Vector3d& to_viewer,
-                       const LightDirections& light, int depth);
+                       const LightDirections& light, int depth,
+                       const std::optional<SmoothLight>& around = std::nullopt);
 
 // Cases D1 and D3: the change of a diffuse natural surface of true colour L_0 by the lamps' light
 // that comes and the daylight that the building cuts off, the latter as a negative irradiance.
-// D2 is its being zero. Never below -L_0; at most 0 without lamps. `diffuse_weight` is k_d.
+// D2 is its being zero. Never below -L_0. `diffuse_weight` is k_d. `around` is the light of sky and
+// surroundings, whose change counts with its sign; nullopt: the paper's, and the change is at most
+// 0 without lamps.
 Spectrum DiffuseChange(const MontageScene& scene, const SurfacePoint& surface,
                        const Spectrum& true_color, double diffuse_weight,
-                       const LightDirections& light);
+                       const LightDirections& light,
+                       const std::optional<SmoothLight>& around = std::nullopt);
 
 }  // namespace insitu

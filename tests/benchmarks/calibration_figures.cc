@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "calibration/boards/lens_assessment.h"
-#include "calibration/camera_files/camera_file.h"
+#include "calibration/camera_files/read_camera_file.h"
 #include "calibration/files/error.h"
 #include "calibration/files/whole_file.h"
 #include "calibration/lens/projection_difference.h"

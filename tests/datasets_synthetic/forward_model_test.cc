@@ -37,6 +37,7 @@ Face Wall(double reach) {
 struct World {
   Campus campus;
   Place place;
+  std::unique_ptr<BouncedLight> light;
 };
 
 // Upright axes, the sun 30 degrees off the zenith towards +x.
@@ -47,11 +48,13 @@ std::unique_ptr<World> MakeWorld(const std::vector<Face>& natural,
   world->campus.sun = Vector3d(0.5, 0, std::sqrt(0.75));
   world->campus.natural = world->campus.blockers = MakeScene(natural);
   world->place = {&world->campus, MakeScene(building), ClearMorning()};
+  constexpr BouncedLightOptions kCoarse = {1e6, 1, 4};
+  world->light = std::make_unique<BouncedLight>(world->place, kCoarse);
   return world;
 }
 
 double Sky(const World& world, const Vector3d& normal) {
-  return VisibleSky(world.place, {0, 0, 0.001}, normal, 40, 1).before;
+  return world.light->Gather({0, 0, 0.001}, normal, 40, 1).sky.before;
 }
 
 TEST(VisibleSky, IsAllOnOpenGround) {
@@ -75,7 +78,7 @@ TEST(VisibleSky, IsNothingUnderAnEndlessRoof) {
 TEST(VisibleSky, IsHalfAtTheFootOfAnEndlessWall) {
   const auto world = MakeWorld({Wall(1e9)});
   const double at_foot =
-      VisibleSky(world->place, {0.999999, 0, 0}, Vector3d::UnitZ(), 40, 1).before;
+      world->light->Gather({0.999999, 0, 0}, Vector3d::UnitZ(), 40, 1).sky.before;
   EXPECT_NEAR(at_foot, 0.5, 0.01);
 }
 
@@ -84,7 +87,7 @@ TEST(VisibleSky, LosesTheClosedFormBehindALongWall) {
   const double height = 2;
   const auto world = MakeWorld(
       {}, {FaceOf({{1, -kHuge, 0}, {1, kHuge, 0}, {1, kHuge, height}, {1, -kHuge, height}})});
-  const BeforeAfter share = VisibleSky(world->place, {0, 0, 0}, Vector3d::UnitZ(), 40, 1);
+  const BeforeAfter share = world->light->Gather({0, 0, 0}, Vector3d::UnitZ(), 40, 1).sky;
   EXPECT_EQ(share.before, 1);
   EXPECT_NEAR(share.after, 1 - 0.5 * (1 - 1 / std::sqrt(1 + height * height)), 0.01);
 }
@@ -120,7 +123,7 @@ View LookingDown(int size) {
 
 TEST(RenderView, GivesOpenGroundItsClosedFormColor) {
   const auto world = MakeWorld({Level(0, kHuge)});
-  const RenderedView view = RenderView(world->place, LookingDown(8));
+  const RenderedView view = RenderView(*world->light, LookingDown(8));
   const Daylight& light = world->place.daylight;
   const double cosine = world->campus.sun.z();
   const Spectrum leaving =
@@ -134,7 +137,7 @@ TEST(RenderView, GivesOpenGroundItsClosedFormColor) {
 
 TEST(RenderView, WithoutABuildingChangesNothing) {
   const auto world = MakeWorld({Level(0, kHuge), Wall(5)});
-  const RenderedView view = RenderView(world->place, LookingDown(16));
+  const RenderedView view = RenderView(*world->light, LookingDown(16));
   EXPECT_EQ(view.before.data, view.after.data);
   for (const float code : view.mask.data) EXPECT_EQ(code, 0);
 }
@@ -142,7 +145,7 @@ TEST(RenderView, WithoutABuildingChangesNothing) {
 TEST(RenderView, MarksBuildingAndShadow) {
   const auto world =
       MakeWorld({Level(0, kHuge)}, {FaceOf({{0.5, -9, 1}, {9, -9, 1}, {9, 9, 1}, {0.5, 9, 1}})});
-  const RenderedView view = RenderView(world->place, LookingDown(32));
+  const RenderedView view = RenderView(*world->light, LookingDown(32));
   EXPECT_EQ(*view.mask.At(31, 16), 1);                   // on the slab
   EXPECT_FLOAT_EQ(*view.mask.At(20, 16), 170.0f / 255);  // before its edge, in its shadow
   EXPECT_LT(view.after.Rgb(20, 16).sum(), 0.6 * view.before.Rgb(20, 16).sum());
@@ -151,7 +154,7 @@ TEST(RenderView, MarksBuildingAndShadow) {
 // A pane that mirrors the open sky: F L_sky + (1 - F) diffuse.
 TEST(RenderView, MirrorsTheSkyInGlass) {
   const auto world = MakeWorld({}, {Level(0, kHuge, Material::kGlass)});
-  const RenderedView view = RenderView(world->place, LookingDown(8));
+  const RenderedView view = RenderView(*world->light, LookingDown(8));
   const Daylight& light = world->place.daylight;
   const double share = Fresnel(1, MirrorIndex(Material::kGlass));
   const Spectrum diffuse =

@@ -35,7 +35,7 @@ rm -- "$site"/photos/*
 cp -- "$gallery"/photos_direct/*.exr "$site/photos"
 mkdir -- "$site/work" # the same camera: its calibration need not run twice
 cp -r -- "$calibration" "$site/work"
-check 'direct light, montage' "$root/scripts/montage" "$site" --from tie-points
+check 'direct light, montage' "$root/scripts/montage" "$site" --from tie-points --bounces 0
 figures direct
 
 site=$temporary/photographs

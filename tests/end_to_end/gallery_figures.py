@@ -22,7 +22,7 @@ ZENITH = (0.004887, -0.003665, 0.999981)
 TRANSMITTANCE_PER_M = (0.999473, 0.999246, 0.998885)
 SUN_IRRADIANCE = (4.90, 4.73, 4.46)
 SKY_RADIANCE = (0.410, 0.485, 0.570)
-MAX_ERROR_OVER_NOTHING = {'gi': 0.30, 'direct': 0.12}
+MAX_ERROR_OVER_NOTHING = {'gi': 0.065, 'direct': 0.065}
 PHOTO = 'IMG_2102'
 
 
@@ -95,12 +95,13 @@ def building_displacement(site, shared):
 
 def untouched(site, shared):
     """Where the truth's mask is 0 the change stays below the truth's noise, but need not be zero:
-    near the building the lawn loses a little sky. Hence a share; exactness has tests of its own."""
+    near the building the lawn loses a little sky, most of it within one code. Hence a share; on the
+    demo site, whose truth is finer, all such pixels are the photograph's."""
     photo = cv2.imread(f'{site}/photos/{PHOTO}.jpg').astype(int)
     montage = cv2.imread(f'{site}/montages/{PHOTO}.png').astype(int)
     mask = cv2.imread(f'{shared}/data/gallery/truth/mask_gi_{PHOTO}.png', cv2.IMREAD_UNCHANGED)
     change = abs(montage - photo).max(axis=2)[mask == 0]
-    at_most('untouched pixels that differ from the photograph', (change > 0).mean(), 0.08)
+    at_most('untouched pixels that differ from the photograph', (change > 0).mean(), 0.12)
     at_most('untouched pixels that differ by more than one code', (change > 1).mean(), 0.008)
 
 

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # The measuring page: its server over the wire (nothing confirmed is lost by kill -9, attacks are turned
 # away, bad input is told); in a browser two windows, undo to the byte, what cannot be saved, a start from
-# nothing but photographs, and the demo site measured by keyboard, then its montage.
+# nothing but photographs, scanned film, and the demo site measured by keyboard, then its montage.
 # shellcheck disable=SC2317 # the functions are called through check
 set -euo pipefail
 # shellcheck source=assertions.sh
@@ -31,9 +31,17 @@ in_browser() {
   check_figures "$1" node "$tests/prepare/$2.mjs" "$temporary/site" "${@:3}"
 }
 in_browser 'two windows' windows
+in_browser 'another light' relit
 in_browser 'files' files
 check 'what the page wrote is read by the adjustment' \
   "$INSITU_BIN/insitu-reconstruct" "$temporary/site"
+in_browser 'polygons' polygons
+leaves_out_by_name() {
+  local message
+  message=$("$INSITU_BIN/insitu-reconstruct" "$temporary/site" 2>&1) || return 1
+  printf '%s\n' "$message" | grep "^warning: .*point 'lone': one ray only, .*left out"
+}
+check 'the adjustment reads them, and leaves out the point of one mark by name' leaves_out_by_name
 in_browser 'kill -9 of the browser' browser_kill "$temporary/profile"
 in_browser 'a read-only file' not_saved
 
@@ -54,6 +62,12 @@ cp -- "$DEMO_SITE"/photos/* "$temporary/photographs"
 new_site
 check_figures 'nothing but photographs' node "$tests/prepare/start_from_nothing.mjs" \
   "$temporary/photographs" "$temporary/site" "$temporary/small.jpg"
+
+# The photographs as if taken on film and scanned: no camera but the certificate that is typed.
+/usr/bin/python3 "$tests/prepare/film_scans.py" "$DEMO_SITE" "$temporary/film"
+check_figures 'scanned film' node "$tests/prepare/film.mjs" "$temporary/film" "${SCREENSHOTS:-}"
+check 'the film that the page wrote is read by insitu-calibrate' \
+  "$INSITU_BIN/insitu-calibrate" "$temporary/film"
 
 # From photographs to a montage. A quarter is measured, the rest is there: scripts/bench prepare measures all.
 new_site && rm -rf -- "$temporary/site/work" "$temporary/site/montages"

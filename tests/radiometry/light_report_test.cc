@@ -37,6 +37,7 @@ TEST(BriefReport, SaysWhatWasFound) {
   const SyntheticSite truth = MakeSyntheticSite("report");
   const std::string report = BriefReport(MeasureDaylight(truth.site));
   EXPECT_NE(report.find("over 200 m, 6 samples"), std::string::npos) << report;
+  EXPECT_NE(report.find("A: too few sharp, straight edges"), std::string::npos) << report;
 }
 
 }  // namespace

@@ -18,8 +18,8 @@ double RelativeError(const Eigen::Vector3d& value, const Eigen::Vector3d& truth)
 }
 
 bool HasWarning(const LightMeasurement& measured, const std::string& part) {
-  for (const std::string& warning : measured.warnings) {
-    if (warning.find(part) != std::string::npos) return true;
+  for (const Sentence& warning : measured.warnings) {
+    if (warning.text().find(part) != std::string::npos) return true;
   }
   return false;
 }
@@ -68,6 +68,16 @@ TEST(MeasureDaylight, PolygonsThatLieOnEachOtherDoNotShadeEachOther) {
   options.uniform_ambient = true;
   const LightMeasurement measured = MeasureDaylight(truth.site, options);
   EXPECT_LT(std::abs(measured.daylight_fit.residuals[6]), 0.02);  // below the path, in full sun
+}
+
+// The ambient term stands for what is around; without bounces that is black.
+TEST(MeasureDaylight, WithoutBouncesNothingButSunAndSkyIsFound) {
+  const SyntheticSite truth = MakeSyntheticSite("bounces");
+  const LightMeasurement all = MeasureDaylight(truth.site);
+  EXPECT_TRUE((all.environment.light.ambient_radiance > 0).all());
+  const LightMeasurement bare = MeasureDaylight(truth.site, {.bounces = 0});
+  EXPECT_TRUE((bare.environment.light.ambient_radiance == 0).all());
+  EXPECT_GT(bare.environment.light.sky_radiance.sum(), all.environment.light.sky_radiance.sum());
 }
 
 TEST(MeasureDaylight, WarnsOfWhatIsMissing) {

@@ -62,10 +62,32 @@ void ExpectSameScene(const SceneGeometry& a, const SceneGeometry& b) {
   for (size_t i = 0; i < a.polygons.size(); ++i) {
     EXPECT_EQ(a.polygons[i].name, b.polygons[i].name);
     EXPECT_EQ(a.polygons[i].vertices, b.polygons[i].vertices);
+    EXPECT_EQ(a.polygons[i].holes, b.polygons[i].holes);
     EXPECT_EQ(a.polygons[i].normal, b.polygons[i].normal);
     EXPECT_EQ(a.polygons[i].photo, b.polygons[i].photo);
     EXPECT_EQ(a.polygons[i].material, b.polygons[i].material);
     ExpectSameMatrix(a.polygons[i].covariance, b.polygons[i].covariance);
+  }
+}
+
+void ExpectSameQualities(const std::vector<ImageQuality>& a, const std::vector<ImageQuality>& b) {
+  ASSERT_EQ(a.size(), b.size());
+  for (size_t i = 0; i < a.size(); ++i) {
+    ASSERT_EQ(a[i].point_spread.has_value(), b[i].point_spread.has_value());
+    ASSERT_EQ(a[i].grain.has_value(), b[i].grain.has_value());
+    if (const auto& spread = a[i].point_spread) {
+      EXPECT_EQ(spread->center_sigma, b[i].point_spread->center_sigma);
+      EXPECT_EQ(spread->corner_sigma, b[i].point_spread->corner_sigma);
+      EXPECT_EQ(spread->sigma_error, b[i].point_spread->sigma_error);
+      EXPECT_EQ(spread->edges, b[i].point_spread->edges);
+    }
+    if (const auto& grain = a[i].grain) {
+      EXPECT_EQ(grain->floor, b[i].grain->floor);
+      EXPECT_EQ(grain->slope, b[i].grain->slope);
+      EXPECT_EQ(grain->length, b[i].grain->length);
+      EXPECT_EQ(grain->shared, b[i].grain->shared);
+      EXPECT_EQ(grain->patches, b[i].grain->patches);
+    }
   }
 }
 
@@ -96,7 +118,15 @@ TEST_P(BinsTest, EnvironmentReturnsToTheLastBit) {
   LightMeasurement measured = MeasureDaylight(truth.site, options);
   SceneGeometry& scene = measured.environment.scene;
   scene.camera_covariances = {SomeCovariance(6), SomeCovariance(10)};  // pose alone; with its lens
-  scene.polygons[1].covariance = SomeCovariance(12);
+  Polygon& pierced = scene.polygons[1];
+  const auto corner = [&](int i) { return pierced.vertices[i]; };
+  const Eigen::Vector3d middle = (corner(0) + corner(1) + corner(2)) / 3;
+  pierced.holes.emplace_back();
+  for (int i = 0; i < 3; ++i) pierced.holes[0].push_back(0.9 * middle + 0.1 * corner(i));
+  pierced.covariance = SomeCovariance(21);
+  measured.environment.qualities = {
+      {PointSpread{0.5, 0.7, 0.03, 12}, std::nullopt},
+      {std::nullopt, Grain{{1e-5, 2e-5, 3e-5}, {0, 1e-4, 0}, 0.6, 0.25, 300}}};
   WriteEnvironment(truth.site, measured);
   const NaturalEnvironment& a = measured.environment;
   const NaturalEnvironment b = ReadEnvironment(truth.site);
@@ -118,6 +148,25 @@ TEST_P(BinsTest, EnvironmentReturnsToTheLastBit) {
   EXPECT_EQ(b.materials.at("gravel").specular->weight, 0.3);
   EXPECT_FALSE(b.materials.at("steel").specular->index);
   EXPECT_FALSE(b.materials.at("concrete").specular);
+  ExpectSameQualities(a.qualities, b.qualities);
+}
+
+TEST(ReadEnvironment, RefusesImpossibleImageQuality) {
+  const SyntheticSite truth = MakeSyntheticSite("bad_quality");
+  LightMeasurement measured = MeasureDaylight(truth.site);
+  measured.environment.qualities[0].point_spread = PointSpread{0.5, 0.7, 0.03, 12};
+  measured.environment.qualities[0].grain = Grain{{1e-5, 2e-5, 3e-5}, {0, 0, 0}, 0.6, 0.25, 300};
+  const auto error_after = [&](const std::string& from, const std::string& to) {
+    WriteEnvironment(truth.site, measured);
+    Replace(truth.site.environment(), from, to);
+    return ErrorOf([&] { ReadEnvironment(truth.site); });
+  };
+  EXPECT_EQ(error_after("", ""), "");
+  EXPECT_NE(error_after("\"center_sigma_px\" : 0.5", "\"center_sigma_px\" : -0.5")
+                .find("expected pixels above 0 and up to 5"),
+            std::string::npos);
+  EXPECT_NE(error_after("\"shared\" : 0.25", "\"shared\" : 1.5").find("expected up to 5 px"),
+            std::string::npos);
 }
 
 TEST(ReadEnvironment, FaultsNameFileAndLine) {

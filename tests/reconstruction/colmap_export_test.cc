@@ -6,6 +6,7 @@
 #include "calibration/lens/lens_residual.h"
 #include "reconstruction/adjustment/adjust.h"
 #include "reconstruction/colmap/colmap_text.h"
+#include "reconstruction/colmap/read_colmap_model.h"
 #include "tests/reconstruction/survey/synthetic_network.h"
 
 namespace insitu {

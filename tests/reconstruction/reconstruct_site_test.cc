@@ -66,7 +66,7 @@ TEST_F(Site, GivesTheSameBytesTwice) {
 
 TEST_F(Site, WritesNothingOnBadInput) {
   const auto marks = site_.survey() / "observations.csv";
-  WriteWhole(marks, ReadWhole(marks) + "P1,nobody,1,1,0.4\n");
+  WriteWhole(marks, ReadWhole(marks) + "P9,A,1,1,0.4\n");
   EXPECT_THROW(ReconstructSite(site_), InputError);
   EXPECT_FALSE(std::filesystem::exists(site_.scene().parent_path()));
 }

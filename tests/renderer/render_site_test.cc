@@ -55,6 +55,22 @@ TEST_F(RenderSiteTest, NeedsTheDescriptionsAndTheImagesAlone) {
   EXPECT_THAT(ReadWhole(site_.montages() / "photo.uncertainty.csv"), HasSubstr("sigma_major_px"));
 }
 
+TEST_F(RenderSiteTest, IsAsSharpAsThePhotographUnlessIdealIsAskedFor) {
+  small_.natural.qualities = {{PointSpread{0.8, 0.8, 0.05, 12}, std::nullopt}};
+  RenderSiteOptions options;
+  const std::vector<float> unmeasured = RenderSite(site_, options)[0].result.linear.data;
+  WriteJson(site_.environment(), DescriptionOf(small_.natural, site_.environment()));
+  const RenderSiteReport measured = RenderSite(site_, options)[0];
+  EXPECT_EQ(measured.point_spread->edges, 12);
+  EXPECT_NE(measured.result.linear.data, unmeasured);
+  options.sharpness = Sharpness::kIdeal;
+  options.with_grain = true;  // of which nothing is known here
+  const RenderSiteReport ideal = RenderSite(site_, options)[0];
+  EXPECT_FALSE(ideal.point_spread);
+  EXPECT_FALSE(ideal.has_grain);
+  EXPECT_EQ(ideal.result.linear.data, unmeasured);
+}
+
 TEST_F(RenderSiteTest, WhatIsMissingNamesItsProgram) {
   std::filesystem::remove(site_.input_image("photo"));
   EXPECT_THAT(Complaint(), HasSubstr("insitu-undistort"));

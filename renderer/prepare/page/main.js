@@ -9,6 +9,7 @@ import {addDirectionKeys} from "./tools/directions.js";
 import {buildHeader} from "./around/header.js";
 import {showHelp} from "./around/help.js";
 import {addAction, addKeys, listenToKeys} from "./around/keys.js";
+import {addFilmHands} from "./film/fiducials.js";
 import {addLightKeys} from "./light/light_panel.js";
 import {buildLists, showList} from "./around/lists.js";
 import {showMeasure} from "./tools/measure.js";
@@ -28,6 +29,7 @@ function addPageKeys() {
   addDirectionKeys();
   addLightKeys();
   addConstraintKeys();
+  addFilmHands();
   addAction({
     id: "list",
     key: "L",

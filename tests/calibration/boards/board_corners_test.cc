@@ -34,8 +34,9 @@ TEST_F(BoardCorners, StandWhereTheLensPutsThem) {
   Eigen::Vector2d mean = Eigen::Vector2d::Zero();
   for (size_t i = 0; i < corners->size(); ++i) {
     Eigen::Vector3d place = center;
-    place.x() += 0.08 * (static_cast<double>(i % 10) - 4.5);
-    place.y() += 0.08 * (static_cast<double>(i / 10) - 3.0);
+    const size_t column = i % 10, row = i / 10;
+    place.x() += 0.08 * (static_cast<double>(column) - 4.5);
+    place.y() += 0.08 * (static_cast<double>(row) - 3.0);
     // From either end of the board: it looks the same upside down.
     const Eigen::Vector3d turned = center - (place - center);
     const Eigen::Vector2d off = (*corners)[i] - *lens.Project(place);

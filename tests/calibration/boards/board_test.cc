@@ -20,7 +20,7 @@ constexpr char kBoard[] =
 class BoardFile : public testing::Test {
  protected:
   std::filesystem::path Write(const std::string& text) { return folder_.Write("board.txt", text); }
-  std::string ErrorOf(std::string from, const std::string& to) {
+  std::string ErrorOf(const std::string& from, const std::string& to) {
     std::string text = kBoard;
     text.replace(text.find(from), from.size(), to);
     const auto path = Write(text);

@@ -47,7 +47,8 @@ double LightOfPixel(const Board& board, const SightMap& sights, const Rigid3& bo
                     int y) {
   double sum = 0;
   for (int i = 0; i < kSamples * kSamples; ++i) {
-    const Eigen::Vector2d offset((i % kSamples + 0.5) / kSamples, (i / kSamples + 0.5) / kSamples);
+    const int column = i % kSamples, row = i / kSamples;
+    const Eigen::Vector2d offset((column + 0.5) / kSamples, (row + 0.5) / kSamples);
     const Eigen::Vector3d sight =
         board_from_cam.rotation * sights.Direction(Eigen::Vector2d(x - 0.5, y - 0.5) + offset);
     const Eigen::Vector3d& center = board_from_cam.translation;

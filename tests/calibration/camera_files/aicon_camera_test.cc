@@ -3,7 +3,7 @@
 
 #include <cstdio>
 
-#include "calibration/camera_files/camera_file.h"
+#include "calibration/camera_files/read_camera_file.h"
 #include "tests/calibration/files/scratch_folder.h"
 
 namespace insitu {

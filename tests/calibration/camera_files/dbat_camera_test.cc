@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "calibration/camera_files/dbat_camera.h"
 
-#include "calibration/camera_files/camera_file.h"
+#include "calibration/camera_files/read_camera_file.h"
 #include "tests/calibration/files/scratch_folder.h"
 
 namespace insitu {

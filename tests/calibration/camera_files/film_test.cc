@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "calibration/camera_files/film.h"
 
+#include <gmock/gmock.h>
+
 #include <cmath>
 
 #include "tests/calibration/files/scratch_folder.h"
@@ -163,6 +165,43 @@ TEST_F(FilmFiles, Fiducials) {
             ":3: mark 1 stands twice for photo west");
   EXPECT_EQ(error("1,-28,28,west,10,12\n1,28,28,east,11,12\n"),
             ":3: mark 1 has other millimetres than further up, expected those of one camera");
+}
+
+TEST_F(FilmFiles, ACertificateThatListsItsMarksIsHeldAgainstThoseMeasured) {
+  const FilmCamera film = ReadFilmCamera(folder_.Write(
+      "film.json",
+      R"({"focal_mm": 99.4, "fiducials": [{"mark": "1", "x_mm": -28, "y_mm": 28.01}]})"));
+  EXPECT_EQ(film.fiducials.at("1"), Eigen::Vector2d(-28, 28.01));
+  const std::filesystem::path fiducials = "f.csv";
+  EXPECT_NO_THROW(CheckCertified(film, fiducials, {{"1", {-28, 28.01}, {}}}));
+  EXPECT_NO_THROW(CheckCertified(FilmCamera(), fiducials, {{"1", {-28, 28}, {}}}));
+  const std::string path = film.path.string();
+  EXPECT_EQ(InputErrorOf([&] {
+              CheckCertified(film, fiducials, {{"1", {-28, 28}, {}}});
+            }),
+            "f.csv: mark 1 has other millimetres in " + path);
+  EXPECT_EQ(InputErrorOf([&] {
+              CheckCertified(film, fiducials, {{"2", {-28, 28}, {}}});
+            }),
+            "f.csv: mark 2 is not among those of " + path);
+  EXPECT_THAT(InputErrorOf([&] {
+                ReadFilmCamera(folder_.Write("film.json", R"({"focal_mm": 9, "fiducials": [
+    {"mark": "1", "x_mm": 1, "y_mm": 2},
+    {"mark": "1", "x_mm": 1, "y_mm": 2}]})"));
+              }),
+              testing::EndsWith("film.json:3: \"fiducials[1]\" mark 1 stands twice"));
+}
+
+TEST_F(FilmFiles, Folders) {
+  const auto calibration = folder_.path() / "calibration";
+  EXPECT_EQ(FilmFolder(calibration), calibration);
+  folder_.Write("calibration/wide/board.txt", "");
+  EXPECT_EQ(FilmFolder(calibration), calibration / "film");
+  folder_.Write("calibration/old/fiducials.csv", "");
+  EXPECT_EQ(FilmFolder(calibration), calibration / "old");
+  folder_.Write("calibration/film.json", "");
+  EXPECT_EQ(FilmFolders(calibration),
+            (std::vector<std::filesystem::path>{calibration, calibration / "old"}));
 }
 
 TEST_F(FilmFiles, Film) {

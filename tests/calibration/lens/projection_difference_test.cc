@@ -31,10 +31,10 @@ TEST(ProjectionDifference, ATurnIsNoDifference) {
 TEST(ProjectionDifference, AScaleStays) {
   const ProjectionDifference difference =
       CompareLenses(Lens(900, 599.5, 0), Lens(909, 599.5, 0), 13, 9);
-  ASSERT_TRUE(difference.px[4 * 13]);
+  ASSERT_TRUE(difference.px[size_t{4} * 13]);
   const double off_middle = 600 - 1200.0 / 13 / 2;  // halfway down, the leftmost cell
-  EXPECT_NEAR(*difference.px[4 * 13], 0.01 * off_middle, 0.01);
-  EXPECT_LT(*difference.px[4 * 13 + 6], 0.01);  // the middle
+  EXPECT_NEAR(*difference.px[size_t{4} * 13], 0.01 * off_middle, 0.01);
+  EXPECT_LT(*difference.px[size_t{4} * 13 + 6], 0.01);  // the middle
 }
 
 TEST(FrameCenters, AreTheMiddlesOfEqualCells) {

@@ -102,7 +102,7 @@ TEST(ReadShownPhotograph, DecodesAJpegAsReadPhotographDoes) {
   const Photograph photo = ReadPhotograph(path);
   for (int y = 0; y < 203; ++y) {
     for (int x = 0; x < 301; ++x) {
-      const cv::Vec3b code = shown.at<cv::Vec3b>(y, x);
+      const auto& code = shown.at<cv::Vec3b>(y, x);
       ASSERT_EQ(static_cast<float>(LinearFromSrgb(code[2] / 255.)), photo.linear.At(x, y)[0]);
       ASSERT_EQ(static_cast<float>(LinearFromSrgb(code[0] / 255.)), photo.linear.At(x, y)[2]);
     }

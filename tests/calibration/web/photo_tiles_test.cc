@@ -94,6 +94,31 @@ TEST_F(PhotoTilesTest, OverviewsDoNotShift) {
   }
 }
 
+TEST_F(PhotoTilesTest, KeepsOverviewsUntilThePhotographIsAnotherOne) {
+  const std::filesystem::path kept = folder_.path() / "overviews";
+  const cv::Mat image = Picture(4100, 600);
+  const auto path = Write("a.png", image);
+  const std::string first = PhotoTiles({path}, kept).Tile(0, 3, 0, 0);
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(kept), {}), 1);
+  const auto size = std::filesystem::file_size(path);
+  const auto time = std::filesystem::last_write_time(path);
+  std::fstream file(path, std::ios::in | std::ios::out | std::ios::binary);
+  file.seekp(100);
+  file << "no pixels any more";
+  file.close();
+  ASSERT_EQ(std::filesystem::file_size(path), size);
+  InputErrorOf([&] { PhotoTiles({path}, kept).Tile(0, 3, 0, 0); });  // its time is another one
+  std::filesystem::last_write_time(path, time);
+  EXPECT_EQ(PhotoTiles({path}, kept).Tile(0, 3, 0, 0), first);
+  const cv::Mat other = 255 - image;
+  Write("a.png", other);
+  const cv::Mat tile = Decoded(PhotoTiles({path}, kept).Tile(0, 3, 0, 0));
+  EXPECT_LE(Difference(tile(cv::Rect(0, 0, 512, 75)),
+                       HalvedImage(HalvedImage(HalvedImage(other)))(cv::Rect(0, 0, 512, 75))),
+            20);
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(kept), {}), 1);
+}
+
 TEST_F(PhotoTilesTest, RepeatsTheEdge) {
   const cv::Mat image = Picture(600, 530);
   PhotoTiles tiles({Write("a.png", image)});
@@ -192,7 +217,7 @@ TEST_F(PhotoTilesTest, AnswersSeveralThreadsWithLittleMemory) {
   for (int i = 0; i < 4; ++i) {
     photos.push_back(Write("p" + std::to_string(i) + ".jpg", Picture(1100 + i, 1030)));
   }
-  PhotoTiles tiles(photos, 10'000'000), alone(photos);
+  PhotoTiles tiles(photos, {}, 10'000'000), alone(photos);
   std::vector<std::string> expected;
   for (int i = 0; i < 36; ++i) expected.push_back(alone.Tile(i % 4, 0, i / 4 % 3, i / 12));
   std::vector<std::thread> threads;

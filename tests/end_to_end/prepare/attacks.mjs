@@ -30,6 +30,8 @@ const table = [
   ["a photo that is none", "GET", "/api/tile?photo=99&level=0&x=0&y=0", {host, ...token}, [400]],
   ["a photo that is no number", "GET", "/api/tile?photo=0%00&level=0&x=0&y=0", {host, ...token}, [400]],
   ["a tile that is none", "GET", "/api/tile?photo=0&level=0&x=-1&y=0", {host, ...token}, [400]],
+  ["a relit photo by its path", "GET", "/api/relit_picture?photo=../site.json&light=none", {host, ...token}, [400]],
+  ["a relit photo without a token", "GET", "/api/relit_picture?photo=0&light=none", {host}, [401]],
   ["a patch of a gigabyte", "GET", "/api/patch?photo=0&x=0&y=0&r=20000", {host, ...token}, [400]],
   ["a path to the site's files", "GET", "/site.json", {host, ...token}, [404]],
   ["a whole address as the path", "GET", `http://evil.example/api/site`, {host: "evil.example", ...token}, [400, 403]],

@@ -33,7 +33,7 @@ function frames(person, count) {
   }, count);
 }
 
-/** The first tile: as the server answers at once after its start, and as the page shows it. */
+/** The first tile: as the server answers at once after its first start, and as the page shows it after the second. */
 async function firstTile(folder) {
   let server = await start(folder);
   const {photos: [photo]} = (await server.ask("GET", "/api/site")).body;
@@ -57,7 +57,7 @@ async function firstTile(folder) {
 
 for (const folder of large) {
   const {server, person, photo, served, shown} = await firstTile(folder);
-  const what = `${((photo.width * photo.height) / 1e6).toFixed(0)} MP`;
+  const what = `${((photo.width * photo.height) / 1e6).toFixed(0)} MP ${fs.readdirSync(`${folder}/photos`)[0].split(".").pop()}`;
   print(`${what}: first tile`, `${ms(served)} from the server, ${ms(shown)} from the page's address to the screen`);
   for (const [name, key] of [["whole photo", "0"], ["100 %", "1"]]) {
     await person.page.focus(".stage");

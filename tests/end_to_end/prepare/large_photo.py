@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""large_photo.py WIDTH HEIGHT FILE: a JPEG photograph of this size with detail everywhere."""
+"""large_photo.py WIDTH HEIGHT FILE: a photograph of this size with detail everywhere, in the format of its ending."""
 import sys
 
 import cv2

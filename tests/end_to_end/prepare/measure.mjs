@@ -80,11 +80,10 @@ await timed("polygons", typed.polygons.length, async () => {
     for (const vertex of polygon.vertices) await person.point(vertex);
     await person.press("Enter");
     await person.drawn();
-    await person.page.focus("#polygon-name");
+    await person.press("F2");
     await person.enter(polygon.name);
-    await person.press("Escape", "t");
+    await person.press("t");
     await person.enter(polygon.material);
-    await person.press("Escape");
     await person.drawn();
   }
 });

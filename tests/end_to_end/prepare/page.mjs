@@ -90,13 +90,15 @@ export class Person {
   data() {
     return this.page.evaluate(() => ({...document.body.dataset}));
   }
-  /** Until all is confirmed, in the files and adjusted. */
-  settled() {
+  /** Until all is confirmed, in the files and adjusted. What was just done is told by the next frame only. */
+  async settled() {
+    await this.drawn();
     return until("the page is settled", async () => {
       const {revision, saved, adjusted, pending} = await this.data();
       return pending === "0" && saved === revision && adjusted === revision;
-    });
-  }  /** The centre of a pixel of a photo that a pane shows, on the screen. */
+    }, () => this.data());
+  }
+  /** The centre of a pixel of a photo that a pane shows, on the screen. */
   async at(photo, x, y) {
     return this.page.evaluate(([name, u, v]) => {
       const stage = document.querySelector(`.pane[data-photo="${name}"] .stage`);

@@ -31,6 +31,8 @@ export async function start(site, options = [], how = {}) {
   return {
     ...address,
     child,
+    /** What it has said of errors and warnings. */
+    complained: () => complained,
     /** Ends it; its exit status, or the signal's name. */
     async stop(signal = "SIGTERM") {
       child.kill(signal);
@@ -72,14 +74,14 @@ export function ask(port, method, path, body, headers = {}) {
 /** An operation that puts a row in. */
 export const insert = (id, table, row) => ({id, label: id, edits: [{table, before: null, after: row}]});
 
-/** Asks again until it is so. */
-export async function until(what, is) {
+/** Asks again until it is so; `instead`: what there was at the end, for the error. */
+export async function until(what, is, instead = async () => "") {
   for (let i = 0; i < 600; ++i) {
     const found = await is();
     if (found) return found;
     await new Promise(resolve => setTimeout(resolve, 50));
   }
-  throw new Error(`never: ${what}`);
+  throw new Error(`never: ${what} ${JSON.stringify(await instead())}`);
 }
 
 /** Prints an assertion for assertions.sh's check_figures. */

@@ -140,47 +140,61 @@ TEST(FitDaylight, AveragingGivesAllComponentsTheSpectrumOfD65) {
               1e-12);
 }
 
-// Samples whose surroundings differ, as sunlit walls and shaded ones do, sending `weight` of what
-// their photographs show.
-std::vector<DaylightSample> SamplesWithSurroundings(double weight) {
+// Samples whose surroundings differ, as those of sunlit walls and shaded ones do.
+std::vector<DaylightSample> SamplesWithSurroundings() {
   std::vector<DaylightSample> samples = ExactSamples(Truth());
   for (size_t i = 0; i < samples.size(); ++i) {
     const LightGeometry& seen = samples[i].geometry;
     const Spectrum around =
         Spectrum::Constant((kPi - seen.sky) * (0.1 + 2000 * seen.sun + 0.02 * (i % 3)));
-    samples[i].true_color = kBrdf * (Truth().sun_radiance * seen.sun +
-                                     Truth().sky_radiance * seen.sky + weight * around);
+    samples[i].true_color =
+        kBrdf * (Truth().sun_radiance * seen.sun + Truth().sky_radiance * seen.sky + around);
     samples[i].surroundings = around;
   }
   return samples;
 }
 
-TEST(FitDaylight, PhotographedSurroundingsLeaveSunAndSkyAsTheyAre) {
-  for (const double weight : {0.0, 0.5, 1.0}) {
-    const std::vector<DaylightSample> samples = SamplesWithSurroundings(weight);
-    const DaylightFit fit = FitDaylight(samples, kBrdf, true, {});
-    EXPECT_LT(RelativeError(fit.sun_radiance, Truth().sun_radiance), 1e-10);
-    EXPECT_LT((fit.surroundings_weight - weight).abs().maxCoeff(), 1e-10);
-    EXPECT_LT(RelativeError(fit.sky_radiance + fit.ambient_radiance, Truth().sky_radiance), 1e-10);
-    double irradiance = 0, hidden = 0;
-    for (const DaylightSample& sample : samples) {
-      irradiance += (*sample.surroundings)[0];
-      hidden += kPi - sample.geometry.sky;
-    }
-    EXPECT_NEAR(fit.ambient_radiance[0], weight * irradiance / hidden, 1e-10);
+TEST(FitDaylight, KnownSurroundingsLeaveSunAndSkyAsTheyAre) {
+  const std::vector<DaylightSample> samples = SamplesWithSurroundings();
+  const DaylightFit fit = FitDaylight(samples, kBrdf, true, {});
+  EXPECT_LT(RelativeError(fit.sun_radiance, Truth().sun_radiance), 1e-10);
+  EXPECT_LT(RelativeError(fit.sky_radiance + fit.ambient_radiance, Truth().sky_radiance), 1e-10);
+  EXPECT_LT(fit.rms, 1e-9);
+  double irradiance = 0, hidden = 0;
+  for (const DaylightSample& sample : samples) {
+    irradiance += (*sample.surroundings)[0];
+    hidden += kPi - sample.geometry.sky;
   }
+  EXPECT_NEAR(fit.ambient_radiance[0], irradiance / hidden, 1e-10);
+}
+
+// No weight of theirs is left to fit: what they are taken for too little, sun and sky must bear.
+TEST(FitDaylight, SurroundingsAreNoUnknown) {
+  std::vector<DaylightSample> samples = SamplesWithSurroundings();
+  for (DaylightSample& sample : samples) *sample.surroundings *= 0.5;
+  const DaylightFit fit = FitDaylight(samples, kBrdf, true, {});
+  EXPECT_GT((fit.sun_radiance / Truth().sun_radiance).minCoeff(), 1.01);
+  EXPECT_GT(fit.rms, 1);
+  EXPECT_TRUE((fit.ambient_sigma == 0).all());
+}
+
+TEST(FitDaylight, ThreeSamplesInKnownSurroundingsSuffice) {
+  std::vector<DaylightSample> samples = SamplesWithSurroundings();
+  samples = {samples[0], samples[3], samples[13]};
+  const DaylightFit fit = FitDaylight(samples, kBrdf, true, {});
+  EXPECT_LT(RelativeError(fit.sun_radiance, Truth().sun_radiance), 1e-10);
+  EXPECT_LT(fit.condition, 20);
 }
 
 TEST(FitDaylight, UniformAmbientLightLetsTheSunTakeAShareOfTheSurroundings) {
-  std::vector<DaylightSample> samples = SamplesWithSurroundings(1);
+  std::vector<DaylightSample> samples = SamplesWithSurroundings();
   for (DaylightSample& sample : samples) sample.surroundings.reset();
   const DaylightFit fit = FitDaylight(samples, kBrdf, true, {});
   EXPECT_GT((fit.sun_radiance / Truth().sun_radiance).minCoeff(), 1.01);
-  EXPECT_TRUE((fit.surroundings_weight == 0).all());
 }
 
 TEST(FitDaylight, RefusesSurroundingsOfSomeSamplesOnly) {
-  std::vector<DaylightSample> samples = SamplesWithSurroundings(1);
+  std::vector<DaylightSample> samples = SamplesWithSurroundings();
   samples[3].surroundings.reset();
   EXPECT_THROW(FitDaylight(samples, kBrdf, true, {}), CheckError);
 }

@@ -175,11 +175,11 @@ TEST_F(SamplesTest, WhileTheyAreChosenThoseAtFaultAreListed) {
   WriteWhole(synthetic_.site.survey() / "samples.json",
              "{\"horizon\": [],\n\"daylight\": [\n" + OnGround("A", 0, -4) + ",\n" +
                  R"({"photo": "A", "x": 450, "y": 500, "polygon": "roof"})" + "]}");
-  std::vector<InputError> faults;
+  std::vector<Sentence> faults;
   const LightSamples samples = ReadSamples(synthetic_.site, synthetic_.scene, photos_, {}, &faults);
   EXPECT_EQ(samples.daylight.size(), 1U);
   ASSERT_EQ(faults.size(), 1U);
-  ExpectPlaceAndMessage(faults[0].what(), 4, "roof");
+  ExpectPlaceAndMessage(faults[0].text(), 4, "roof");
 }
 
 TEST_F(SamplesTest, AReflectanceOutsideZeroToOneIsRefused) {

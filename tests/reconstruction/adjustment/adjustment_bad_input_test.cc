@@ -94,6 +94,22 @@ TEST_F(BadInput, AMarkOutsideItsPhotograph) {
   ExpectError("observations.csv", 8, "outside photo");
 }
 
+TEST_F(BadInput, AHoleThatIsNotInThePolygon) {
+  PolygonOutline& ground = PolygonNamed("ground");
+  std::erase(ground.vertices, "single");  // which the plane alone holds
+  EraseMarks([](const auto& mark) { return mark.point == "single"; });
+  ground.holes = {{"c4", "c5", "c6"}};  // twelve metres above
+  ExpectError("polygons.json", ground.place.line, "far from planar: vertex '");
+  ground.holes = {{"c0", "c2", "c1", "c3"}};
+  ExpectError("polygons.json", ground.place.line, "hole 1 crosses itself");
+  ground.holes = {{"b0", "b1", "b2"}, {"c0", "c1", "c2", "ghost"}};
+  ExpectError("polygons.json", ground.place.line, "ghost");
+  ground.holes = {{"b0", "b1", "b2"}};
+  ground.vertices = {"c0", "c1", "c2", "c3"};
+  ExpectError("polygons.json", ground.place.line,
+              "polygon 'ground': hole 1 is not inside the outline");
+}
+
 TEST_F(BadInput, AVertexThatNothingDetermines) {
   PolygonNamed("c_roof").vertices.push_back("ghost");
   ExpectError("polygons.json", PolygonNamed("c_roof").place.line, "ghost");

@@ -88,6 +88,21 @@ TEST(Adjust, OrientsPolygonsByTheirVertexOrder) {
   }
 }
 
+// The vertices of a hole are observed on the polygon's plane as its own are.
+TEST(Adjust, HoldsHolesInThePlane) {
+  SyntheticNetwork network = MakeSyntheticNetwork();
+  const Adjustment before = Adjust(network.survey, network.photos, network.cameras);
+  network.survey.polygons[0].holes = {{"c0", "c3", "c2", "c1"}};
+  const Adjustment after = Adjust(network.survey, network.photos, network.cameras);
+  EXPECT_EQ(after.observations, before.observations + 4);
+  EXPECT_EQ(after.unknowns, before.unknowns);
+  const Polygon& ground = after.scene.polygons[0];
+  ASSERT_EQ(ground.holes.size(), 1u);
+  EXPECT_LT((ground.holes[0][1] - network.points.at("c3")).norm(), 1e-6);
+  EXPECT_EQ(ground.covariance.rows(), 27);
+  EXPECT_NEAR(AreaOf(ground), AreaOf(before.scene.polygons[0]) - 28, 1e-6);
+}
+
 TEST(Adjust, CountsItsObservationsAndUnknowns) {
   const SyntheticNetwork network = MakeSyntheticNetwork();
   const Adjustment adjustment = AdjustNetwork(network, WithNoise(network.survey, 1));

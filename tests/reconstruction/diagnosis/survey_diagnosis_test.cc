@@ -33,7 +33,7 @@ class SurveyDiagnosis : public testing::Test {
     EXPECT_EQ(first.place.line, line) << Text(first);
     EXPECT_EQ(first.kind, kind) << Text(first);
     for (const std::string& word : words) {
-      EXPECT_NE(first.message.find(word), std::string::npos) << word << "\n" << Text(first);
+      EXPECT_NE(first.message.text().find(word), std::string::npos) << word << "\n" << Text(first);
     }
     if (kind == Kind::kFault) {
       EXPECT_THROW(RequireSound(survey_, network_.photos, network_.cameras), InputError);
@@ -329,6 +329,12 @@ TEST_F(SurveyDiagnosis, CameraPositionsWithXAndYExchanged) {
 TEST_F(SurveyDiagnosis, ACameraPositionFarOffIsAQuestion) {
   survey_.camera_positions[1].position.z() += 1.6;  // to the ground instead of the lens
   ExpectFirst("camera_positions.csv", 3, Kind::kMisfit, {"'P2'", "centre of the lens"});
+}
+
+TEST_F(SurveyDiagnosis, APointLeftOutForItsSingleMark) {
+  survey_.lone_marks = {{{"P1", "knob", {100, 100}, 0.4, {"observations.csv", 900}}, {}}};
+  ExpectFirst("observations.csv", 900, Kind::kQuestion,
+              {"point 'knob'", "one ray only", "photo 'P1'", "left out", "second photo"});
 }
 
 }  // namespace

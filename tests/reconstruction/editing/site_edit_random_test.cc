@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "reconstruction/editing/make_survey_text.h"
 #include "tests/reconstruction/editing/edited_site.h"
 
 namespace insitu {

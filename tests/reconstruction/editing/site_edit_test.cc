@@ -111,6 +111,16 @@ TEST_F(SiteEditTest, RefusesRowsThatNoProgramWouldRead) {
   EXPECT_THAT(refusal("polygons", R"({"name": "v", "vertices": ["a", "b", "c"], "material": "m",
       "colour": 1})"),
               HasSubstr("no key"));
+  const auto holes = [&](const std::string& text) {
+    return refusal("polygons", R"({"name": "v", "vertices": ["a", "b", "c"], "material": "m", )" +
+                                   ("\"holes\": " + text + "}"));
+  };
+  EXPECT_THAT(holes(R"(["d", "e", "f"])"), HasSubstr("a hole has not three vertices"));
+  EXPECT_THAT(holes(R"([["d", "e"]])"), HasSubstr("a hole has not three vertices"));
+  EXPECT_THAT(holes(R"([["d", "e", "a"]])"), HasSubstr("vertex \"a\" occurs twice"));
+  EXPECT_THAT(holes(R"([["d", "e", "f"], ["g", "h", "d"]])"),
+              HasSubstr("vertex \"d\" occurs twice"));
+  EXPECT_THAT(holes(R"([["d", "e", 1]])"), HasSubstr("no name"));
   EXPECT_THAT(refusal("sun", R"({"shadow": "a", "object": "a"})"), HasSubstr("same point"));
   EXPECT_THAT(refusal("constraints", R"({"kind": "distance", "points": ["a", "b"], "value_m": -1,
       "sigma_m": 1})"),

@@ -4,7 +4,7 @@
 #include "calibration/lens/lens_residual.h"
 #include "reconstruction/exchange/fit_brown.h"
 #include "reconstruction/exchange/import_dbat.h"
-#include "reconstruction/exchange/survey_file.h"
+#include "reconstruction/exchange/read_survey_file.h"
 #include "reconstruction/network/solve_network.h"
 #include "tests/reconstruction/exchange/text_files.h"
 #include "tests/reconstruction/survey/synthetic_network.h"

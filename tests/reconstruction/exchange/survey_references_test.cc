@@ -8,7 +8,7 @@
 #include "calibration/files/xml_file.h"
 #include "calibration/photo/photograph.h"
 #include "reconstruction/exchange/import_survey.h"
-#include "reconstruction/exchange/survey_file.h"
+#include "reconstruction/exchange/read_survey_file.h"
 #include "reconstruction/geometry/resection.h"
 #include "tests/shared_data.h"
 

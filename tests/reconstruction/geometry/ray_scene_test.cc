@@ -112,6 +112,21 @@ TEST(RayScene, RefusesATriangleOfMissingVertices) {
   EXPECT_THROW(RayScene({{{0, 0, 0}}, {{0, 1, 2}}}), CheckError);
 }
 
+TEST(MeshOfPolygons, RaysPassThroughHoles) {
+  SceneGeometry scene;
+  scene.origin = Vector3d::Zero();
+  Polygon wall;
+  wall.normal = Vector3d::UnitZ();
+  wall.vertices = {{-2, -2, 5}, {2, -2, 5}, {2, 2, 5}, {-2, 2, 5}};
+  wall.holes = {{{-1, -1, 5}, {0, -1, 5}, {0, 1, 5}, {-1, 1, 5}}};
+  scene.polygons = {wall};
+  const RayScene rays(MeshOfPolygons(scene).mesh);
+  EXPECT_FALSE(rays.Nearest({Vector3d(-0.5, 0.3, 0), Vector3d::UnitZ()}));
+  EXPECT_TRUE(rays.Nearest({Vector3d(0.5, 0.3, 0), Vector3d::UnitZ()}));
+  EXPECT_TRUE(rays.Nearest({Vector3d(-0.5, 1.3, 0), Vector3d::UnitZ()}));
+  EXPECT_NEAR(AreaOf(wall), 14, 1e-12);
+}
+
 TEST(MeshOfPolygons, IsAboutTheOriginAndRemembersItsPolygons) {
   const Vector3d origin(2600000, 1200000, 400);
   SceneGeometry scene;

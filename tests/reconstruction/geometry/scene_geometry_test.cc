@@ -33,7 +33,9 @@ SceneGeometry SmallScene() {
   Polygon unseen = wall;
   unseen.name = "unseen";
   unseen.photo.reset();
-  wall.covariance = Eigen::MatrixXd::Constant(12, 12, 1e-6 / 3);
+  const Vector3d along(1, 0, 0), up(0, 0.8, -0.6), corner = kGrid + along + up;
+  wall.holes = {{corner, corner + up, corner + up + along}};
+  wall.covariance = Eigen::MatrixXd::Constant(21, 21, 1e-6 / 3);
   scene.polygons = {wall, unseen};
   scene.sun = {Vector3d(0.6, 0, 0.8), Eigen::Matrix3d::Constant(1e-7 / 3)};
   scene.zenith = {Vector3d::UnitZ(), Eigen::Matrix3d::Zero()};
@@ -78,10 +80,12 @@ TEST(SceneGeometry, IsReadAsItWasWritten) {
   EXPECT_EQ(read.zenith.unit, scene.zenith.unit);
   ASSERT_EQ(read.polygons.size(), 2u);
   EXPECT_EQ(read.polygons[0].vertices, scene.polygons[0].vertices);
+  EXPECT_EQ(read.polygons[0].holes, scene.polygons[0].holes);
+  EXPECT_TRUE(read.polygons[1].holes.empty());
   EXPECT_EQ(read.polygons[0].normal, scene.polygons[0].normal);
   EXPECT_EQ(read.polygons[0].material, "stone");
   EXPECT_EQ(read.polygons[0].photo, 1);
-  ASSERT_EQ(read.polygons[0].covariance.size(), 144);
+  ASSERT_EQ(read.polygons[0].covariance.size(), 441);
   EXPECT_EQ(read.polygons[0].covariance, scene.polygons[0].covariance);
   EXPECT_EQ(read.polygons[1].covariance.size(), 0);
   EXPECT_EQ(read.polygons[1].photo, std::nullopt);
@@ -139,6 +143,8 @@ TEST(PointOnPolygon, IsWhereTheSightMeetsThePlane) {
   EXPECT_LT((*hit - inside).norm(), 1e-9);
   EXPECT_FALSE(PointOnPolygon(posed, *camera.Project(notch), wall));
   EXPECT_FALSE(PointOnPolygon(posed, *camera.Project(beside), wall));
+  wall.holes = {{{0.5, -1, 10.5}, {1.5, -1, 11.5}, {1.5, 0, 11.5}, {0.5, 0, 10.5}}};
+  EXPECT_FALSE(PointOnPolygon(posed, *camera.Project(inside), wall));
 }
 
 }  // namespace

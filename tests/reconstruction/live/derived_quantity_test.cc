@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "reconstruction/adjustment/find_start_values.h"
 #include "tests/reconstruction/survey/synthetic_network.h"
 
 namespace insitu {

@@ -8,6 +8,7 @@
 #include <chrono>
 
 #include "reconstruction/adjustment/adjust.h"
+#include "reconstruction/adjustment/find_start_values.h"
 #include "reconstruction/adjustment/solve_survey.h"
 #include "tests/reconstruction/survey/synthetic_network.h"
 #include "tests/reconstruction/survey/synthetic_tie_points.h"
@@ -103,7 +104,7 @@ TEST_F(Part, OfNothingIsEmpty) {
   EXPECT_THAT(part.photos, IsEmpty());
   EXPECT_THAT(part.start.points, IsEmpty());
   EXPECT_THAT(NamesOf(part, Kind::kPhoto), ElementsAre("P1", "P2", "P3", "P4"));
-  EXPECT_EQ(Of(part, Kind::kPhoto, "P1").reason, "three control points");
+  EXPECT_EQ(Of(part, Kind::kPhoto, "P1").reason.text(), "needs three control points");
   EXPECT_EQ(Of(part, Kind::kPhoto, "P1").place.path, "survey/observations.csv");
 }
 
@@ -126,7 +127,7 @@ TEST_F(Part, LeavesOutAPhotoWithTwoControlPoints) {
   EXPECT_THAT(part.photos, ElementsAre("P1", "P2", "P4"));
   EXPECT_THAT(part.indices, ElementsAre(0, 1, 3));
   const LeftOut& photo = Of(part, Kind::kPhoto, "P3");
-  EXPECT_EQ(photo.reason, "one more control point");
+  EXPECT_EQ(photo.reason.text(), "needs one more control point");
   EXPECT_FALSE(photo.is_contradiction);
   const auto& marks = network_.survey.observations;
   EXPECT_EQ(photo.place.line, std::find_if(marks.begin(), marks.end(), [](const auto& mark) {
@@ -141,7 +142,7 @@ TEST_F(Part, DoesNotPlaceAPhotoByCheckPointsAlone) {
   for (ControlPoint& point : network_.survey.control_points) point.role = ControlRole::kCheck;
   const DeterminedPart part = Find();
   EXPECT_THAT(part.photos, IsEmpty());
-  EXPECT_EQ(Of(part, Kind::kPhoto, "P2").reason, "three control points");
+  EXPECT_EQ(Of(part, Kind::kPhoto, "P2").reason.text(), "needs three control points");
 }
 
 // P3 shows no control: points of the others place it, and "single", which P3 alone shows then, is
@@ -182,9 +183,10 @@ TEST_F(Part, KeepsAVertexOfOneRayOnAPlane) {
   std::erase_if(control, [](const ControlPoint& point) { return point.name == "buried"; });
   const DeterminedPart part = Find();
   EXPECT_THAT(NamesOf(part, Kind::kPoint), UnorderedElementsAre("buried", "single"));
-  EXPECT_EQ(Of(part, Kind::kPoint, "buried").reason, "no ray, needs two photographs");
-  EXPECT_EQ(Of(part, Kind::kPoint, "single").reason, "one ray, needs a second photograph");
-  EXPECT_EQ(Of(part, Kind::kPolygon, "ground").reason, "its vertex buried is not determined");
+  EXPECT_EQ(Of(part, Kind::kPoint, "buried").reason.text(), "no ray, needs two photographs");
+  EXPECT_EQ(Of(part, Kind::kPoint, "single").reason.text(), "one ray, needs a second photograph");
+  EXPECT_EQ(Of(part, Kind::kPolygon, "ground").reason.text(),
+            "its vertex buried is not determined");
   Solve(part);
 }
 
@@ -199,7 +201,7 @@ TEST_F(Part, LeavesOutWhatNamesAnUndeterminedPoint) {
   const DeterminedPart part = Find();
   EXPECT_THAT(NamesOf(part, Kind::kPoint), ElementsAre("b4"));
   EXPECT_THAT(NamesOf(part, Kind::kPolygon), ElementsAre("sail"));
-  EXPECT_EQ(Of(part, Kind::kPolygon, "sail").reason, "its vertex b4 is not determined");
+  EXPECT_EQ(Of(part, Kind::kPolygon, "sail").reason.text(), "its vertex b4 is not determined");
   EXPECT_THAT(NamesOf(part, Kind::kZenith), ElementsAre("b0 b4"));
   EXPECT_EQ(Of(part, Kind::kZenith, "b0 b4").place.path, "directions.json");
   Solve(part);
@@ -226,9 +228,10 @@ TEST_F(Part, TellsContradictionsAndGoesOn) {
   survey.polygons.push_back({"bent", {"a0", "a1", "b6", "c7"}, {}, "stone", {}, {"p.json", 99}});
   const DeterminedPart part = Find();
   ASSERT_EQ(part.left_out.size(), 3u);
-  EXPECT_THAT(Of(part, Kind::kObservation, off).reason, HasSubstr("outside the photograph"));
-  EXPECT_THAT(Of(part, Kind::kPolygon, "bent").reason, HasSubstr("'bent' is far from planar"));
-  EXPECT_EQ(Of(part, Kind::kPolygon, "bent").reason.find("p.json"), std::string::npos);
+  EXPECT_THAT(Of(part, Kind::kObservation, off).reason.text(), HasSubstr("outside the photograph"));
+  EXPECT_THAT(Of(part, Kind::kPolygon, "bent").reason.text(),
+              HasSubstr("'bent' is far from planar"));
+  EXPECT_EQ(Of(part, Kind::kPolygon, "bent").reason.text().find("p.json"), std::string::npos);
   EXPECT_EQ(Of(part, Kind::kPolygon, "bent").place.line, 99);
   EXPECT_EQ(Of(part, Kind::kZenith, "c5 c1").place.line, line);
   for (const LeftOut& what : part.left_out) EXPECT_TRUE(what.is_contradiction) << what.name;

@@ -60,6 +60,31 @@ TEST(MeasurePolygon, KnowsThatACommonShiftChangesNoLength) {
   EXPECT_NEAR(measures.area.sigma, 0, 1e-9);
 }
 
+TEST(MeasurePolygon, TakesHolesOutWhicheverWayTheyTurn) {
+  for (const bool is_reversed : {false, true}) {
+    Rectangle rectangle;
+    rectangle.outline.holes = {{"e", "f", "g"}};
+    Polygon& polygon = rectangle.adjustment.scene.polygons[0];
+    const Eigen::Vector3d& corner = polygon.vertices[0];
+    polygon.holes = {{corner + Eigen::Vector3d(1, 1, 0), corner + Eigen::Vector3d(2, 1, 0),
+                      corner + Eigen::Vector3d(2, 3, 0)}};
+    if (is_reversed) std::swap(polygon.holes[0][1], polygon.holes[0][2]);
+    for (size_t i = 0; i < 3; ++i) {
+      AdjustedPoint point;
+      point.name = rectangle.outline.holes[0][i];
+      point.position = polygon.holes[0][i];
+      point.covariance = 1e-4 * Eigen::Matrix3d::Identity();
+      rectangle.adjustment.points.push_back(point);
+    }
+    const PolygonMeasures measures = MeasurePolygon(rectangle.adjustment, rectangle.outline, 0);
+    EXPECT_NEAR(measures.area.value, 11, 1e-8);
+    ASSERT_EQ(measures.edges.size(), 7u);
+    EXPECT_NEAR(measures.edges[is_reversed ? 6 : 4].value, 1, 1e-9);
+    // Half of the opposite side each, of the triangle 1, 2 and sqrt(5) m.
+    EXPECT_NEAR(measures.area.sigma, 0.01 * std::sqrt(25 + (1 + 4 + 5) / 4.0), 1e-9);
+  }
+}
+
 AdjustedPlane Plane(const Eigen::Vector3d& normal, double tangent_sigma) {
   AdjustedPlane plane;
   plane.normal = normal.normalized();

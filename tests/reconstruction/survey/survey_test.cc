@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "calibration/files/whole_file.h"
 #include "reconstruction/survey/read_survey.h"
 #include "tests/reconstruction/survey/survey_files.h"
@@ -60,9 +62,37 @@ TEST_F(SurveyFiles, MustHoldControlMarksAndPolygons) {
   EXPECT_NO_THROW(ReadSurvey(site_, network_.photos));
 }
 
-TEST_F(SurveyFiles, RefuseAMarkOfAnUnknownPoint) {
+// Who is still measuring is not stopped by it, and hears of it.
+TEST_F(SurveyFiles, LeaveOutAPointOfOneMarkByName) {
   ReplaceLine("observations.csv", 5, "P1,nobody,100,100,0.4");
-  ExpectError("observations.csv", 5, "nobody");
+  const Survey survey = ReadSurvey(site_, network_.photos);
+  ASSERT_EQ(survey.lone_marks.size(), 1u);
+  EXPECT_EQ(survey.lone_marks[0].mark.point, "nobody");
+  EXPECT_EQ(survey.lone_marks[0].question.text(), "");
+  EXPECT_EQ(survey.lone_marks[0].mark.place.line, 5);
+  EXPECT_FALSE(PointsInUse(survey).contains("nobody"));
+}
+
+// Two names of one point, each marked once: neither stops, both are asked about.
+TEST_F(SurveyFiles, AskOfLonePointsOfNearNames) {
+  auto& marks = network_.survey.observations;
+  marks.push_back({"P1", "chimney", {100, 100}, 0.4, {}});
+  marks.push_back({"P2", "chimny", {110, 100}, 0.4, {}});
+  WriteSurvey(site_, network_.survey);
+  const Survey survey = ReadSurvey(site_, network_.photos);
+  ASSERT_EQ(survey.lone_marks.size(), 2u);
+  EXPECT_EQ(survey.lone_marks[0].question.text(), "; did you mean 'chimny'?");
+  EXPECT_EQ(survey.lone_marks[1].question.text(), "; did you mean 'chimney'?");
+}
+
+TEST_F(SurveyFiles, RefuseALoneMarkUnderASlipOfAKnownName) {
+  auto& marks = network_.survey.observations;
+  const auto mark = std::find_if(marks.begin(), marks.end(),
+                                 [](const auto& each) { return each.point == "shadow_a5"; });
+  mark->point = "shaddow_a5";
+  const int line = mark->place.line;
+  WriteSurvey(site_, network_.survey);
+  ExpectError("observations.csv", line, "did you mean 'shadow_a5'?");
 }
 
 TEST_F(SurveyFiles, TakeAPointThatTwoPhotosShow) {
@@ -136,6 +166,29 @@ TEST_F(SurveyFiles, RefuseAPolygonThatRepeatsAVertex) {
   ReplaceLine("polygons.json", 4,
               R"({"name": "loop", "vertices": ["a0", "a1", "a2", "a1"], "material": "m"},)");
   ExpectError("polygons.json", 4, "loop");
+}
+
+TEST_F(SurveyFiles, TakeHolesOfAPolygon) {
+  ReplaceLine("polygons.json", 4,
+              R"({"name": "wall", "vertices": ["a0", "a1", "a2"], "material": "m",)"
+              R"( "holes": [["b0", "b1", "b2"], ["c0", "c1", "c2", "c3"]]},)");
+  const Survey survey = ReadSurvey(site_, network_.photos);
+  const PolygonOutline& polygon = *std::find_if(survey.polygons.begin(), survey.polygons.end(),
+                                                [](const auto& p) { return p.name == "wall"; });
+  ASSERT_EQ(polygon.holes.size(), 2u);
+  EXPECT_EQ(polygon.holes[1], (std::vector<std::string>{"c0", "c1", "c2", "c3"}));
+  EXPECT_EQ(AllVertices(polygon).size(), 10u);
+}
+
+TEST_F(SurveyFiles, RefuseHolesOfTwoVerticesOrOfVerticesTwice) {
+  const std::string start = R"({"name": "wall", "vertices": ["a0", "a1", "a2"], "material": "m",)";
+  ReplaceLine("polygons.json", 4, start + R"( "holes": [["b0", "b1"]]},)");
+  ExpectError("polygons.json", 4, "a hole of polygon 'wall' has 2 vertices");
+  ReplaceLine("polygons.json", 4, start + R"( "holes": [["b0", "b1", "a2"]]},)");
+  ExpectError("polygons.json", 4, "has vertex 'a2', which the polygon has already");
+  ReplaceLine("polygons.json", 4,
+              start + R"( "holes": [["b0", "b1", "b2"], ["b2", "c0", "c1"]]},)");
+  ExpectError("polygons.json", 4, "has vertex 'b2', which the polygon has already");
 }
 
 TEST_F(SurveyFiles, RefuseAPolygonColouredFromAnUnknownPhoto) {

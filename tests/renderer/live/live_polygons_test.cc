@@ -20,9 +20,11 @@ constexpr double kEdgeOn =
 
 class LivePolygonsTest : public testing::Test {
  protected:
-  LivePolygonsTest() : network_(MakeSyntheticNetwork()) {
+  LivePolygonsTest() : network_(MakeSyntheticNetwork()) { Solve(network_.survey); }
+
+  void Solve(const Survey& survey) {
     LiveInput input;
-    input.survey = network_.survey;
+    input.survey = survey;
     for (size_t i = 0; i < network_.photos.size(); ++i) {
       input.photos.push_back({network_.photos[i], network_.cameras[i]});
     }
@@ -101,6 +103,31 @@ TEST_F(LivePolygonsTest, SharedEdgesAreSeen) {
     ++tried;
   }
   EXPECT_GT(tried, 1);
+}
+
+// A hole in the ground where box c stands: its area is not counted, its outline is drawn, and the
+// ground is not what a pixel within it shows.
+TEST_F(LivePolygonsTest, HolesAreDrawnAndNotCounted) {
+  const double whole = result_.message["polygons"]["ground"]["area_m2"].asDouble();
+  Survey survey = network_.survey;
+  survey.polygons[0].holes = {{"c0", "c3", "c2", "c1"}};
+  Solve(survey);
+  EXPECT_NEAR(result_.message["polygons"]["ground"]["area_m2"].asDouble(), whole - 28, 0.01);
+  int tried = 0;
+  for (size_t photo = 0; photo < network_.photos.size(); ++photo) {
+    const Eigen::Vector2d pixel = Pixel(photo, (Point("c0") + Point("c1")) / 2);
+    if (!network_.cameras[photo].Sees(pixel)) continue;
+    const double seen = DistanceTo(Lines("ground", "images", photo), pixel);
+    const double hidden = DistanceTo(Lines("ground", "hidden", photo), pixel);
+    EXPECT_LT(std::min(seen, hidden), kOnLine) << photo;
+    ++tried;
+  }
+  EXPECT_GT(tried, 1);
+  const Polygon& ground = result_.scene->polygons[0];
+  const std::vector<Polygon> alone = {ground};
+  const Eigen::Vector2d within = Pixel(1, (Point("c0") + Point("c2")) / 2);
+  EXPECT_FALSE(PolygonSeenAt(alone, result_.cameras[1], within));
+  EXPECT_EQ(PolygonSeenAt(alone, result_.cameras[1], Pixel(1, Point("g4"))), 0u);
 }
 
 }  // namespace

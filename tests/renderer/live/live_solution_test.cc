@@ -42,7 +42,8 @@ TEST(LiveSolution, SaysWhatAdjustSays) {
   EXPECT_EQ(message["photos"]["P2"]["rms_px"].asDouble(), whole.poses[1].rms_px);
   EXPECT_EQ(message["marks"].size(), survey.observations.size());
   for (Json::ArrayIndex i = 0; i < message["marks"].size(); ++i) {  // the rows' first are the marks
-    const ObservationResidual &x = whole.residuals[2 * i], &y = whole.residuals[2 * i + 1];
+    const ObservationResidual &x = whole.residuals[size_t{2} * i],
+                              &y = whole.residuals[size_t{2} * i + 1];
     const Json::Value& mark = message["marks"][i];
     ASSERT_EQ(mark["point"].asString(), x.subject);
     EXPECT_EQ(mark["r"].asDouble(), std::min(x.redundancy, y.redundancy));
@@ -132,7 +133,7 @@ TEST(LiveSolution, OfNothingIsNoFailure) {
   EXPECT_FALSE(result.solved);
   EXPECT_TRUE(result.message["failed"].isNull());
   EXPECT_FALSE(result.message["photos"]["P1"]["oriented"].asBool());
-  EXPECT_EQ(result.message["photos"]["P1"]["why"].asString(), "three control points");
+  EXPECT_EQ(result.message["photos"]["P1"]["why"].asString(), "needs three control points");
   EXPECT_EQ(result.message["left_out"].size(), 4u);
   EXPECT_TRUE(LiveSolution({}).isMember("points"));
 }
@@ -154,7 +155,7 @@ TEST(LiveSolution, SaysOnceThatALensIsMissing) {
   const SyntheticNetwork network = MakeSyntheticNetwork({.has_extras = true});
   LiveInput input = InputOf(network, network.survey);
   input.photos[2].camera.reset();
-  input.photos[2].no_lens_because = "run insitu-calibrate";
+  input.photos[2].no_lens_because = Sentence("noLens", "run insitu-calibrate");
   const Json::Value message = LiveSolution(input);
   EXPECT_FALSE(message["photos"]["P3"]["oriented"].asBool());
   EXPECT_EQ(message["photos"]["P3"]["why"].asString(), "run insitu-calibrate");
@@ -227,6 +228,42 @@ TEST(LiveSolution, TakesAnyUnfinishedSurvey) {
   }
   EXPECT_GT(solved, 50);
   EXPECT_LE(failed, 2);
+}
+
+// What one ray shows on an adjusted polygon is predicted as the adjustment would find it there: as
+// a vertex of the polygon.
+TEST(LiveSolution, PredictsAPointOfOneMarkFromThePolygonItStandsOn) {
+  const SyntheticNetwork network = MakeSyntheticNetwork();
+  Survey without = WithNoise(network.survey, 5);
+  const auto at = [&](const char* name) { return network.points.at(name); };
+  const Eigen::Vector3d spot =
+      0.5 * (at("south") + at("single")) + 0.1 * (at("north") - at("south"));
+  const auto pixel = network.cameras[1].Project(network.cam_from_world[1] * spot);
+  ASSERT_TRUE(pixel && network.cameras[1].Sees(*pixel));
+  without.observations.push_back({"P2", "spot", *pixel, 0.4, {"observations.csv", 999}});
+  Survey with = without;
+  auto& ground = with.polygons[0].vertices;
+  ground.insert(ground.begin() + 1, "spot");
+  const Json::Value whole = LiveSolution(InputOf(network, with))["points"]["spot"];
+  const Json::Value message = LiveSolution(InputOf(network, without));
+  const Json::Value& point = message["points"]["spot"];
+  EXPECT_EQ(point["plane"], "ground");
+  EXPECT_TRUE(whole["plane"].isNull());
+  EXPECT_EQ(point["rays"].asInt(), 1);
+  ASSERT_GT(whole["images"].size(), 1u);
+  ASSERT_EQ(point["images"].size(), whole["images"].size());
+  for (const std::string& photo : whole["images"].getMemberNames()) {
+    for (const char* key : {"x", "y", "major", "minor", "angle"}) {
+      const bool is_round = photo == "P2" && key == std::string("angle");  // the mark's own photo
+      if (is_round) continue;
+      const double expected = whole["images"][photo][key].asDouble();
+      EXPECT_NEAR(point["images"][photo][key].asDouble(), expected, 2e-3 * std::abs(expected))
+          << photo << " " << key;
+    }
+  }
+  ASSERT_EQ(message["left_out"].size(), 1u);  // it still is, and is said to be
+  EXPECT_EQ(message["left_out"][0]["name"], "spot");
+  EXPECT_EQ(message["left_out"][0]["reason"], "one ray, needs a second photograph");
 }
 
 }  // namespace

@@ -20,8 +20,8 @@ GreyPatch PatchOf(const Scene& scene, const Eigen::Vector2i& center) {
     for (int u = 0; u < patch.grey.cols; ++u) {
       double sum = 0;
       for (int i = 0; i < kFine * kFine; ++i) {
-        const Eigen::Vector2d within((i % kFine + 0.5) / kFine - 0.5,
-                                     (i / kFine + 0.5) / kFine - 0.5);
+        const int column = i % kFine, row = i / kFine;
+        const Eigen::Vector2d within((column + 0.5) / kFine - 0.5, (row + 0.5) / kFine - 0.5);
         sum += scene(Eigen::Vector2d(u - kRadius + center.x(), v - kRadius + center.y()) + within);
       }
       patch.grey.at<uchar>(v, u) = cv::saturate_cast<uchar>(40 + 170 * sum / (kFine * kFine));
@@ -40,7 +40,7 @@ double Edge(const Eigen::Vector2d& at) { return at.x() < kCorner.x() ? 1 : 0; }
 TEST(RefineCorner, FindsACornerToATwentiethOfAPixel) {
   const auto found =
       RefineCorner(PatchOf(Quadrants, {101, 81}), kCorner + Eigen::Vector2d(0.9, -0.7));
-  ASSERT_TRUE(std::holds_alternative<MarkProposal>(found)) << std::get<NoProposal>(found);
+  ASSERT_TRUE(std::holds_alternative<MarkProposal>(found)) << std::get<NoProposal>(found).text();
   const auto& proposal = std::get<MarkProposal>(found);
   EXPECT_LT((proposal.pixel - kCorner).norm(), 0.05);
   EXPECT_NEAR(proposal.shift_px, std::hypot(0.9, 0.7), 0.05);
@@ -49,11 +49,46 @@ TEST(RefineCorner, FindsACornerToATwentiethOfAPixel) {
 
 TEST(RefineCorner, TellsAnEdgeAndAnEvenSurface) {
   const Eigen::Vector2d near_edge(100.5, 81);
-  EXPECT_EQ(std::get<NoProposal>(RefineCorner(PatchOf(Edge, {100, 81}), near_edge)),
+  EXPECT_EQ(std::get<NoProposal>(RefineCorner(PatchOf(Edge, {100, 81}), near_edge)).text(),
             "an edge, no corner");
   const auto even = [](const Eigen::Vector2d&) { return 0.5; };
-  EXPECT_EQ(std::get<NoProposal>(RefineCorner(PatchOf(even, {100, 81}), near_edge)),
+  EXPECT_EQ(std::get<NoProposal>(RefineCorner(PatchOf(even, {100, 81}), near_edge)).text(),
             "an even surface");
+}
+
+// Fiducial marks: a cross of thick lines, a dot, a ring.
+double Cross(const Eigen::Vector2d& at) {
+  const Eigen::Array2d off = (at - kCorner).array().abs();
+  return off.minCoeff() < 1.4 && off.maxCoeff() < 14 ? 1 : 0;
+}
+double Dot(const Eigen::Vector2d& at) { return (at - kCorner).norm() < 5 ? 1 : 0; }
+double Ring(const Eigen::Vector2d& at) { return std::abs((at - kCorner).norm() - 7) < 1 ? 1 : 0; }
+
+TEST(RefineSymmetric, FindsTheCentreOfAFiducialMark) {
+  for (const auto& scene : {Cross, Dot, Ring}) {
+    const auto found =
+        RefineSymmetric(PatchOf(scene, {101, 81}), kCorner + Eigen::Vector2d(2.2, -1.7));
+    ASSERT_TRUE(std::holds_alternative<MarkProposal>(found)) << std::get<NoProposal>(found).text();
+    const auto& proposal = std::get<MarkProposal>(found);
+    EXPECT_LT((proposal.pixel - kCorner).norm(), 0.06);
+    EXPECT_NEAR(proposal.shift_px, std::hypot(2.2, 1.7), 0.06);
+  }
+}
+
+TEST(RefineSymmetric, TellsALineAndAnEvenSurface) {
+  const Eigen::Vector2d near(100.5, 81);
+  const auto line = [](const Eigen::Vector2d& at) {
+    return std::abs(at.x() - 100) < 1.5 ? 1.0 : 0;
+  };
+  EXPECT_EQ(std::get<NoProposal>(RefineSymmetric(PatchOf(line, {100, 81}), near)).text(),
+            "no centre of a mark within 4 px, or a line");
+  const auto even = [](const Eigen::Vector2d&) { return 0.5; };
+  EXPECT_EQ(std::get<NoProposal>(RefineSymmetric(PatchOf(even, {100, 81}), near)).text(),
+            "an even surface, or too near the edge");
+  EXPECT_EQ(std::get<NoProposal>(
+                RefineSymmetric(PatchOf(Dot, {101, 81}), kCorner + Eigen::Vector2d(6, 3)))
+                .text(),
+            "no centre of a mark within 4 px, or a line");
 }
 
 // Blurred noise that looks alike nowhere.
@@ -89,7 +124,7 @@ TEST(MatchPatch, FindsAPlaceThatIsTurnedAndStretched) {
   };
   const auto found = MatchPatch(PatchOf(texture, {200, 191}), here, PatchOf(in_other, {153, 119}),
                                 there + Eigen::Vector2d(3, -2), other_from_photo, 8);
-  ASSERT_TRUE(std::holds_alternative<MarkProposal>(found)) << std::get<NoProposal>(found);
+  ASSERT_TRUE(std::holds_alternative<MarkProposal>(found)) << std::get<NoProposal>(found).text();
   EXPECT_LT((std::get<MarkProposal>(found).pixel - there).norm(), 0.15);
   EXPECT_GT(std::get<MarkProposal>(found).quality, 0.95);
 }
@@ -100,7 +135,8 @@ TEST(MatchPatch, RefusesWhatLooksAlikeNowhereOrTwice) {
     const auto found = MatchPatch(PatchOf(scene, {200, 200}), here, PatchOf(other, {200, 200}),
                                   here, Eigen::Matrix2d::Identity(), 12);
     const auto* proposal = std::get_if<MarkProposal>(&found);
-    return proposal ? "quality " + std::to_string(proposal->quality) : std::get<NoProposal>(found);
+    return proposal ? "quality " + std::to_string(proposal->quality)
+                    : std::get<NoProposal>(found).text();
   };
   EXPECT_EQ(refusal(Texture(1), Texture(2)), "nothing there looks alike");
   const auto windows = [](const Eigen::Vector2d& at) {  // every 8 pixels another one

@@ -3,12 +3,15 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
 #include <condition_variable>
+#include <csignal>
 #include <mutex>
 #include <vector>
 
 #include "calibration/files/whole_file.h"
+#include "calibration/lens/camera.h"
 #include "calibration/photo/photograph.h"
 #include "renderer/prepare/site_of_photos.h"
 #include "tests/reconstruction/editing/edited_site.h"
@@ -126,6 +129,27 @@ TEST_F(PrepareSessionTest, ACameraPositionIsNoPixel) {
   EXPECT_EQ(session_->Apply(operation).status, 200);
 }
 
+TEST_F(PrepareSessionTest, FilmIsToldAtOnceWithEachMark) {
+  Start();
+  EXPECT_TRUE(session_->Site()["film"].isNull());
+  const Json::Value row =
+      RowOf(R"({"mark": "1", "x_mm": -28, "y_mm": 28, "photo": "A", "x": 1, "y": 1})");
+  EXPECT_EQ(session_->Apply(ToJson(OneEdit("1", "fiducials", Json::Value(), row))).status, 200);
+  EXPECT_EQ(Wait("film", 0)["photos"]["A"]["placed"], 1);
+  Wait("saved", 1);
+  EXPECT_EQ(ReadWhole(site_.boards() / "fiducials.csv"),
+            "mark,x_mm,y_mm,photo,x,y\n1,-28,28,A,1,1\n");
+}
+
+TEST_F(PrepareSessionTest, FilmBesideAnotherCameraIsRefused) {
+  folder_.Write("calibration/board_01.jpg", "");
+  Start();
+  const Json::Value row = RowOf(R"({"focal_mm": 60})");
+  const auto answer = session_->Apply(ToJson(OneEdit("1", "film", Json::Value(), row)));
+  EXPECT_EQ(answer.status, 400);
+  EXPECT_THAT(answer.body["error"].asString(), HasSubstr("board_01.jpg is of another camera"));
+}
+
 TEST_F(PrepareSessionTest, UndoAndRedoAreToldAsSuch) {
   Start();
   session_->Apply(Mark("1", Json::nullValue, MarkOn("A", "p", 3, 2)));
@@ -155,6 +179,77 @@ TEST_F(PrepareSessionTest, PlaceAndTimeFromElsewhereLeaveWhatIsStatedAlone) {
 TEST_F(PrepareSessionTest, ASecondOneOnTheSameSiteIsRefused) {
   Start();
   EXPECT_THROW(PrepareSession(site_, [](const std::string&) {}), InputError);
+}
+
+TEST_F(PrepareSessionTest, AFileThatParsesNoMoreIsToldSoThatPagesLoadAnew) {
+  Start();
+  Wait("adjusted", 0);
+  WriteWhole(site_.survey() / "polygons.json", "{\"polygons\": [");
+  Wait("reload", 0);
+  const Json::Value read_only = session_->Site()["read_only"];
+  ASSERT_EQ(read_only.size(), 1U);
+  EXPECT_EQ(read_only[0]["table"], "polygons");
+  EXPECT_THAT(read_only[0]["file"].asString(), HasSubstr("polygons.json"));
+}
+
+// While it lives no file of this process grows, as on a full disk.
+class FullDisk {
+ public:
+  FullDisk() {
+    std::signal(SIGXFSZ, SIG_IGN);
+    getrlimit(RLIMIT_FSIZE, &before_);
+    const rlimit none = {0, before_.rlim_max};
+    setrlimit(RLIMIT_FSIZE, &none);
+  }
+  ~FullDisk() { setrlimit(RLIMIT_FSIZE, &before_); }
+  FullDisk(const FullDisk&) = delete;
+  FullDisk& operator=(const FullDisk&) = delete;
+
+ private:
+  rlimit before_ = {};
+};
+
+TEST_F(PrepareSessionTest, WhatTheJournalCannotTakeIsNotDone) {
+  Start();
+  Wait("adjusted", 0);
+  const Json::Value operation = Mark("1", Json::nullValue, MarkOn("A", "p", 3, 2));
+  {
+    const FullDisk full;
+    const auto answer = session_->Apply(operation);
+    EXPECT_EQ(answer.status, 507);
+    EXPECT_THAT(answer.body["error"].asString(), HasSubstr("journal.jsonl"));
+    EXPECT_TRUE(session_->MarksOf("p").empty());
+  }
+  EXPECT_EQ(session_->Apply(operation).status, 200);
+  EXPECT_TRUE(session_->MarksOf("p").contains("A"));
+}
+
+TEST_F(PrepareSessionTest, APhotographOfAnotherSizeThanItsCamerasIsNamed) {
+  std::filesystem::create_directories(site_.camera("").parent_path());
+  const Camera camera = Camera::Pinhole(10, 10, 3.5, 2.5, 8, 6);
+  WritePosedCamera(site_.camera(""), {"A", camera, {}}, "of photographs of 8 x 6 pixels");
+  WritePng(site_.photos() / "B.png", Raster(10, 6, 3), Encoding::kSrgb8);
+  Start();
+  const Json::Value photos = Wait("adjusted", 0)["photos"];
+  EXPECT_TRUE(photos["B"]["needs_lens"].asBool());
+  EXPECT_THAT(photos["B"]["why"].asString(), HasSubstr("B.png: is 10x6 px, expected 8x6 px"));
+  EXPECT_FALSE(photos["A"].isMember("needs_lens"));
+}
+
+TEST_F(PrepareSessionTest, WhatCouldNotBeSavedIsSavedAndAdjustedLater) {
+  using std::filesystem::perms;
+  Start();
+  session_->Apply(Mark("1", Json::nullValue, MarkOn("A", "p", 3, 2)));
+  Wait("adjusted", 1);
+  const std::filesystem::path file = site_.survey() / "observations.csv";
+  std::filesystem::permissions(file, perms::owner_read);
+  session_->Apply(Mark("2", Json::nullValue, MarkOn("B", "p", 4, 2)));
+  EXPECT_THAT(Wait("not_saved", 0)["text"].asString(), HasSubstr("observations.csv"));
+  EXPECT_EQ(session_->Site()["saved"], 1);
+  std::filesystem::permissions(file, perms::owner_read | perms::owner_write);
+  Wait("saved", 2);
+  EXPECT_THAT(ReadWhole(file), HasSubstr("B,p,4,2,0.5"));
+  Wait("adjusted", 2);
 }
 
 TEST(MakeSiteOfPhotographs, LinksThePhotographsOfAPlainFolder) {

@@ -4,6 +4,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <chrono>
+
 #include "reconstruction/editing/edited_tables.h"
 #include "tests/calibration/files/scratch_folder.h"
 #include "tests/reconstruction/editing/edited_site.h"
@@ -75,14 +77,59 @@ TEST_F(ToDoTest, ALensComesBeforeAllElse) {
   EXPECT_EQ(ToDo(input_)[0]["run"], "calibrate");
 }
 
+TEST_F(ToDoTest, WithoutACameraFilmMayBeMeant) {
+  input_.adjusted =
+      RowOf(R"({"photos": {"A": {"needs_lens": true}}, "diagnoses": [], "failed": null,
+    "left_out": [{"kind": "photo", "name": "A", "reason": "its lens is not known yet"}]})");
+  const Json::Value items = ToDo(input_);
+  EXPECT_EQ(items[1]["where"]["mode"], "film");
+  EXPECT_EQ(items[1]["where"]["table"], "film");
+}
+
+TEST_F(ToDoTest, FilmAsksForItsCertificateThenForTheMarksOfEachScan) {
+  Complete();
+  input_.film = RowOf(R"({"folder": "calibration", "missing": ["the principal distance"],
+    "faults": [], "photos": {
+      "A": {"needed": 3, "placed": 1, "unplaced": ["2", "3", "4"], "suspicions": [], "redundancy": 0},
+      "B": {"needed": 3, "placed": 3, "unplaced": ["4"], "suspicions": [], "redundancy": 0},
+      "C": {"needed": 3, "placed": 4, "unplaced": [], "redundancy": 2,
+            "suspicions": ["marks 1 and 2 are exchanged"]},
+      "D": {"needed": 3, "placed": 4, "unplaced": [], "redundancy": 2, "usable": true,
+            "suspicions": ["the marks fit to 1.20 px only"]}}})");
+  const Json::Value items = ToDo(input_);
+  EXPECT_THAT(Texts(), ElementsAre("the film's certificate lacks (1): the principal distance",
+                                   "A: fiducials to be placed (3): 2, 3, 4",
+                                   "C: marks 1 and 2 are exchanged", "B: one more fiducial",
+                                   "D: the marks fit to 1.20 px only"));
+  EXPECT_EQ(items[0]["where"]["table"], "film");
+  EXPECT_EQ(items[1]["where"]["photo"], "A");
+  EXPECT_EQ(items[1]["where"]["fiducial"], "2");
+  EXPECT_THAT(items[3]["why"].asString(), HasSubstr("cannot be checked"));
+}
+
+TEST_F(ToDoTest, CompleteFilmIsCalibratedAndAgainAfterAChange) {
+  Complete();
+  for (const char* file : {"calibration/film.json", "calibration/fiducials.csv"}) {
+    folder_.Write(file, "");
+  }
+  input_.film = RowOf(R"({"folder": "calibration", "missing": [], "faults": [], "photos": {
+      "A": {"needed": 3, "placed": 4, "unplaced": [], "suspicions": [], "redundancy": 2}}})");
+  EXPECT_EQ(ToDo(input_)[0]["run"], "calibrate");
+  const auto camera = folder_.Write("work/calibration/A/camera.cameramodel", "");
+  EXPECT_EQ(ToDo(input_)[0]["run"], "montage");
+  const auto changed = std::filesystem::last_write_time(camera) + std::chrono::seconds(1);
+  std::filesystem::last_write_time(folder_.path() / "calibration/film.json", changed);
+  EXPECT_EQ(ToDo(input_)[0]["text"], "calibrate the scans");
+}
+
 TEST_F(ToDoTest, WhatTakesNoPartIsNamedWithItsPlace) {
   Complete();
   input_.adjusted["left_out"] = RowOf(R"([
-    {"kind": "photo", "name": "B", "reason": "one more control point"},
+    {"kind": "photo", "name": "B", "reason": "needs one more control point"},
     {"kind": "point", "name": "roof", "photo": "A", "reason": "one ray"}])");
   const Json::Value items = ToDo(input_);
   ASSERT_EQ(items.size(), 2U);
-  EXPECT_EQ(items[0]["text"], "B: one more control point");
+  EXPECT_EQ(items[0]["text"], "B: needs one more control point");
   EXPECT_EQ(items[0]["where"]["photo"], "B");
   EXPECT_EQ(items[1]["where"]["point"], "roof");
 }

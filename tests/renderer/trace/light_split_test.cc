@@ -67,7 +67,8 @@ TEST(ChooseLightDirections, SunStaysOnItsDisc) {
   const Eigen::Vector3d center = scene.natural.light.sun_direction;
   double widest = 0;
   for (int i = 0; i < 400; ++i) {
-    const Eigen::Vector2d disc((i % 20 + 0.5) / 20, (i / 20 + 0.5) / 20);
+    const int column = i % 20, row = i / 20;
+    const Eigen::Vector2d disc((column + 0.5) / 20, (row + 0.5) / 20);
     const LightDirections light = ChooseLightDirections(scene, disc, i);
     widest = std::max(widest, std::acos(std::min(1.0, center.dot(light.sun))));
   }

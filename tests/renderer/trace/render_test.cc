@@ -74,6 +74,149 @@ TEST(RenderMontage, EdgesTakeMoreRaysThanFlatGround) {
   EXPECT_LT(adaptive, 10);
 }
 
+constexpr double kSigma = 0.7;  // [px]
+
+RenderOptions SpreadAlike() {
+  RenderOptions options;
+  options.point_spread = PointSpread{kSigma, kSigma, 0, 9};
+  return options;
+}
+
+// As a lens of that spread draws it: the same view of eight times as many pixels, each of them
+// ideal, weighed by the Gaussian.
+Raster BlurredTruth(const SmallSite& site, const MontageScene& scene) {
+  constexpr int kFiner = 8, kReach = 3 * kFiner;
+  PosedCamera camera = site.camera();
+  camera.camera = Camera::Pinhole(60 * kFiner, 60 * kFiner, 32 * kFiner - 0.5, 24 * kFiner - 0.5,
+                                  64 * kFiner, 48 * kFiner);
+  Raster photo(64 * kFiner, 48 * kFiner);
+  photo.data.assign(photo.data.size(), static_cast<float>(kLawnRadiance));
+  const Raster fine = RenderMontage(scene, camera, photo).linear;
+  Raster blurred(64, 48);
+  for (int y = 3; y < 45; ++y) {
+    for (int x = 3; x < 61; ++x) {
+      Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+      double weights = 0;
+      for (int dy = -kReach; dy < kReach; ++dy) {
+        for (int dx = -kReach; dx < kReach; ++dx) {
+          const Eigen::Vector2d offset = Eigen::Vector2d(dx + 0.5, dy + 0.5) / kFiner;
+          const double weight = std::exp(-offset.squaredNorm() / (2 * kSigma * kSigma));
+          sum += weight * fine.Rgb(x * kFiner + kFiner / 2 + dx, y * kFiner + kFiner / 2 + dy);
+          weights += weight;
+        }
+      }
+      blurred.SetRgb(x, y, sum / weights);
+    }
+  }
+  return blurred;
+}
+
+// Root mean square over the inner pixels.
+double Difference(const Raster& a, const Raster& b) {
+  double sum = 0;
+  for (int y = 3; y < 45; ++y) {
+    for (int x = 3; x < 61; ++x) sum += (a.Rgb(x, y) - b.Rgb(x, y)).squaredNorm();
+  }
+  return std::sqrt(sum / (42 * 58 * 3));
+}
+
+TEST(RenderMontage, SpreadsTheBuildingAsThePhotographSpreadsItsEdges) {
+  const SmallSite site = MakeSmallSite();
+  const MontageScene scene = site.With(Tower(site));
+  const Raster truth = BlurredTruth(site, scene);
+  const double ideal = Difference(RenderMontage(scene, site.camera(), site.photo).linear, truth);
+  const double spread =
+      Difference(RenderMontage(scene, site.camera(), site.photo, SpreadAlike()).linear, truth);
+  EXPECT_LT(spread, 0.5 * ideal) << ideal;
+}
+
+Eigen::Vector3d SumOf(const Raster& image) {
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (int y = 0; y < image.height; ++y) {
+    for (int x = 0; x < image.width; ++x) sum += image.Rgb(x, y);
+  }
+  return sum;
+}
+
+TEST(RenderMontage, SpreadingPreservesSums) {
+  const SmallSite site = MakeSmallSite();
+  const MontageScene scene = site.With(Tower(site));
+  const Eigen::Vector3d photo = SumOf(site.photo);
+  RenderOptions options;
+  options.reach = 0;
+  const Eigen::Vector3d ideal =
+      SumOf(RenderMontage(scene, site.camera(), site.photo, options).linear) - photo;
+  options.point_spread = SpreadAlike().point_spread;
+  const Eigen::Vector3d spread =
+      SumOf(RenderMontage(scene, site.camera(), site.photo, options).linear) - photo;
+  EXPECT_LT((spread - ideal).norm(), 0.01 * ideal.norm());
+}
+
+TEST(RenderMontage, BeyondTheSpreadThePhotographStays) {
+  SmallSite site = MakeSmallSite();
+  Texture(site);
+  EXPECT_EQ(RenderMontage(site.With({}), site.camera(), site.photo, SpreadAlike()).linear.data,
+            site.photo.data);
+  const Raster spread =
+      RenderMontage(site.With(Tower(site)), site.camera(), site.photo, SpreadAlike()).linear;
+  for (int x : {0, 1, 2, 61, 62, 63}) EXPECT_EQ(spread.Rgb(x, 0), site.photo.Rgb(x, 0)) << x;
+}
+
+TEST(RenderMontage, SpreadAndGrainDoNotDependOnThreads) {
+  SmallSite site = MakeSmallSite();
+  const MontageScene scene = site.With(Tower(site));
+  RenderOptions one = SpreadAlike();
+  one.grain = Grain{Eigen::Vector3d::Constant(1e-4), Eigen::Vector3d::Zero(), 0.5, 0.3, 200};
+  one.threads = 1;
+  RenderOptions three = one;
+  three.threads = 3;
+  EXPECT_EQ(RenderMontage(scene, site.camera(), site.photo, one).linear.data,
+            RenderMontage(scene, site.camera(), site.photo, three).linear.data);
+}
+
+// On the building all of it, in shadows what the darkened photograph lacks, elsewhere none.
+TEST(RenderMontage, GrainIsAddedToWhatIsComputed) {
+  SmallSite site = MakeSmallSite();
+  const MontageScene scene = site.With(Tower(site));
+  const RenderResult plain = RenderMontage(scene, site.camera(), site.photo);
+  RenderOptions options;
+  options.grain = Grain{Eigen::Vector3d::Constant(1e-5), Eigen::Vector3d::Zero(), 0, 0, 200};
+  const RenderResult grainy = RenderMontage(scene, site.camera(), site.photo, options);
+  EXPECT_EQ(grainy.changed_pixels, plain.changed_pixels);
+  double squares = 0;
+  int count = 0;
+  for (int y = 0; y < 48; ++y) {
+    for (int x = 0; x < 64; ++x) {
+      const Eigen::Vector3d change = grainy.linear.Rgb(x, y) - plain.linear.Rgb(x, y);
+      if (plain.linear.Rgb(x, y) == site.photo.Rgb(x, y)) {
+        EXPECT_EQ(change, Eigen::Vector3d::Zero());
+      } else {
+        squares += change.squaredNorm() / 3;
+        ++count;
+      }
+    }
+  }
+  EXPECT_GT(squares / count, 0.3e-5);
+  EXPECT_LT(squares / count, 1.1e-5);
+}
+
+TEST(PixelSampler, SpreadIsAGaussianCutOff) {
+  const PixelSampler sampler(3, 4);
+  Eigen::Vector2d mean = Eigen::Vector2d::Zero();
+  Eigen::Matrix2d moment = Eigen::Matrix2d::Zero();
+  double farthest = 0;
+  for (int ray = 0; ray < 4096; ++ray) {
+    const Eigen::Vector2d offset = sampler.Spread(ray, 0.6);
+    farthest = std::max(farthest, offset.norm());
+    mean += offset / 4096;
+    moment += offset * offset.transpose() / 4096;
+  }
+  EXPECT_LT(mean.norm(), 2e-3);
+  EXPECT_TRUE(moment.isApprox(0.36 * Eigen::Matrix2d::Identity(), 0.01)) << moment;
+  EXPECT_GT(farthest, 2.9 * 0.6);
+  EXPECT_LT(farthest, kSpreadReach * 0.6);
+}
+
 TEST(PixelSampler, SpreadsOverThePixelAndDependsOnItAlone) {
   const PixelSampler sampler(3, 4);
   Eigen::Vector2d mean = Eigen::Vector2d::Zero();
@@ -99,6 +242,9 @@ TEST(RenderOptions, NameTheFieldThatIsWrong) {
   EXPECT_NE(WrongField(RenderOptions{.fewest_rays = 3}).find("fewest_rays"), std::string::npos);
   EXPECT_NE(WrongField(RenderOptions{.most_rays = 18}).find("most_rays"), std::string::npos);
   EXPECT_NE(WrongField(RenderOptions{.tolerance = 0}).find("tolerance"), std::string::npos);
+  EXPECT_NE(WrongField(RenderOptions{.outline_rays = 8}).find("outline_rays"), std::string::npos);
+  EXPECT_NE(WrongField(RenderOptions{.point_spread = PointSpread{}}).find("point_spread"),
+            std::string::npos);
   EXPECT_NE(WrongField(RenderOptions{.threads = -1}).find("threads"), std::string::npos);
   const SmallSite site = MakeSmallSite();
   EXPECT_THROW(RenderMontage(site.With({}), site.camera(), site.photo, {.threads = -1}),

@@ -4,22 +4,24 @@
 import {ask, isReport, reportAddress} from "../site/api.js";
 import {showSite} from "./site_table.js";
 import {button, byId, select} from "../words/dom.js";
-import {emptied, newId, unconfirmed} from "../site/outbox.js";
+import {emptied, keptCount, newId, unconfirmed} from "../site/outbox.js";
 import {on} from "../site/signals.js";
 import {adjustedMark, mark, prediction, raysOf, state} from "../site/state.js";
 import {settle} from "../points/marking.js";
 import {shown} from "../words/numbers.js";
 import {say} from "./notices.js";
+import {fiducial, reviewedMark} from "../film/certified.js";
 import {offText, samples} from "../light/samples.js";
 import {activePane, setMode, ui} from "../site/ui.js";
 import {kLanguages, language, setLanguage, raysText, t} from "../words/words.js";
 
-/** @type {["control"|"polygons"|"sun"|"light", string][]} */
+/** @type {[import("../site/ui.js").Mode, string][]} */
 export const kModes = [
   ["control", "1"],
   ["polygons", "2"],
   ["sun", "3"],
-  ["light", "4"]
+  ["light", "4"],
+  ["film", "5"]
 ];
 
 /** Takes the last operation back, whoever did it. */
@@ -91,12 +93,14 @@ function drawSaved() {
   const waiting = unconfirmed().length + state.asking,
     made = byId("saved");
   made.className = waiting > 0 || state.notSaved ? "review" : "pass";
-  keepText(made, state.notSaved ? t("notSaved") : waiting > 0 ? t("saving") : t("saved"));
+  const isKept = state.asking === 0 && keptCount() === waiting;
+  keepText(made, t(state.notSaved ? "notSaved" : waiting === 0 ? "saved" : isKept ? "kept" : "saving"));
   made.title = t("savedNote", {revision: state.saved});
   const data = document.body.dataset;
   data.revision = String(state.revision);
   data.saved = String(state.saved);
   data.pending = String(waiting);
+  data.kept = String(keptCount());
   data.mode = ui.mode;
   data.adjusted = String(state.adjusted?.revision ?? "");
 }
@@ -135,8 +139,20 @@ function drawStatus() {
   const parts = [`${photo}  x ${shown(place.x, 2)}  y ${shown(place.y, 2)}`];
   const sample = ui.mode === "light" && samples().find(one => one.key === ui.sample);
   if (sample) parts.push(`${t(sample.kind)} ${sample.row.polygon ?? ""}`, `${t("off100")} ${offText(sample)}`);
+  else if (ui.mode === "film") parts.push(...fiducialParts(photo, ui.fiducial));
   else if (point !== null) parts.push(...pointParts(photo, point));
   keepText(made, parts.join("  |  "));
+}
+
+function fiducialParts(photo, name) {
+  if (name === null) return [];
+  const about = reviewedMark(photo, name);
+  if (!about) return [name, t(fiducial(photo, name) ? "placedOnly" : "notPlaced")];
+  return [
+    name,
+    `v ${shown(about.vx, 2)} ${shown(about.vy, 2)} px`,
+    about.w === null ? t("cannotCheck") : `w ${shown(about.w, 1)}  r ${shown(about.r, 2)}`
+  ];
 }
 
 function pointParts(photo, point) {

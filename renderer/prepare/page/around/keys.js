@@ -21,6 +21,7 @@ import {chooseSample} from "../light/samples.js";
 import {kModes, redo, undo} from "./header.js";
 import {say} from "./notices.js";
 import {enlarge, nextLayout, stepPane} from "../photo/panes.js";
+import {stepLight} from "../photo/relit.js";
 import {emit, redraw} from "../site/signals.js";
 import {activePane, setMode, setTool, ui} from "../site/ui.js";
 
@@ -118,6 +119,7 @@ export function addKeys() {
     ["goTo", ".", () => focusField("go-to")],
     ["layout", ",", nextLayout],
     ["enlarge", "*", enlarge],
+    ["relight", "3", () => stepLight(activePane())],
     [
       "loupe",
       "/",

@@ -2,6 +2,8 @@
 // Lists: points by worst |w|, photos, polygons, pairs, samples; and what is to be done.
 
 import {button, byId, first, node} from "../words/dom.js";
+import {showCertificate} from "../film/certificate.js";
+import {chooseFiducial} from "../film/fiducials.js";
 import {raysOf, rows, state} from "../site/state.js";
 import {on} from "../site/signals.js";
 import {shown} from "../words/numbers.js";
@@ -17,7 +19,7 @@ import {
 } from "../site/ui.js";
 import {chooseSample, offText, samples} from "../light/samples.js";
 import {runStage} from "./stages.js";
-import {t} from "../words/words.js";
+import {said, t} from "../words/words.js";
 
 const kSigns = {control: "▲", check: "■", vertex: "◆", tie: "●"};
 const kNames = ["points", "photos", "polygons", "pairs", "samples"];
@@ -45,7 +47,7 @@ export function buildLists() {
   byId("lists").replaceChildren(tabs, field, node("div", {id: "list", role: "tabpanel"}));
   on("draw", draw);
   on("mode", () =>
-    showList({control: "points", polygons: "polygons", sun: "pairs", light: "samples"}[ui.mode])
+    showList({control: "points", polygons: "polygons", sun: "pairs", light: "samples", film: "photos"}[ui.mode])
   );
 }
 
@@ -96,14 +98,14 @@ const act = what => () => {
 /** Reasons why something was left out, by what it is. */
 function reasons(kind) {
   const all = new Map();
-  for (const one of state.adjusted?.left_out ?? []) if (one.kind === kind) all.set(one.name, one.reason);
+  for (const one of state.adjusted?.left_out ?? []) if (one.kind === kind) all.set(one.name, said(one, "reason"));
   return all;
 }
 
 function pointList() {
   const leftOut = reasons("point"),
     found = new Map();
-  for (const one of state.adjusted?.diagnoses ?? []) if (one.point) found.set(one.point, one.text);
+  for (const one of state.adjusted?.diagnoses ?? []) if (one.point) found.set(one.point, said(one));
   for (const one of state.adjusted?.control ?? []) {
     if (one.role === "check")
       found.set(one.name, `Δ ${one.difference.map(d => shown(1000 * d, 0)).join(" ")} mm`);
@@ -143,7 +145,7 @@ function photoList() {
         String(marks),
         about?.oriented ? shown(about.rms_px, 2) : "–",
         about?.oriented ? shown(about.sigma_mm, 0) : "–",
-        about && !about.oriented ? (about.why ?? "") : `${photo.width} × ${photo.height}`
+        about && !about.oriented ? said(about, "why") : `${photo.width} × ${photo.height}`
       ],
       class: `${photo === activePane()?.photo ? "current" : ""}${about && !about.oriented ? " noted" : ""}`,
       act: () => showPhoto(photo.name)
@@ -178,9 +180,12 @@ function pairList() {
     cells: [
       `${a} → ${b}`,
       t(kind),
-      (state.adjusted?.left_out ?? []).find(
-        one => one.kind === kind && (one.name === a || one.name === b || one.name === `${a} ${b}`)
-      )?.reason ?? ""
+      said(
+        (state.adjusted?.left_out ?? []).find(
+          one => one.kind === kind && (one.name === a || one.name === b || one.name === `${a} ${b}`)
+        ),
+        "reason"
+      )
     ],
     act: act(() => choosePoint(a))
   });
@@ -232,6 +237,8 @@ function drawTodo() {
   const signature = JSON.stringify([state.todo, findings]);
   if (signature === drawnTodo) return;
   drawnTodo = signature;
+  const more = button("", stepTodo, {class: "small more", hidden: true});
+  const focused = focusedTodo();
   byId("todo").replaceChildren(
     node("h2", {text: t("todo", {n: state.todo.length})}),
     node(
@@ -240,12 +247,12 @@ function drawTodo() {
       ...state.todo.map(item =>
         node(
           "li",
-          {title: item.why ?? ""},
-          button(item.text, () => goTo(item.where ?? {})),
+          {title: said(item, "why")},
+          button(said(item), () => goTo(item.where ?? {})),
           item.run
             ? button(t("run"), () => runStage(item.run), {class: "small", "data-run": item.run})
             : null,
-          item.why ? node("span", {class: "faint", text: item.why}) : null
+          item.why ? node("span", {class: "faint", text: said(item, "why")}) : null
         )
       )
     ),
@@ -254,9 +261,57 @@ function drawTodo() {
           node("h2", {text: t("findings", {n: findings.length})}),
           node("ul", {}, ...findings.map(finding))
         ]
-      : [])
+      : []),
+    more
   );
+  fitTodo();
+  if (focused) focusTodo(focused);
 }
+
+/** What tells a button of this list from the others: its thing's text, and which of its buttons it is. */
+const todoKey = made =>
+  made.matches(".more") ? "more" : `${made.parentElement.firstElementChild.textContent}\n${made.dataset.run ?? ""}`;
+
+/** The key of the button that has the focus. */
+function focusedTodo() {
+  const made = /** @type {any} */ (document.activeElement)?.closest?.("#todo button");
+  return made ? todoKey(made) : null;
+}
+
+/** Gives the focus back to it, to the first where it is done or folded away: the list is made anew at any time. */
+function focusTodo(key) {
+  const all = [...byId("todo").querySelectorAll("button")].filter(one => one.getClientRects().length > 0);
+  (all.find(one => todoKey(one) === key) ?? all[0])?.focus();
+}
+
+let isTodoOpen = false;
+function stepTodo() {
+  isTodoOpen = !isTodoOpen;
+  fitTodo();
+}
+
+/** Shows as many things as there is room for, each whole, and says how many more there are. */
+function fitTodo() {
+  const root = byId("todo"),
+    items = [...root.querySelectorAll("li")],
+    more = first("#todo .more");
+  if (!more) return;
+  const isFull = () => root.scrollHeight > root.clientHeight + 1;
+  root.classList.toggle("open", isTodoOpen);
+  for (const one of root.querySelectorAll("[hidden]")) one.hidden = false;
+  more.hidden = true;
+  if (!isTodoOpen && !isFull()) return;
+  more.hidden = false;
+  more.textContent = t("fewer");
+  if (isTodoOpen) return;
+  for (let left = items.length - 1; left > 0 && isFull(); --left) {
+    items[left].hidden = true;
+    const list = items[left].parentElement;
+    if (list.firstElementChild === items[left]) list.hidden = list.previousElementSibling.hidden = true;
+    more.textContent = t("more", {n: items.length - left});
+  }
+}
+addEventListener("resize", fitTodo);
 
 /** What the diagnosis of the survey found; it leads to its point or photo. */
 function finding(one) {
@@ -264,7 +319,7 @@ function finding(one) {
   return node(
     "li",
     {class: one.kind === "fault" ? "fail" : "review"},
-    button(one.text, () => goTo({point: one.point, photo: one.photo})),
+    button(said(one), () => goTo({point: one.point, photo: one.photo})),
     node("span", {class: "faint", text: place})
   );
 }
@@ -274,6 +329,8 @@ function goTo(where) {
   if (where.mode) setMode(where.mode);
   if (where.point) choosePoint(where.point);
   if (where.photo) showPhoto(where.photo);
+  if (where.fiducial) chooseFiducial(where.fiducial);
+  if (where.table === "film") return showCertificate();
   if (where.table === "control_points") first("[data-menu=controlTable]")?.click();
   backToPane();
 }

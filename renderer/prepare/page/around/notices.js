@@ -4,7 +4,7 @@
 import {button, byId, node, table} from "../words/dom.js";
 import {edit, kKeys, state} from "../site/state.js";
 import {emit, on} from "../site/signals.js";
-import {failures, sendNow, storeFault, unconfirmed} from "../site/outbox.js";
+import {failures, keptCount, sendNow, storeFault, unconfirmed} from "../site/outbox.js";
 import {t} from "../words/words.js";
 
 /**
@@ -31,13 +31,17 @@ function download() {
 const banner = (kind, text, ...controls) =>
   node("p", {class: `banner ${kind}`}, node("span", {text}), ...controls);
 
+/** How many outlive this page. */
+const keptText = (waiting, kept) => t(kept === waiting ? "keptAll" : "keptSome", {n: kept});
+
 let drawn = "";
 function draw() {
-  const waiting = unconfirmed().length;
+  const waiting = unconfirmed().length,
+    kept = keptCount();
   const isGone = state.isLoaded && ((!state.isConnected && isLate) || (failures > 1 && !storeFault));
   const signature = JSON.stringify([
     isGone,
-    isGone && waiting,
+    isGone && [waiting, kept],
     state.notSaved,
     storeFault,
     state.readOnly,
@@ -51,7 +55,7 @@ function draw() {
     made.push(
       banner(
         "fail",
-        t("serverGone", {n: waiting}),
+        t("serverGone", {n: waiting}) + (waiting > 0 ? ` ${keptText(waiting, kept)}` : ""),
         button(t("tryNow"), sendNow),
         button(t("download"), download)
       )

@@ -10,7 +10,8 @@ import {parseNumber} from "../words/numbers.js";
 import {sampleAt, sampleKey, samples} from "./samples.js";
 import {emit} from "../site/signals.js";
 import {edit, isReadOnly, row, rows, state} from "../site/state.js";
-import {activePane, placeOf, setMode, setTool, ui} from "../site/ui.js";
+import {activePane, setMode, setTool, ui} from "../site/ui.js";
+import {area, isSeenAt, placed} from "../tools/outlines.js";
 import {t} from "../words/words.js";
 
 /**
@@ -61,33 +62,12 @@ async function polygonAt(photo, x, y) {
 /** The current polygon first, then the smallest, which lies before larger ones more often than not. */
 function guessedAt(photo, x, y) {
   const holding = rows("polygons")
-    .map(polygon => ({name: polygon.name, outline: outlineOf(polygon, photo)}))
-    .filter(one => one.outline.length > 2 && isInside(one.outline, x, y));
+    .filter(polygon => isSeenAt(polygon, photo, x, y))
+    .map(polygon => ({name: polygon.name, area: area(placed(polygon.vertices, photo))}));
   if (holding.some(one => one.name === ui.polygon)) return ui.polygon;
-  holding.sort((a, b) => area(a.outline) - area(b.outline));
+  holding.sort((a, b) => a.area - b.area);
   return holding[0]?.name ?? null;
 }
-
-function outlineOf(polygon, photo) {
-  const corners = polygon.vertices.map(name => placeOf(photo, name));
-  return corners.every(at => at) ? corners.map(at => [at.x, at.y]) : [];
-}
-
-function isInside(outline, x, y) {
-  let inside = false;
-  outline.forEach(([x1, y1], i) => {
-    const [x2, y2] = outline[(i + 1) % outline.length];
-    if (y1 > y !== y2 > y && x < ((x2 - x1) * (y - y1)) / (y2 - y1) + x1) inside = !inside;
-  });
-  return inside;
-}
-const area = outline =>
-  Math.abs(
-    outline.reduce((sum, [x, y], i) => {
-      const [u, v] = outline[(i + 1) % outline.length];
-      return sum + x * v - u * y;
-    }, 0)
-  );
 
 /** Deletes the sample chosen, else that at the crosshair. */
 export function deleteSample() {

@@ -4,7 +4,7 @@
 import {node} from "../words/dom.js";
 import {shown, withSigma} from "../words/numbers.js";
 import {rows, state} from "../site/state.js";
-import {t} from "../words/words.js";
+import {nearPlace, said, t} from "../words/words.js";
 
 const kPoorCondition = 100,
   kPoorFit = 3; // in σ
@@ -140,19 +140,16 @@ function textList(title, texts, className) {
   ];
 }
 
-/** Without the folders before the site's own. */
-const nearPlace = text => text.replace(/^\S*?(?=survey\/)/, "");
-
 /**
  * All of it into an element.
  * @param {any} root
  */
 export function drawLightReport(root) {
   const light = state.light;
-  const leftOut = (light?.left_out ?? []).map(nearPlace),
-    advice = (light?.advice ?? []).map(one => (typeof one === "string" ? one : one.text));
+  const leftOut = (light?.left_out ?? []).map(one => nearPlace(said(one))),
+    advice = (light?.advice ?? []).map(one => said(one));
   root.replaceChildren(
-    ...(light?.failed ? [node("p", {class: "review", text: nearPlace(light.failed)})] : []),
+    ...(light?.failed ? [node("p", {class: "review", text: nearPlace(said(light, "failed"))})] : []),
     heading("haze"),
     ...(light?.haze ? hazeOf(light.haze) : []),
     heading("daylight"),

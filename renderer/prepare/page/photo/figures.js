@@ -6,6 +6,7 @@ import {svg} from "../words/dom.js";
 import {mark, rows, state} from "../site/state.js";
 import {emit} from "../site/signals.js";
 import {placeOf, ui} from "../site/ui.js";
+import {placed, ringsOf} from "../tools/outlines.js";
 
 const path = (line, isClosed = false) =>
   `M${line.map(([x, y]) => `${x.toFixed(2)} ${y.toFixed(2)}`).join("L")}${isClosed ? "Z" : ""}`;
@@ -55,16 +56,10 @@ function* polygons(photo) {
     if (seen) yield {class: className, d: lines(seen), data};
     if (hidden) yield {class: `${className} hidden`, d: lines(hidden), data};
     if (seen || hidden) continue;
-    const known = polygon.vertices.map(name => placeOf(photo, name)).filter(at => at);
-    if (known.length === polygon.vertices.length && known.length > 2) {
-      yield {
-        class: `${className} flat`,
-        d: path(
-          known.map(at => [at.x, at.y]),
-          true
-        ),
-        data
-      };
+    const rings = ringsOf(polygon).map(names => placed(names, photo));
+    if (rings[0].length > 2) {
+      const d = rings.map(ring => (ring.length > 2 ? path(ring, true) : "")).join("");
+      yield {class: `${className} flat`, d, data};
     }
   }
 }
@@ -144,31 +139,39 @@ function* drawing(photo, pane) {
   yield {class: "drawn", d: path([...outline, ...end], outline.length + end.length > 2)};
 }
 
-/** @type {Map<string, {key: string, curve: [number, number][]}>} by photo */
+/** @typedef {[number, number][]} Line */
+/** @type {Map<string, {key: string, curve: Line, band: Line}>} by photo */
 const known = new Map();
 
-/** Epipolar curves of the current point's marks on other photos. */
+/** Epipolar curves of the current point's marks on other photos, each in its band of 95 %. */
 function* curves(photo) {
   if (!ui.curves || ui.point === null || mark(photo, ui.point)) return;
   for (const one of rows("observations")) {
     if (one.point !== ui.point || one.photo === photo || one.state === "off") continue;
     const name = `${photo}\n${one.photo}`;
-    const key = `${one.point}\n${one.x}\n${one.y}\n${state.adjusted?.revision}`;
-    if (known.get(name)?.key !== key) {
-      known.set(name, {
-        key,
-        curve: known.get(name)?.key.startsWith(`${one.point}\n`) ? (known.get(name)?.curve ?? []) : []
-      });
-      fetchCurve(name, key, {photo: one.photo, x: one.x, y: one.y, other: photo});
+    const key = `${one.point}\n${one.x}\n${one.y}\n${one.sigma}\n${state.adjusted?.revision}`;
+    const before = known.get(name);
+    if (before?.key !== key) {
+      const {curve, band} = before?.key.startsWith(`${one.point}\n`) ? before : {curve: [], band: []};
+      known.set(name, {key, curve, band});
+      fetchCurve(name, key, {photo: one.photo, x: one.x, y: one.y, sigma: one.sigma, other: photo});
     }
-    const curve = known.get(name)?.curve ?? [];
-    if (curve.length > 1) yield {class: "epipolar", d: path(curve)};
+    const {curve, band} = /** @type {any} */ (known.get(name));
+    if (curve.length < 2) continue;
+    if (band.length === curve.length) yield {class: "band", d: path(around(curve, band), true)};
+    yield {class: "epipolar", d: path(curve)};
   }
+}
+
+/** Along one side of a curve and back along the other. */
+function around(curve, band) {
+  const side = sign => curve.map(([x, y], i) => [x + sign * band[i][0], y + sign * band[i][1]]);
+  return [...side(1), ...side(-1).reverse()];
 }
 
 async function fetchCurve(name, key, question) {
   const answer = await ask("/api/epipolar", question);
   if (known.get(name)?.key !== key) return;
-  known.set(name, {key, curve: answer.curve ?? []});
+  known.set(name, {key, curve: answer.curve ?? [], band: answer.band ?? []});
   emit("view");
 }

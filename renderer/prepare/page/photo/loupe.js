@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The loupe: eight times, from lossless pixels, with the marks drawn over it.
 
+import {fiducialsOn, gradeOfFiducial} from "../film/certified.js";
 import {getBlob} from "../site/api.js";
 import {node} from "../words/dom.js";
 import {rows} from "../site/state.js";
 import {redraw} from "../site/signals.js";
-import {activePane, gradeOf, placeOf, ui} from "../site/ui.js";
+import {activePane, gradeOf, ui} from "../site/ui.js";
+import {placed, ringsOf} from "../tools/outlines.js";
 
 const kScale = 8,
   kRadius = 40; // CSS px a pixel, px fetched about the place
@@ -119,25 +121,23 @@ export class Loupe {
 
   paintMarks(context, toX, toY) {
     const photo = this.pane.photo.name;
-    for (const one of rows("observations")) {
-      if (one.photo !== photo) continue;
+    const circle = (one, level) => {
       const x = toX(one.x),
         y = toY(one.y);
-      if (x < 0 || y < 0 || x > this.side || y > this.side) continue;
-      stroke(context, kColours[gradeOf(photo, one.point)], () => context.arc(x, y, 6, 0, 2 * Math.PI));
-    }
-    for (const polygon of rows("polygons")) {
-      const corners = polygon.vertices.map(name => placeOf(photo, name));
-      if (ui.lines === "none" || corners.some(at => !at)) continue;
-      stroke(
-        context,
-        "#ffffffb0",
-        () =>
-          corners.forEach((at, i) =>
-            i === 0 ? context.moveTo(toX(at.x), toY(at.y)) : context.lineTo(toX(at.x), toY(at.y))
-          ),
-        true
-      );
+      if (x < 0 || y < 0 || x > this.side || y > this.side) return;
+      stroke(context, kColours[level], () => context.arc(x, y, 6, 0, 2 * Math.PI));
+    };
+    for (const one of rows("observations"))
+      if (one.photo === photo) circle(one, gradeOf(photo, one.point));
+    for (const one of ui.mode === "film" ? fiducialsOn(photo) : [])
+      circle(one, gradeOfFiducial(photo, one.mark));
+    const rings = ui.lines === "none" ? [] : rows("polygons").flatMap(ringsOf);
+    for (const corners of rings.map(names => placed(names, photo))) {
+      const draw = () =>
+        corners.forEach(([x, y], i) =>
+          i === 0 ? context.moveTo(toX(x), toY(y)) : context.lineTo(toX(x), toY(y))
+        );
+      if (corners.length > 0) stroke(context, "#ffffffb0", draw, true);
     }
   }
 }

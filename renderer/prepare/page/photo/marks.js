@@ -162,7 +162,7 @@ function markLabel(one, about, kind) {
 }
 
 /** From the mark to where the adjustment puts it, with a head; "" if too short to see. */
-function arrowPath(dx, dy) {
+export function arrowPath(dx, dy) {
   const length = Math.hypot(dx, dy);
   if (length < 1) return "";
   const head = Math.min(6, length / 2),

@@ -3,6 +3,7 @@
 // screen = k (p + 1/2) + t in CSS pixels, p a pixel coordinate, (0, 0) being a pixel's centre.
 
 import {button, node, svg} from "../words/dom.js";
+import {drawFiducials} from "../film/fiducial_drawing.js";
 import {drawFigures} from "./figures.js";
 import {listenTo} from "./gestures.js";
 import {Loupe} from "./loupe.js";
@@ -10,9 +11,10 @@ import {drawMarks} from "./marks.js";
 import {drawSamples} from "../light/samples.js";
 import {photoOf, state} from "../site/state.js";
 import {emit, redraw} from "../site/signals.js";
+import {relit, stepLight} from "./relit.js";
 import {fetchTiles, kTile, tileIfHere, wishTile} from "./tiles.js";
-import {activePane, placeOf, stepLines, ui} from "../site/ui.js";
-import {t} from "../words/words.js";
+import {activePane, currentPlace, hands, placeOf, stepLines, ui} from "../site/ui.js";
+import {said, t} from "../words/words.js";
 
 const clamp = (value, low, high) => Math.min(Math.max(value, low), high);
 
@@ -24,6 +26,8 @@ export class Pane {
     this.tx = 0;
     this.ty = 0;
     this.isFitted = true;
+    /** @type {"photo"|"none"|"sun"} in which light it is shown */
+    this.light = "photo";
     /** The crosshair [px], and whether someone has moved it since it was brought to the point. */
     this.cursor = {x: 0, y: 0};
     this.isMoved = false;
@@ -55,7 +59,8 @@ export class Pane {
       svg("path", {class: "casing", d: kCross}),
       svg("path", {d: kCross})
     );
-    const layers = [this.figures, this.markLayer, this.sampleLayer];
+    this.fiducialLayer = svg("g", {class: "fiducials"});
+    const layers = [this.figures, this.markLayer, this.sampleLayer, this.fiducialLayer];
     this.overlay = svg("svg", {class: "overlay", "aria-hidden": false}, ...layers);
     const crossLayer = svg("svg", {class: "overlay still"}, this.cross);
     this.stage = node(
@@ -77,10 +82,17 @@ export class Pane {
       this.focus();
     };
     this.lines = button("", next, {class: "small lines", tabindex: -1, title: "'"});
+    const relight = () => {
+      stepLight(this);
+      this.focus();
+    };
+    this.relight = button("", relight, {class: "small relight", tabindex: -1, title: t("key_relight")});
+    this.relitNote = node("output", {class: "relit", "aria-live": "polite"});
+    this.stage.append(this.relitNote);
     this.root = node(
       "section",
       {class: "pane"},
-      node("header", {}, this.chooser, this.note, this.lines),
+      node("header", {}, this.chooser, this.note, this.relight, this.lines),
       this.stage
     );
   }
@@ -99,7 +111,7 @@ export class Pane {
     this.stage.setAttribute("aria-label", t("paneLabel", {photo: photo.name}));
     this.root.dataset.photo = photo.name;
     this.fit();
-    if (ui.point !== null) this.goTo(ui.point, false);
+    this.toCurrent(false);
   }
 
   focus() {
@@ -192,7 +204,16 @@ export class Pane {
 
   /** The crosshair to a point, if its place is known; the view along, if asked. */
   goTo(point, moves) {
-    const place = this.photo && placeOf(this.photo.name, point);
+    this.goToPlace(this.photo && placeOf(this.photo.name, point), moves);
+  }
+
+  /** The same to what is to be placed. */
+  toCurrent(moves) {
+    if (!this.photo || (ui.point === null && !hands())) return;
+    this.goToPlace(currentPlace(this.photo.name), moves);
+  }
+
+  goToPlace(place, moves) {
     this.isMoved = false;
     if (!place) return;
     this.cursor = place;
@@ -203,8 +224,7 @@ export class Pane {
 
   /** The crosshair stays on the point, wherever that is now. */
   stay() {
-    const isBusy = this.isMoved || ui.tool || ui.point === null || !this.photo;
-    const place = isBusy ? null : placeOf(this.photo.name, ui.point);
+    const place = this.isMoved || ui.tool || !this.photo ? null : currentPlace(this.photo.name);
     if (place) this.cursor = place;
   }
 
@@ -254,6 +274,7 @@ export class Pane {
       this.drawn = {k: this.k, tx: this.tx, ty: this.ty};
       drawMarks(this);
       drawSamples(this);
+      drawFiducials(this);
     }
     const shift = `translate(${this.tx - this.drawn.tx}px, ${this.ty - this.drawn.ty}px)`;
     if (this.overlay.style.transform !== shift) this.overlay.style.transform = shift;
@@ -270,13 +291,26 @@ export class Pane {
     const about = state.adjusted?.photos?.[this.photo?.name ?? ""],
       fault = this.photo?.fault;
     this.lines.textContent = t(`lines_${ui.lines}`);
+    this.drawRelitNote();
     this.note.classList.toggle("fault", Boolean(fault));
-    this.note.title = fault ?? "";
+    this.note.title = fault ?? about?.why ?? "";
     if (fault) return void (this.note.textContent = t("photoFault", {why: fault}));
     this.note.textContent = !this.photo
       ? ""
       : noteOf(this.photo.name, about) +
         `  ${Math.round(100 * this.k * devicePixelRatio)} %${ui.arrows ? `  v × ${ui.arrows}` : ""}`;
+  }
+
+  /** In which light the photo is shown, and what is to be known of it. */
+  drawRelitNote() {
+    this.relight.textContent = t(`light_${this.light}`);
+    this.relight.setAttribute("aria-pressed", String(this.light !== "photo"));
+    this.root.dataset.light = this.light;
+    const made = this.light === "photo" || !this.photo ? null : relit(this.index, this.light);
+    this.relitNote.hidden = !made;
+    this.relitNote.classList.toggle("fault", Boolean(made?.isFault));
+    const text = made ? `${t(`light_${this.light}`)}: ${made.text}` : "";
+    if (this.relitNote.textContent !== text) this.relitNote.textContent = text;
   }
 
   paint() {
@@ -287,12 +321,20 @@ export class Pane {
     context.fillStyle = "#15191c";
     context.fillRect(0, 0, this.canvas.width, this.canvas.height);
     if (this.photo && !this.photo.fault && this.width)
-      this.paintTiles(context, this.k * ratio, this.tx * ratio, this.ty * ratio);
+      this.paintPhoto(context, this.k * ratio, this.tx * ratio, this.ty * ratio);
     fetchTiles();
     this.paintMs = performance.now() - begin;
   }
 
-  /** All in device pixels. */
+  /** All in device pixels; relit as soon as that is made. */
+  paintPhoto(context, k, tx, ty) {
+    const picture = this.light === "photo" ? null : relit(this.index, this.light).picture;
+    if (!picture) return this.paintTiles(context, k, tx, ty);
+    const {width, height} = /** @type {any} */ (this.photo);
+    context.imageSmoothingEnabled = true;
+    context.drawImage(picture, tx, ty, k * width, k * height);
+  }
+
   paintTiles(context, k, tx, ty) {
     const {width, height, levels} = /** @type {any} */ (this.photo);
     const level = clamp(Math.floor(-Math.log2(k) + 1e-6), 0, levels - 1),
@@ -350,6 +392,6 @@ const kCross = "M-16 0H-3M3 0H16M0 -16V-3M0 3V16";
 
 function noteOf(name, about) {
   if (!about) return "";
-  if (!about.oriented) return about.why || t("notOriented");
+  if (!about.oriented) return said(about, "why") || t("notOriented");
   return t("orientedNote", {rms: about.rms_px === undefined ? "–" : about.rms_px.toFixed(2)});
 }

@@ -102,7 +102,8 @@ async function read(text, found) {
   if (answer.error) return found.replaceChildren(node("p", {class: "fail", text: answer.error}));
   const taken = answer.rows.filter(one => row("control_points", one.name)).length;
   found.replaceChildren(
-    node("p", {text: t("importFound", {n: answer.rows.length, format: answer.format ?? "", taken})}),
+    node("p", {text: t("importFound", {n: answer.rows.length, format: answer.format ?? ""})}),
+    taken > 0 ? node("p", {class: "review", text: t("importTaken", {taken})}) : "",
     ...(answer.remarks ?? []).map(remark => node("p", {class: "review", text: remark.text ?? remark})),
     node(
       "div",

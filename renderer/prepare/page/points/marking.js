@@ -18,7 +18,7 @@ import {
 } from "../site/state.js";
 import {emit} from "../site/signals.js";
 import {stored} from "../words/numbers.js";
-import {activePane, choosePoint, photosOf, placeOf, showPhoto, ui} from "../site/ui.js";
+import {activePane, choosePoint, currentPlace, hands, photosOf, showPhoto, ui} from "../site/ui.js";
 import {say} from "../around/notices.js";
 import {proposalFor, proposals} from "./proposals.js";
 import {chooseSample, sampleAt} from "../light/samples.js";
@@ -35,6 +35,7 @@ export const moving = {photo: "", point: "", x: 0, y: 0, timer: 0};
 
 /** Tells the server where the arrows have brought a mark. */
 export function settle() {
+  hands()?.settle();
   clearTimeout(moving.timer);
   const old = moving.point && mark(moving.photo, moving.point);
   const {photo, point, x, y} = moving;
@@ -67,6 +68,8 @@ function markAt(pane, x, y) {
 
 /** Whether a drag that begins here moves the current point's mark. */
 export const isDraggable = (pane, x, y) =>
+  hands()?.isDraggable(pane, x, y) ?? isPointDraggable(pane, x, y);
+const isPointDraggable = (pane, x, y) =>
   ui.point !== null &&
   !ui.tool &&
   pane.photo !== null &&
@@ -79,6 +82,8 @@ export const isDraggable = (pane, x, y) =>
  * @param {boolean} isEnd
  */
 export function dragMark(pane, at, isEnd) {
+  const other = hands();
+  if (other) return other.drag(pane, at, isEnd);
   if (ui.point === null || !pane.isInFrame(at.x, at.y)) return;
   pane.moveCursor(at.x, at.y);
   move(pane.photo.name, ui.point, at.x, at.y, 5000);
@@ -92,6 +97,8 @@ export function dragMark(pane, at, isEnd) {
 export function clickAt(pane, x, y, isShift, isTouch = false) {
   if (!pane.isInFrame(x, y)) return;
   settle();
+  const other = hands();
+  if (other) return other.click(pane, x, y, isShift, isTouch);
   if (ui.mode === "light" && !ui.tool) return takeSample(pane, x, y);
   const name = markAt(pane, x, y);
   if (name !== null && ui.mode !== "light") return choosePoint(name, false);
@@ -118,6 +125,8 @@ function takeSample(pane, x, y) {
 /** Enter or Confirm: the crosshair's place is meant. */
 export function confirm(pane, isShift) {
   if (!pane?.photo) return;
+  const other = hands();
+  if (other) return other.confirm(pane, isShift);
   if (ui.tool) return useTool(pane);
   if (ui.mode === "light") return; // the points are dimmed: nothing is to happen to them unseen
   if (ui.point === null) return askForPoint();
@@ -215,6 +224,11 @@ function wanting() {
  */
 export function stepPoint(step) {
   settle();
+  const other = hands();
+  if (other) {
+    other.step(step);
+    return false;
+  }
   const needed = new Set(wanting()),
     names = [...indexed().points.keys()];
   const from = names.indexOf(ui.point ?? "");
@@ -236,7 +250,8 @@ export function stepPoint(step) {
  */
 export function stepPhoto(step) {
   settle();
-  const names = ui.point === null ? state.photos.map(photo => photo.name) : photosOf(ui.point);
+  const isAny = ui.point === null || hands() !== undefined;
+  const names = isAny ? state.photos.map(photo => photo.name) : photosOf(ui.point ?? "");
   if (names.length === 0) return;
   const at = names.indexOf(activePane().photo?.name);
   const next = names[at < 0 ? 0 : (at + step + names.length) % names.length];
@@ -245,12 +260,14 @@ export function stepPhoto(step) {
   activePane().setPhoto(photoOf(next));
   other?.setPhoto(before); // no photo stands twice
   live.send({focus: next});
-  if (ui.point !== null) activePane().goTo(ui.point, true);
+  activePane().toCurrent(true);
   emit("selection");
 }
 
 /** The point with the next smaller |w|. */
 export function nextSuspect() {
+  const other = hands();
+  if (other) return other.suspect();
   const marks = [...(state.adjusted?.marks ?? [])]
     .filter(one => one.w !== null)
     .sort((a, b) => Math.abs(b.w) - Math.abs(a.w));
@@ -264,6 +281,8 @@ export function nextSuspect() {
 /** The crosshair by arrows; a mark under it comes along. */
 export function nudge(pane, dx, dy) {
   if (!pane?.photo) return;
+  const other = hands();
+  if (other) return other.nudge(pane, dx, dy);
   const photo = pane.photo.name,
     point = ui.point,
     {x, y} = pane.cursor;
@@ -283,12 +302,17 @@ const activePhoto = () => activePane()?.photo?.name;
  */
 export function changeMark(change, label, photo = activePhoto()) {
   settle();
+  if (hands()) return say(t("notInFilm"));
   const old = ui.point !== null && mark(photo, ui.point);
   if (!old) return say(t("noMark"));
   if (isReadOnly("observations")) return say(t("readOnlyTable"));
   edit(t(label, {point: ui.point, photo}), [{table: "observations", before: old, after: change(old)}]);
 }
-export const deleteMark = () => changeMark(() => null, "opDelete");
+export function deleteMark() {
+  const other = hands();
+  if (other) other.remove();
+  else changeMark(() => null, "opDelete");
+}
 export const toggleOff = (photo = activePhoto()) =>
   changeMark(old => ({...old, state: old.state === "off" ? "on" : "off"}), "opSwitch", photo);
 /** Dubious: σ is three times as large; and back. */
@@ -312,6 +336,8 @@ export function askForPoint() {
 
 /** The name typed: an existing point is shown, a new one is placed where the crosshair was brought. */
 export function takeName(name) {
+  const other = hands();
+  if (other) return other.take(name);
   const fault = nameFault(name);
   if (fault) return say(t(fault));
   const pane = activePane(),
@@ -340,7 +366,7 @@ export function centreAll() {
   for (const pane of ui.panes) centreIn(pane);
 }
 export function centreIn(pane) {
-  const place_ = ui.point !== null && pane.photo && placeOf(pane.photo.name, ui.point);
+  const place_ = pane.photo && currentPlace(pane.photo.name);
   if (!place_) return;
   pane.cursor = place_;
   pane.isMoved = false;
@@ -350,7 +376,9 @@ export function centreIn(pane) {
 /** Esc: tool, then proposals, then the point. */
 export function cancel() {
   settle();
-  if (proposals.byPhoto.size > 0) proposals.byPhoto.clear();
+  const other = hands();
+  if (other) other.cancel();
+  else if (proposals.byPhoto.size > 0) proposals.byPhoto.clear();
   else if (ui.point !== null) ui.point = null;
   emit("selection");
 }

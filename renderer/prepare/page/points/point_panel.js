@@ -8,7 +8,7 @@ import {showRename} from "./renaming.js";
 import {say} from "../around/notices.js";
 import {parseNumber, parsePair} from "../words/numbers.js";
 import {indexed, photoOf, state} from "../site/state.js";
-import {activePane, showPhoto, ui} from "../site/ui.js";
+import {activePane, hands, showPhoto, ui} from "../site/ui.js";
 import {on} from "../site/signals.js";
 import {t} from "../words/words.js";
 
@@ -48,21 +48,23 @@ export function buildPointPanel(root) {
     ),
     node("datalist", {id: "names"})
   );
-  on("tables site", fillNames);
-  on("selection", () => {
-    if (document.activeElement !== name) name.value = ui.point ?? "";
+  on("tables site mode", fillNames);
+  on("selection mode", () => {
+    if (document.activeElement !== name) name.value = hands()?.current() ?? ui.point ?? "";
+    byId("point-row").querySelector("span").textContent = t(hands() ? "fiducial" : "point");
   });
   fillNames();
 }
 
 function backFrom(field) {
-  field.value = field.id === "point-name" ? (ui.point ?? "") : "";
+  field.value = field.id === "point-name" ? (hands()?.current() ?? ui.point ?? "") : "";
   activePane().focus();
 }
 
 /** A photo's name shows the photo, any other is a point. */
 function found(name) {
-  if (photoOf(name) && !indexed().points.has(name)) showPhoto(name);
+  const isPoint = hands() ? hands()?.names().includes(name) : indexed().points.has(name);
+  if (photoOf(name) && !isPoint) showPhoto(name);
   else takeName(name);
 }
 
@@ -75,7 +77,8 @@ function goToPlace(field) {
 }
 
 function fillNames() {
-  const names = [...indexed().points.keys(), ...state.photos.map(photo => photo.name)];
+  const things = hands()?.names() ?? indexed().points.keys();
+  const names = [...things, ...state.photos.map(photo => photo.name)];
   byId("names").replaceChildren(...names.map(value => node("option", {value})));
 }
 

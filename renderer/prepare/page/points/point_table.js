@@ -115,8 +115,16 @@ function summary(point) {
     {},
     node("strong", {text: point}),
     ` ${parts.join(", ")}`,
+    solved?.plane
+      ? node("span", {class: "plane", text: t("onPlane", {polygon: solved.plane})})
+      : null,
     solved ? node("span", {class: "faint xyz", text: solved.xyz.map(v => shown(v, 3)).join("  ")}) : null
   );
+}
+
+function solvedPlace() {
+  const solved = state.adjusted?.points?.[ui.point ?? ""];
+  return [solved?.xyz, solved?.plane];
 }
 
 let drawn = "";
@@ -126,7 +134,7 @@ export function updatePointTable() {
   if (!root || (root.contains(document.activeElement) && document.activeElement?.tagName === "INPUT"))
     return;
   const lines = ui.point === null ? [] : state.photos.map(photo => aboutPhoto(photo.name));
-  const signature = JSON.stringify([ui.point, lines, ui.point && state.adjusted?.points?.[ui.point]?.xyz]);
+  const signature = JSON.stringify([ui.point, lines, solvedPlace()]);
   if (drawn === signature && root.childElementCount > 0) return;
   drawn = signature;
   const point = ui.point;

@@ -6,7 +6,7 @@ import {settle} from "./marking.js";
 import {say} from "../around/notices.js";
 import {emit} from "../site/signals.js";
 import {mark, prediction} from "../site/state.js";
-import {photosOf, placeOf, showPhoto, ui} from "../site/ui.js";
+import {hands, photosOf, placeOf, showPhoto, ui} from "../site/ui.js";
 import {t} from "../words/words.js";
 
 /** Proposals of the point they are for, by photo. */
@@ -33,6 +33,8 @@ function propose(photo, point, proposal) {
 
 /** Asks where the corner at the crosshair is; Enter takes it. */
 export async function refine(pane) {
+  const other = hands();
+  if (other) return other.refine(pane);
   if (!pane?.photo || ui.point === null) return say(t("noPoint"));
   settle();
   const photo = pane.photo.name,
@@ -47,6 +49,7 @@ export async function refine(pane) {
 
 /** Asks for the point on all photos that lack it: matches, or corners at the predictions. */
 export async function match(pane) {
+  if (hands()) return say(t("notInFilm"));
   if (!pane?.photo || ui.point === null) return say(t("noPoint"));
   const point = ui.point,
     photo = pane.photo.name;

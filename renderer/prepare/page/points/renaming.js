@@ -13,7 +13,7 @@ const kNaming = {
   control_points: ["name"],
   observations: ["point"],
   edges: ["from", "to"],
-  polygons: ["vertices"],
+  polygons: ["vertices", "holes"],
   sun: ["object", "shadow"],
   zenith: ["bottom", "top"],
   constraints: ["points"]

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The server: requests with the token, and the live connection.
 
+import {said} from "../words/words.js";
+
 /** What the address says behind #: TOKEN or token=TOKEN, window=report. */
 function readFragment() {
   const parts = location.hash
@@ -53,11 +55,13 @@ function request(path, options = {}) {
 
 /**
  * @param {string} path
+ * @param {number[]} [answers] of status 400 and above that are no failure
  * @returns {Promise<any>} throws what the server says is wrong
  */
-export async function getJson(path) {
+export async function getJson(path, answers = []) {
   const response = await request(path);
-  if (!response.ok) throw new Error(`${response.status}: ${(await response.text()).slice(0, 300)}`);
+  if (!response.ok && !answers.includes(response.status))
+    throw new Error(`${response.status}: ${(await response.text()).slice(0, 300)}`);
   return response.json();
 }
 
@@ -101,8 +105,9 @@ export async function post(path, body) {
 export async function ask(path, body) {
   try {
     const answer = await post(path, body);
-    if (answer.status === 200) return answer.body;
-    return {error: answer.body.error ?? `${answer.status}`};
+    const found = answer.body;
+    if (answer.status === 200 && !found.error) return found;
+    return {...found, error: said(found, "error") || `${answer.status}`};
   } catch (error) {
     return {error: String(error.message ?? error)};
   }

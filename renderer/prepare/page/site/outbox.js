@@ -3,13 +3,17 @@
 // sent in order, one after the other, and again after a failure. Each counts once, by its id.
 
 import {post} from "./api.js";
+import {drop, keep, keptOf} from "./keeping.js";
 
 /** @typedef {{table: string, before: any, after: any}} Edit */
 /** @typedef {{id: string, label: string, edits: Edit[]}} Operation */
 
-const kPrefix = "insitu-operation:";
 /** @type {Operation[]} */
 const waiting = [];
+/** @type {Map<string, Promise<IDBValidKey|null>>} their keys in the store, by id; null: not kept */
+const keys = new Map();
+/** @type {Set<string>} ids of those that the store holds for sure */
+const kept = new Set();
 let isSending = false,
   site = "",
   timer = 0;
@@ -32,38 +36,42 @@ export const newId = () =>
     .map(byte => byte.toString(16).padStart(2, "0"))
     .join("");
 
-const keep = operation => {
-  try {
-    localStorage.setItem(kPrefix + operation.id, JSON.stringify({site, at: Date.now(), operation}));
-  } catch {
-    // A full or forbidden store: memory still has it.
-  }
-};
+/** Of the unconfirmed, those that outlive this page, the browser being killed. */
+export const keptCount = () => waiting.filter(operation => kept.has(operation.id)).length;
+
+/** @param {Operation} operation */
+function store(operation) {
+  const stored = keep(site, operation).then(
+    key => {
+      if (waiting.includes(operation)) kept.add(operation.id);
+      handlers.changed();
+      return key;
+    },
+    () => null // a full or forbidden store: memory still has it
+  );
+  keys.set(operation.id, stored);
+}
 
 /**
- * Those that an earlier page of this site left unconfirmed.
+ * Takes up those that an earlier page of this site left unconfirmed.
  * @param {string} siteFolder
  * @param {typeof handlers} called
- * @returns {Operation[]}
  */
-export function openOutbox(siteFolder, called) {
+export async function openOutbox(siteFolder, called) {
   site = siteFolder;
   handlers = called;
-  const kept = Object.keys(localStorage)
-    .filter(key => key.startsWith(kPrefix))
-    .map(key => JSON.parse(localStorage.getItem(key) ?? "{}"))
-    .filter(one => one.site === site && !waiting.some(o => o.id === one.operation.id))
-    .sort((a, b) => a.at - b.at)
-    .map(one => one.operation);
-  waiting.push(...kept);
+  for (const {order, operation} of await keptOf(site)) {
+    waiting.push(operation);
+    keys.set(operation.id, Promise.resolve(order));
+    kept.add(operation.id);
+  }
   if (waiting.length > 0) sendNow();
-  return kept;
 }
 
 /** @param {Operation} operation */
 export function enqueue(operation) {
   waiting.push(operation);
-  keep(operation);
+  store(operation);
   handlers.changed();
   if (failures === 0) sendNow();
 }
@@ -72,7 +80,9 @@ export function enqueue(operation) {
 function forget(operation) {
   const place = waiting.indexOf(operation);
   if (place >= 0) waiting.splice(place, 1);
-  localStorage.removeItem(kPrefix + operation.id);
+  kept.delete(operation.id);
+  keys.get(operation.id)?.then(key => (key === null ? null : drop(key).catch(() => {})));
+  keys.delete(operation.id);
 }
 
 /**

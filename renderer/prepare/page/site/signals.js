@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Who wants to know of what. Signals: "tables", "adjusted", "light", "building", "todo", "history",
+// Who wants to know of what. Signals: "tables", "adjusted", "light", "building", "film", "todo", "history",
 // "saved", "connection", "run", "selection", "tool", "mode", "view"; "draw" in the next frame after any of
 // them; "frame" in each, also where only a view has moved.
 

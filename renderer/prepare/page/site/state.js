@@ -25,7 +25,10 @@ export const kKeys = {
   light: [],
   materials: ["name"],
   drafts: ["id"],
-  site: []
+  site: [],
+  film: [],
+  film_marks: ["mark"],
+  fiducials: ["photo", "mark"]
 };
 
 /**
@@ -80,6 +83,7 @@ export const state = {
   /** @type {any} */ adjusted: null,
   /** @type {any} */ light: null,
   /** @type {any} */ building: null,
+  /** @type {any} */ film: null,
   /** @type {{file?: string, line?: number, text: string}[]} */ faults: [],
   /** @type {{operation: any, conflicts: any[], error?: string}[]} */ refused: []
 };
@@ -203,6 +207,10 @@ const takers = {
     state.building = message;
     emit("building");
   },
+  film: message => {
+    state.film = message.photos ? message : null; // without photos: there is no film any more
+    emit("film");
+  },
   run: message => emit("run", message),
   fault: message => {
     state.faults = [...state.faults.slice(-20), message];
@@ -238,6 +246,7 @@ async function load() {
     light: site.light,
     adjusted: site.adjusted,
     building: site.building ?? state.building,
+    film: site.film ?? null,
     notSaved: site.not_saved ?? "",
     isLoaded: true
   });
@@ -249,7 +258,7 @@ async function load() {
 /** The first load; then the live connection, which loads again each time it comes back. */
 export async function start() {
   await load();
-  openOutbox(state.siteFolder, {
+  await openOutbox(state.siteFolder, {
     confirmed: (operation, revision) => {
       if (!seen.has(operation.id) && !(revision <= base)) applyEdits(confirmed, operation.edits);
       seen.add(operation.id);
@@ -319,7 +328,8 @@ function makeIndex() {
     return /** @type {any} */ (points.get(name));
   };
   for (const one of rows("control_points")) want(one.name, one.role === "check" ? "check" : "control");
-  for (const polygon of rows("polygons")) for (const name of polygon.vertices) want(name, "vertex");
+  for (const {vertices, holes} of rows("polygons"))
+    for (const name of [vertices, ...(holes ?? [])].flat()) want(name, "vertex");
   for (const one of rows("sun")) [one.object, one.shadow].forEach(name => want(name, "vertex"));
   for (const one of rows("zenith")) [one.bottom, one.top].forEach(name => want(name, "vertex"));
   for (const one of rows("observations")) want(one.point, "tie").marks.push(one);

@@ -19,10 +19,44 @@ import {adjustedMark, mark} from "./state.js";
  * @property {(photo: string) => [number, number][]} [outline] what is being drawn
  */
 
+/** @typedef {"control"|"polygons"|"sun"|"light"|"film"} Mode */
+
+/**
+ * What the keys and gestures do in a mode in which something else than points is placed.
+ * @typedef {object} Hands
+ * @property {(pane: any, x: number, y: number, isShift: boolean, isTouch: boolean) => void} click
+ * @property {(pane: any, isShift: boolean) => void} confirm
+ * @property {(pane: any, dx: number, dy: number) => void} nudge
+ * @property {() => void} remove
+ * @property {(by: number) => void} step
+ * @property {() => void} suspect the next worse
+ * @property {(pane: any) => void} refine
+ * @property {(name: string) => void} take a name typed
+ * @property {() => void} settle
+ * @property {() => void} cancel
+ * @property {() => string} current its name
+ * @property {() => string[]} names
+ * @property {(photo: string) => {x: number, y: number}|null} place of the current one
+ * @property {(pane: any, x: number, y: number) => boolean} isDraggable
+ * @property {(pane: any, at: {x: number, y: number}, isEnd: boolean) => void} drag
+ */
+/** @type {Partial<Record<Mode, Hands>>} */
+const handsOf = {};
+/** Those of the mode; none: points are placed, or a tool takes them. */
+export const hands = () => (ui.tool ? undefined : handsOf[ui.mode]);
+/**
+ * @param {Mode} mode
+ * @param {Hands} made
+ */
+export function addHands(mode, made) {
+  handsOf[mode] = made;
+}
+
 export const ui = {
-  /** @type {"control"|"polygons"|"sun"|"light"} */ mode: "control",
+  /** @type {Mode} */ mode: "control",
   /** @type {string|null} */ point: null,
   /** @type {string|null} */ polygon: null,
+  /** @type {string|null} */ fiducial: null,
   /** @type {any[]} */ panes: [],
   active: 0,
   /** @type {Tool|null} */ tool: null,
@@ -64,7 +98,7 @@ export function stepLines() {
   emit("view");
 }
 
-/** @param {"control"|"polygons"|"sun"|"light"} mode */
+/** @param {Mode} mode */
 export function setMode(mode) {
   if (ui.mode === mode) return;
   setTool(null);
@@ -92,6 +126,16 @@ export function setTool(tool) {
 export function placeOf(photo, point) {
   const one = mark(photo, point) ?? prediction(photo, point);
   return one ? {x: one.x, y: one.y} : null;
+}
+
+/**
+ * Where what is to be placed is on a photo, if that is known.
+ * @param {string} photo
+ */
+export function currentPlace(photo) {
+  const other = hands();
+  if (other) return other.place(photo);
+  return ui.point === null ? null : placeOf(photo, ui.point);
 }
 
 /**
@@ -124,7 +168,8 @@ export function choosePolygon(name) {
  * @param {string} point
  */
 export function photosOf(point) {
-  const isKnown = state.adjusted?.points?.[point] !== undefined;
+  const about = state.adjusted?.points?.[point];
+  const isKnown = about !== undefined && !about.plane; // which may not be the one it stands on
   return state.photos
     .map(photo => photo.name)
     .filter(
@@ -165,7 +210,7 @@ export function showPhoto(name) {
   if (shownIn >= 0) setActive(shownIn);
   else if (photoOf(name)) activePane().setPhoto(photoOf(name));
   live.send({focus: name});
-  if (ui.point !== null) activePane().goTo(ui.point, true);
+  activePane().toCurrent(true);
   activePane().focus();
   emit("selection");
 }

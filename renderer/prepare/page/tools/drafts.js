@@ -17,10 +17,11 @@ export const polygonDrafts = () =>
  * @param {string[]} vertices
  * @param {string|null} photo
  * @param {any} before the draft that was taken up again
+ * @param {Record<string, string>} [more] of it: hole_of
  */
-export function keepDraft(vertices, photo, before) {
+export function keepDraft(vertices, photo, before, more = {}) {
   if (vertices.length < 2 || isReadOnly("drafts")) return;
-  const after = {id: before?.id ?? newId(), kind: "polygon", vertices: [...vertices], photo};
+  const after = {id: before?.id ?? newId(), kind: "polygon", vertices: [...vertices], photo, ...more};
   edit(t("opDraft"), [{table: "drafts", before, after}]);
   say(t("draftKept"));
 }
@@ -35,7 +36,7 @@ let drawn = "";
  * @param {(draft: any) => void} goOn
  */
 export function showDrafts(root, goOn) {
-  const all = ui.tool?.name === "drawPolygon" ? [] : polygonDrafts(),
+  const all = /^draw/.test(ui.tool?.name ?? "") ? [] : polygonDrafts(),
     signature = JSON.stringify(all);
   if (drawn === signature && root.childElementCount === all.length) return;
   drawn = signature;
@@ -44,7 +45,7 @@ export function showDrafts(root, goOn) {
       node(
         "p",
         {class: "draft"},
-        node("span", {text: `${t("drafts")}: ${one.vertices.join(" ")}`}),
+        node("span", {text: `${t("drafts")}${one.hole_of ? ` (${one.hole_of})` : ""}: ${one.vertices.join(" ")}`}),
         button(t("goOn"), () => goOn(one), {class: "small"}),
         button(t("discard"), () => edit(t("opDiscard"), endDraft(one)), {class: "small"})
       )

@@ -15,6 +15,7 @@ import {t} from "../words/words.js";
  * @param {number} [what.count] of points after which it is done; none: Enter or the first point again ends it
  * @param {boolean} [what.isClosed] drawn as an outline
  * @param {boolean} [what.onlyKnown] no new points
+ * @param {() => string[]} [what.taken] points that cannot be picked
  * @param {(names: string[], photo: string|null) => void} what.done
  * @param {{names: string[], photo: string|null}} [what.begun] taken up again
  * @param {(names: string[], photo: string|null) => void} [what.cancelled]
@@ -39,8 +40,8 @@ export function pointTool(what) {
       (names.length > 0 ? ` (${names.join(", ")})` : ""),
     pickPoint: name => {
       if (!what.count && name === names[0] && names.length > 2) return end();
-      if (names[names.length - 1] === name || (!what.count && names.includes(name)))
-        return say(t("twice", {name}));
+      const isTaken = !what.count && (names.includes(name) || what.taken?.().includes(name));
+      if (names[names.length - 1] === name || isTaken) return say(t("twice", {name}));
       names.push(name);
       photo ??= ui.panes[ui.active]?.photo?.name ?? null;
       say(tool.hint());

@@ -3,16 +3,19 @@
 
 import {ask, getJson} from "../site/api.js";
 import {button, labelled, node, select, byId} from "../words/dom.js";
+import {addHoleKeys, drawHole, showHoles} from "./holes.js";
 import {endDraft, keepDraft, showDrafts} from "./drafts.js";
 import {addAction} from "../around/keys.js";
 import {edit, freeName, isReadOnly, nameFault, row, rows, state} from "../site/state.js";
 import {shown} from "../words/numbers.js";
 import {say} from "../around/notices.js";
+import {showRename} from "../points/renaming.js";
 import {screenColour} from "../light/light_report.js";
+import {pixelOf, ringsOf} from "./outlines.js";
 import {pointTool} from "./pickers.js";
 import {emit} from "../site/signals.js";
 import {activePane, placeOf, setMode, setTool, stepLines, ui} from "../site/ui.js";
-import {t} from "../words/words.js";
+import {said, t} from "../words/words.js";
 
 const current = () => (ui.polygon === null ? undefined : row("polygons", ui.polygon));
 const materials = () => [
@@ -53,7 +56,7 @@ export function drawPolygon(draft = null) {
   say(tool.hint());
 }
 // A window that closes leaves its tool: the outbox sends the draft when the page comes back.
-addEventListener("pagehide", () => ui.tool?.name === "drawPolygon" && setTool(null));
+addEventListener("pagehide", () => /^draw/.test(ui.tool?.name ?? "") && setTool(null));
 
 /** Inserts the polygon drawn; its photo is the one it was drawn on until a better one is asked for. */
 function finish(names, photo, draft) {
@@ -129,6 +132,13 @@ function takeMaterial(name) {
   emit("view");
 }
 
+/** Enter takes what was typed and goes back to the photo. */
+function enterLeaves(field) {
+  field.addEventListener("keydown", event => {
+    if (event.key === "Enter" && !event.isComposing) activePane()?.focus();
+  });
+}
+
 export function buildPolygonPanel(root) {
   const name = node("input", {
     id: "polygon-name",
@@ -137,6 +147,7 @@ export function buildPolygonPanel(root) {
     spellcheck: "false"
   });
   name.addEventListener("change", () => rename(name.value.trim()));
+  enterLeaves(name);
   const material = node("input", {
     id: "material",
     type: "text",
@@ -145,6 +156,7 @@ export function buildPolygonPanel(root) {
     spellcheck: "false"
   });
   material.addEventListener("change", () => takeMaterial(material.value.trim()));
+  enterLeaves(material);
   const then = action => async () => {
     await action();
     activePane().focus();
@@ -159,6 +171,10 @@ export function buildPolygonPanel(root) {
         then(() => drawPolygon()), {class: "main", title: "B"}
       ),
       button(t("bestImage"), then(bestPhoto), {title: "I"}),
+      button(
+        t("drawHole"),
+        then(() => drawHole()), {title: "Shift+B"}
+      ),
       button(
         t("flip"),
         then(() => change({vertices: [...(current()?.vertices ?? [])].reverse()}, "opFlip"))
@@ -179,6 +195,7 @@ export function buildPolygonPanel(root) {
       node("datalist", {id: "material-names"}),
       node("span", {id: "swatch"})
     ),
+    node("div", {id: "holes"}),
     node("p", {id: "polygon-about", class: "faint"})
   );
   drawn = "";
@@ -192,7 +209,7 @@ function showIn(id, text) {
 let drawn = "";
 export function updatePolygonPanel() {
   const goOn = draft => {
-    drawPolygon(draft);
+    (draft.hole_of ? drawHole : drawPolygon)(draft);
     activePane().focus();
   };
   if (byId("drafts")) showDrafts(byId("drafts"), goOn);
@@ -208,6 +225,7 @@ export function updatePolygonPanel() {
   if (drawn === signature || !byId("polygon-photo")) return;
   drawn = signature;
   showIn("polygon-name", polygon?.name ?? "");
+  showHoles(byId("holes"));
   byId("polygon-name").disabled = !polygon;
   byId("polygon-photo").replaceChildren(
     select(
@@ -235,7 +253,7 @@ export function updatePolygonPanel() {
             area: shown(about.area_m2, 2),
             off: shown(about.off_vertical_deg, 2)
           })
-        : (leftOut?.reason ?? ""));
+        : said(leftOut, "reason"));
 }
 
 /** @type {Map<string, string>} */
@@ -252,12 +270,11 @@ async function colourOf(material) {
   const diffuse = row("materials", material)?.diffuse;
   if (Array.isArray(diffuse) && diffuse.length === 3) return screenColour(diffuse);
   for (const polygon of rows("polygons").filter(one => one.material === material && one.photo)) {
-    const seen = polygon.vertices.map(name => placeOf(polygon.photo, name)).filter(at => at);
-    if (seen.length < polygon.vertices.length) continue;
-    const middle = axis => Math.round(seen.reduce((sum, at) => sum + at[axis], 0) / seen.length);
+    const at = pixelOf(polygon, polygon.photo);
+    if (!at) continue;
     const photo = state.photos.findIndex(one => one.name === polygon.photo);
     try {
-      const {encoded} = await getJson(`/api/value?photo=${photo}&x=${middle("x")}&y=${middle("y")}`);
+      const {encoded} = await getJson(`/api/value?photo=${photo}&x=${at.x}&y=${at.y}`);
       const scale = Math.max(...encoded) <= 1 ? 255 : 1;
       return `rgb(${encoded.map(value => Math.round(scale * value)).join()})`;
     } catch {
@@ -267,18 +284,26 @@ async function colourOf(material) {
   return "";
 }
 
-/** To the list of materials. */
-function toMaterial() {
-  const field = byId("material");
-  if (!field) return say(t("noPolygon"));
-  field.focus();
-  field.select();
+/** To a field of this panel. */
+function toField(id) {
+  setMode("polygons");
+  byId(id).focus();
+  byId(id).select();
+}
+
+/** To the name of the current polygon; where points are the matter, to the point's. */
+function toName() {
+  if (ui.mode !== "polygons") return showRename();
+  if (!current()) return say(t("noPolygon"));
+  toField("polygon-name");
 }
 
 export function addPolygonKeys() {
   addAction({id: "drawPolygon", key: "B", run: () => drawPolygon()});
   addAction({id: "bestImage", key: "I", run: bestPhoto});
-  addAction({id: "material", key: "T", run: toMaterial});
+  addAction({id: "material", key: "T", run: () => toField("material")});
+  addAction({id: "rename", key: "F2", run: toName});
+  addHoleKeys();
   addAction({
     id: "wireframe",
     key: "'",

@@ -3,6 +3,7 @@
 
 import {button, byId, node} from "../words/dom.js";
 import {confirm} from "../points/marking.js";
+import {buildFilmPanel, updateFilmPanel} from "../film/film_panel.js";
 import {on} from "../site/signals.js";
 import {buildMarkPanel, buildPointPanel} from "../points/point_panel.js";
 import {updatePointTable} from "../points/point_table.js";
@@ -17,7 +18,8 @@ const kParts = {
   control: [buildMarkPanel, updatePointTable],
   polygons: [buildPolygonPanel, updatePolygonPanel],
   sun: [buildDirectionPanel, updateDirectionPanel],
-  light: [buildLightPanel, updateLightPanel]
+  light: [buildLightPanel, updateLightPanel],
+  film: [buildFilmPanel, updateFilmPanel]
 };
 
 export function buildToolPanel() {

@@ -35,6 +35,10 @@ export const kKeyTexts = {
   key_goTo: ["go to x y", "gehe zu x y"],
   key_goToToo: ["go to x y", "gehe zu x y"],
   key_enlarge: ["this photo in the large pane", "dieses Foto ins grosse Feld"],
+  key_relight: [
+    "this photo as it is, without sun, in the sun alone",
+    "dieses Foto, wie es ist, ohne Sonne, nur Sonne"
+  ],
   key_layout: ["one, two, four photos", "ein, zwei, vier Fotos"],
   key_undo: ["undo", "zurücknehmen"],
   key_redo: ["redo", "wiederholen"],
@@ -46,6 +50,9 @@ export const kKeyTexts = {
   key_mode_sun: ["mode 3", "Arbeitsgang 3"],
   key_mode_light: ["mode 4", "Arbeitsgang 4"],
   key_drawPolygon: ["draw a polygon", "Polygon zeichnen"],
+  key_drawHole: ["draw a hole in it", "Loch darin zeichnen"],
+  key_removeHole: ["remove its hole at the crosshair", "sein Loch beim Fadenkreuz entfernen"],
+  key_rename: ["its name; or the point's", "sein Name; oder der des Punkts"],
   key_bestImage: ["its best image", "sein bestes Bild"],
   key_material: ["its material", "sein Material"],
   key_wireframe: ["lines as the mode needs, all, none", "Linien nach Arbeitsgang, alle, keine"],

@@ -42,6 +42,25 @@ export const kPanelTexts = {
   take: ["Take", "Nehmen"],
   switchOff: ["Off", "Aus"],
   switchOn: ["On", "Ein"],
+  onPlane: [
+    "one ray only: taken to stand on the plane of {polygon}",
+    "nur ein Strahl: als auf der Ebene von {polygon} angenommen"
+  ],
+  more: ["{n} more", "{n} weitere"],
+  fewer: ["fewer", "weniger"],
+  // Holes
+  drawHole: ["Draw hole", "Loch zeichnen"],
+  hole: ["Hole {n}", "Loch {n}"],
+  remove: ["Remove", "Entfernen"],
+  holeMade: ["Hole {n} of {name} is made.", "Loch {n} von {name} ist gemacht."],
+  holeRemoved: ["Hole {n} of {name} is removed.", "Loch {n} von {name} ist entfernt."],
+  noHole: ["{name} has no hole.", "{name} hat kein Loch."],
+  whichHole: [
+    "Several holes: crosshair into the one to be removed.",
+    "Mehrere Löcher: Fadenkreuz in das zu entfernende setzen."
+  ],
+  opHole: ["hole in {name}", "Loch in {name}"],
+  opDeleteHole: ["remove hole of {name}", "Loch von {name} entfernen"],
   // Drafts
   drafts: ["Unfinished", "Unfertig"],
   goOn: ["Go on", "Weiter"],
@@ -77,6 +96,16 @@ export const kPanelTexts = {
     "Nur für einen ersten Blick. EXIF nennt die Brennweite auf einige Prozent genau und nichts von der " +
       "Verzeichnung: Punkte können um Dezimeter falsch sein, und kein σ sagt es. Vor jeder ernsthaften " +
       "Messung eine Tafel fotografieren und kalibrieren."
+  ],
+  // Photos in another light
+  light_photo: ["as taken", "wie aufgenommen"],
+  light_none: ["without sun", "ohne Sonne"],
+  light_sun: ["sun alone", "nur Sonne"],
+  relitSoon: ["being made …", "wird gerechnet …"],
+  relitNot: ["cannot be made: {why}", "geht nicht: {why}"],
+  relitNote: [
+    "exposed × {times}; {percent} % lie on polygons, the rest is grey",
+    "belichtet × {times}; {percent} % liegen auf Polygonen, der Rest ist grau"
   ],
   stopped: ["stopped", "angehalten"],
   firstLook: ["For a first look", "Für einen ersten Blick"]

@@ -2,6 +2,7 @@
 // Every text of the page: English, German (Swiss). Control point = Passpunkt, check point =
 // Kontrollpunkt, mark = Bildmessung, tie point = Verknüpfungspunkt, residual = Verbesserung.
 
+import {kFilmTexts} from "./film_texts.js";
 import {kKeyTexts} from "./key_texts.js";
 import {kPanelTexts} from "./panel_texts.js";
 
@@ -102,6 +103,7 @@ export const kTexts = {
   doubt: ["Dubious", "Zweifelhaft"],
   // State
   saved: ["saved", "gesichert"],
+  kept: ["kept here, saving …", "hier behalten, wird gesichert …"],
   saving: ["saving …", "wird gesichert …"],
   notSaved: ["NOT SAVED", "NICHT GESICHERT"],
   savedNote: ["The survey files hold revision {revision}.", "Die Dateien enthalten Stand {revision}."],
@@ -156,6 +158,14 @@ export const kTexts = {
   serverGone: [
     "The server does not answer. {n} changes wait here and will be sent again.",
     "Der Server antwortet nicht. {n} Änderungen warten hier und werden wieder gesendet."
+  ],
+  keptAll: [
+    "They are kept here, also if the browser ends.",
+    "Sie bleiben hier, auch wenn der Browser endet."
+  ],
+  keptSome: [
+    "{n} of them are kept here; the others are lost if the browser ends.",
+    "{n} davon bleiben hier; die anderen sind verloren, wenn der Browser endet."
   ],
   notSavedBecause: ["Not saved: {why}", "Nicht gesichert: {why}"],
   cannotLoad: ["The site cannot be loaded: {why}", "Das Projekt lässt sich nicht laden: {why}"],
@@ -293,8 +303,11 @@ export const kTexts = {
     "Tabelle aus einer Tabellenkalkulation oder Datei einfügen"
   ],
   importFound: [
-    "{n} points ({format}); {taken} of these names are there and would be changed.",
-    "{n} Punkte ({format}); {taken} dieser Namen gibt es und würden geändert."
+    "{n} points ({format}).", "{n} Punkte ({format})."
+  ],
+  importTaken: [
+    "{taken} of these names are there already and would be changed.",
+    "{taken} dieser Namen gibt es schon; sie würden geändert."
   ],
   imported: ["{n} points taken over.", "{n} Punkte übernommen."],
   helpNote: [
@@ -343,5 +356,6 @@ export const kTexts = {
   stage_render: ["render", "rechnen"],
   stage_montage: ["montage", "Montage"],
   ...kPanelTexts,
-  ...kKeyTexts
+  ...kKeyTexts,
+  ...kFilmTexts
 };

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The page's language and its texts; {name} stands for a value.
 
+import {kServerTexts} from "./server_texts.js";
 import {kTexts} from "./texts.js";
 
 /** @type {[string, string][]} */
@@ -29,8 +30,29 @@ export const raysText = n => t(n === 1 ? "oneRay" : "rays", {n});
  */
 export function t(key, values = {}) {
   const texts = kTexts[key];
-  if (!texts) return key;
-  return texts[language === "de" ? 1 : 0].replace(/\{(\w+)\}/g, (whole, name) =>
-    values[name] === undefined ? whole : String(values[name])
-  );
+  return texts ? filled(texts[language === "de" ? 1 : 0], values) : key;
+}
+
+/** Without the folders before the site's own. */
+export const nearPlace = text => text.replace(/\S*?(?=survey\/)/, "");
+
+const filled = (text, values) =>
+  text.replace(/\{(\w+)\}/g, (whole, name) => (values[name] === undefined ? whole : String(values[name])));
+
+/**
+ * What the server says in a member of a message, in the page's language: `member`_said holds the
+ * sentence's key and values, which may be sentences. A text without a key is English.
+ * @param {any} message
+ * @param {string} member
+ * @returns {string}
+ */
+export function said(message, member = "text") {
+  const sentence = message?.[`${member}_said`],
+    german = language === "de" && kServerTexts[sentence?.key];
+  if (!german) return message?.[member] ?? "";
+  const values = Object.entries(sentence.values ?? {}).map(([name, value]) => [
+    name,
+    typeof value === "object" ? said(value) : value
+  ]);
+  return filled(german, Object.fromEntries(values));
 }

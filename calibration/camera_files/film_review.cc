@@ -1,0 +1,312 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "calibration/camera_files/film_review.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <utility>
+
+#include "calibration/files/wording.h"
+
+namespace insitu {
+namespace {
+
+using Marks = std::vector<Fiducial>;
+using Certified = std::map<std::string, Eigen::Vector2d>;
+
+constexpr double kUnchecked = 0.01;      // redundancy below which a residual says nothing
+constexpr double kShrinks = 0.005;       // film and scanners, of a length, at most
+constexpr double kFits_px = 1;           // sigma of marks that fit
+constexpr double kBad_w = 3.29;          // one good mark in a thousand gets there
+constexpr double kSamePlace_px = 2;      // two marks cannot stand nearer
+constexpr double kExplains = 5;          // by which an explanation must bring sigma down
+constexpr double kSameMark_mm = 1;       // a mark seen there is the one of the certificate
+constexpr size_t kMostExplanations = 3;  // told
+
+Eigen::Vector2d At(const Eigen::Matrix3d& map, const Eigen::Vector2d& point) {
+  return (map * point.homogeneous()).hnormalized();
+}
+
+bool IsMirrored(const Eigen::Matrix3d& bitmap_from_image) {
+  return bitmap_from_image.topLeftCorner<2, 2>().determinant() > 0;  // y up to y down
+}
+
+double LargestResidual(const FilmMap& map) {
+  double largest = 0;
+  for (const auto& residual : map.residuals_px) largest = std::max(largest, residual.norm());
+  return largest;
+}
+
+// Turn, scale and shift, y turned over: with p = x - i y (of the image), q = x + i y (of the
+// bitmap), q = a p + b.
+std::optional<Eigen::Matrix3d> FitSimilarity(const Marks& marks) {
+  using Complex = std::complex<double>;
+  if (marks.size() < 2) return std::nullopt;
+  const double count = static_cast<double>(marks.size());
+  Complex center_p = 0, center_q = 0, product = 0;
+  double spread = 0;
+  const auto p = [](const Fiducial& mark) {
+    return Complex(mark.image_mm.x(), -mark.image_mm.y());
+  };
+  const auto q = [](const Fiducial& mark) {
+    return Complex(mark.bitmap_px.x(), mark.bitmap_px.y());
+  };
+  for (const Fiducial& mark : marks) {
+    center_p += p(mark) / count;
+    center_q += q(mark) / count;
+  }
+  for (const Fiducial& mark : marks) {
+    product += std::conj(p(mark) - center_p) * (q(mark) - center_q);
+    spread += std::norm(p(mark) - center_p);
+  }
+  const Complex a = product / spread, b = center_q - a * center_p;
+  if (!std::isfinite(std::abs(a)) || std::abs(a) == 0) return std::nullopt;
+  Eigen::Matrix3d map;
+  map << a.real(), a.imag(), b.real(), a.imag(), -a.real(), b.imag(), 0, 0, 1;
+  return map;
+}
+
+// ---- one scan's marks, looked at ---------------------------------------------------------------
+
+class Reviewer {
+ public:
+  Reviewer(const Marks& marks, const Certified& certified, FilmTransformation transformation,
+           const Eigen::Vector2i& size)
+      : marks_(marks),
+        certified_(certified),
+        transformation_(transformation),
+        limit_px_(kShrinks * size.cast<double>().norm()) {}
+
+  ScanReview Review() {
+    const int elements = transformation_ == FilmTransformation::kAffine ? 6 : 8;
+    review_.needed = elements / 2;
+    review_.map = FitFilmMap(marks_, transformation_);
+    SamePlaces();
+    Predict();
+    if (!review_.map) {
+      if (static_cast<int>(marks_.size()) >= review_.needed) {
+        Suspect("the marks lie on one line: place one away from it");
+      }
+      return std::move(review_);
+    }
+    review_.redundancy = static_cast<int>(2 * marks_.size()) - elements;
+    Describe();
+    ReviewMarks();
+    const bool is_mistaken = !review_.suspicions.empty();
+    review_.is_usable = Explain() && !is_mistaken;
+    return std::move(review_);
+  }
+
+ private:
+  void Suspect(const std::string& text) { review_.suspicions.push_back(text); }
+
+  void SamePlaces() {
+    for (size_t i = 0; i < marks_.size(); ++i) {
+      for (size_t j = 0; j < i; ++j) {
+        if ((marks_[i].bitmap_px - marks_[j].bitmap_px).norm() > kSamePlace_px) continue;
+        Suspect("marks " + marks_[j].mark + " and " + marks_[i].mark +
+                " stand at the same place: one of them belongs elsewhere");
+      }
+    }
+  }
+
+  bool IsPlaced(const std::string& name) const {
+    return std::any_of(marks_.begin(), marks_.end(),
+                       [&](const Fiducial& mark) { return mark.mark == name; });
+  }
+
+  void Predict() {
+    const auto similarity = FitSimilarity(marks_);
+    if (!review_.map && !similarity) return;
+    const Eigen::Matrix3d map = review_.map ? review_.map->bitmap_from_image : *similarity;
+    for (const auto& [name, image_mm] : certified_) {
+      if (!IsPlaced(name)) review_.predicted[name] = At(map, image_mm);
+    }
+  }
+
+  void Describe() {
+    const Eigen::Matrix2d linear = review_.map->bitmap_from_image.topLeftCorner<2, 2>();
+    review_.px_per_mm = std::sqrt(std::abs(linear.determinant()));
+    review_.turn_deg = -std::atan2(linear(1, 0), linear(0, 0)) * 180 / M_PI;  // bitmap's y is down
+  }
+
+  void ReviewMarks() {
+    const FilmMap& map = *review_.map;
+    const Eigen::Matrix3d image_from_bitmap = map.bitmap_from_image.inverse();
+    for (size_t i = 0; i < marks_.size(); ++i) {
+      const Eigen::Vector2d measured = At(image_from_bitmap, marks_[i].bitmap_px);
+      FiducialReview mark{.mark = marks_[i].mark,
+                          .residual_px = map.residuals_px[i],
+                          .residual_mm = marks_[i].image_mm - measured,
+                          .redundancy = map.redundancies[i].minCoeff()};
+      if (review_.redundancy > 0 && mark.redundancy > kUnchecked) {
+        const Eigen::Array2d sigma = kFiducialSigma_px * map.redundancies[i].array().sqrt();
+        mark.w = (map.residuals_px[i].array().abs() / sigma).maxCoeff();
+      }
+      if (const auto others = FitFilmMap(Without(i), transformation_)) {
+        mark.off_px =
+            (At(others->bitmap_from_image, marks_[i].image_mm) - marks_[i].bitmap_px).norm();
+      }
+      review_.marks.push_back(mark);
+    }
+    std::stable_sort(review_.marks.begin(), review_.marks.end(),
+                     [](const FiducialReview& a, const FiducialReview& b) {
+                       return a.w.value_or(0) > b.w.value_or(0);
+                     });
+  }
+
+  Marks Without(size_t i) const {
+    Marks others = marks_;
+    others.erase(others.begin() + static_cast<std::ptrdiff_t>(i));
+    return others;
+  }
+
+  // ---- what may have been mixed up ----
+
+  // False: a mistake is found.
+  bool Explain() {
+    if (!review_.map->sigma_px || !IsMisfit()) return !SuspectMirrored() && HasShapeOfScan();
+    Exchanged();
+    WrongMark();
+    WrongMillimetres();
+    if (explained_.empty()) LeftOut();
+    if (explained_.empty()) return !SuspectMirrored() && FitsUnexplained();
+    TellExplanations();
+    return false;
+  }
+
+  bool SuspectMirrored() {
+    if (!IsMirrored(review_.map->bitmap_from_image)) return false;
+    Suspect(
+        "the scan is mirrored against its marks: x and y of the certificate exchanged, y counted "
+        "down, two opposite marks exchanged, or the film scanned from its back");
+    return true;
+  }
+
+  bool IsMisfit() const {
+    return *review_.map->sigma_px > kFits_px ||
+           std::any_of(review_.marks.begin(), review_.marks.end(),
+                       [](const FiducialReview& mark) { return mark.w.value_or(0) > kBad_w; });
+  }
+
+  // Without redundancy a wrong mark still shows as a scan that is stretched or sheared.
+  bool HasShapeOfScan() {
+    const Eigen::Matrix2d linear = review_.map->bitmap_from_image.topLeftCorner<2, 2>();
+    const Eigen::Vector2d scales = Eigen::JacobiSVD<Eigen::Matrix2d>(linear).singularValues();
+    const double stretch = scales[0] / scales[1] - 1;
+    if (stretch < 2 * kShrinks) return true;
+    Suspect(
+        Formatted("the scan would be stretched by %.1f %% or sheared, which scanners do not do: "
+                  "a mark stands on the wrong fiducial, or x or y of one is wrong",
+                  100 * stretch));
+    return false;
+  }
+
+  // Takes an explanation if with it the marks fit far better, as a scan from the front does.
+  void Try(const Marks& marks, const std::string& text) {
+    const auto map = FitFilmMap(marks, transformation_);
+    if (!map || !map->sigma_px || IsMirrored(map->bitmap_from_image)) return;
+    if (*map->sigma_px > *review_.map->sigma_px / kExplains || LargestResidual(*map) > limit_px_) {
+      return;
+    }
+    explained_.emplace_back(*map->sigma_px, text);
+  }
+
+  void Exchanged() {
+    for (size_t i = 0; i < marks_.size(); ++i) {
+      for (size_t j = 0; j < i; ++j) {
+        Marks marks = marks_;
+        std::swap(marks[i].bitmap_px, marks[j].bitmap_px);
+        Try(marks, "marks " + marks_[j].mark + " and " + marks_[i].mark + " are exchanged");
+      }
+    }
+  }
+
+  // One that stands where a mark not placed yet must be.
+  void WrongMark() {
+    for (const auto& [name, image_mm] : certified_) {
+      const bool is_placed = IsPlaced(name);
+      for (size_t i = 0; !is_placed && i < marks_.size(); ++i) {
+        Marks marks = marks_;
+        marks[i].image_mm = image_mm;
+        Try(marks, "mark " + marks_[i].mark + " stands on mark " + name);
+      }
+    }
+  }
+
+  void WrongMillimetres() {
+    for (size_t i = 0; i < marks_.size(); ++i) {
+      const Eigen::Vector2d& given = marks_[i].image_mm;
+      const std::string whose = " of mark " + marks_[i].mark + " in the certificate";
+      for (const auto& [image_mm, text] :
+           {std::pair(Eigen::Vector2d(given.y(), given.x()), "x and y are exchanged"),
+            std::pair(Eigen::Vector2d(-given.x(), given.y()), "x has the wrong sign"),
+            std::pair(Eigen::Vector2d(given.x(), -given.y()), "y has the wrong sign")}) {
+        if ((image_mm - given).norm() < kSameMark_mm) continue;
+        Marks marks = marks_;
+        marks[i].image_mm = image_mm;
+        Try(marks, text + whose);
+      }
+    }
+  }
+
+  void LeftOut() {
+    for (size_t i = 0; i < marks_.size(); ++i) {
+      const auto others = FitFilmMap(Without(i), transformation_);
+      if (!others) continue;
+      const double off =
+          (At(others->bitmap_from_image, marks_[i].image_mm) - marks_[i].bitmap_px).norm();
+      Try(Without(i), "mark " + marks_[i].mark +
+                          Formatted(" lies %.1f px (%.2f mm) from where the others put it", off,
+                                    off / review_.px_per_mm));
+    }
+  }
+
+  // Whether insitu-calibrate takes them.
+  bool FitsUnexplained() {
+    const FilmMap& map = *review_.map;
+    if (LargestResidual(map) > limit_px_) {
+      const bool is_too_few = review_.redundancy < 3;
+      Suspect(Formatted("the marks do not fit, off by up to %.1f px: ", LargestResidual(map)) +
+              (is_too_few ? "with so few marks it cannot be told which is wrong; place more"
+                          : "several are wrong; begin with the worst"));
+      return false;
+    }
+    if (*map.sigma_px > kFits_px) {
+      Suspect(
+          Formatted("the marks fit to %.2f px only: measure them again; of old or buckled "
+                    "film try projective",
+                    *map.sigma_px));
+    }
+    return true;
+  }
+
+  void TellExplanations() {
+    std::sort(explained_.begin(), explained_.end());
+    const double alike = 2 * std::max(explained_.front().first, kFiducialSigma_px);
+    std::erase_if(explained_, [&](const auto& each) { return each.first > alike; });
+    if (explained_.size() > kMostExplanations) explained_.resize(kMostExplanations);
+    std::string text;
+    for (const auto& each : explained_) text += (text.empty() ? "" : ", or ") + each.second;
+    Suspect(text + Formatted(": without that they fit to %.2f px instead of %.2f px",
+                             explained_.front().first, *review_.map->sigma_px));
+  }
+
+  const Marks& marks_;
+  const Certified& certified_;
+  const FilmTransformation transformation_;
+  const double limit_px_;
+  std::vector<std::pair<double, std::string>> explained_;  // sigma [px] with it, for people
+  ScanReview review_;
+};
+
+}  // namespace
+
+ScanReview ReviewScan(const std::vector<Fiducial>& marks,
+                      const std::map<std::string, Eigen::Vector2d>& certified,
+                      FilmTransformation transformation, const Eigen::Vector2i& size) {
+  return Reviewer(marks, certified, transformation, size).Review();
+}
+
+}  // namespace insitu

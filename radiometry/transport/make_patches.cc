@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "radiometry/transport/make_patches.h"
+
+#include <Eigen/Geometry>
+#include <array>
+#include <functional>
+#include <limits>
+
+namespace insitu {
+namespace {
+
+constexpr int kMostPoints = 16;  // of a piece that are looked at
+
+using Corners = std::array<Eigen::Vector3d, 3>;
+
+// Calls visit(centroid, area) for parts of a triangle whose edges are at most half a voxel long.
+void ForParts(const PatchGrid& grid, const Corners& corners,
+              const std::function<void(const Eigen::Vector3d&, double)>& visit) {
+  int longest = 0;
+  double length = 0;
+  for (int i = 0; i < 3; ++i) {
+    const double edge = (corners[(i + 1) % 3] - corners[i]).norm();
+    if (edge <= length) continue;
+    length = edge;
+    longest = i;
+  }
+  const Eigen::Vector3d centroid = (corners[0] + corners[1] + corners[2]) / 3;
+  if (length <= grid.SizeAt(centroid) / 2) {
+    visit(centroid, (corners[1] - corners[0]).cross(corners[2] - corners[0]).norm() / 2);
+    return;
+  }
+  const Eigen::Vector3d middle = (corners[longest] + corners[(longest + 1) % 3]) / 2;
+  for (int end : {longest, (longest + 1) % 3}) {
+    Corners half = corners;
+    half[end] = middle;
+    ForParts(grid, half, visit);
+  }
+}
+
+Corners CornersOf(const TriangleMesh& mesh, size_t triangle) {
+  Corners corners;
+  for (int i = 0; i < 3; ++i) {
+    corners[i] = mesh.vertices[mesh.triangles[triangle][i]].cast<double>();
+  }
+  return corners;
+}
+
+// A square that holds all of the plane that counts.
+std::array<Corners, 2> HalvesOf(const GroundPlane& ground, const SceneGeometry& scene) {
+  const Eigen::Vector3d& normal = scene.polygons[ground.polygon].normal;
+  const Eigen::Vector3d u = ground.reach * normal.unitOrthogonal();
+  const Eigen::Vector3d v = normal.cross(u);
+  const Eigen::Vector3d& c = ground.center;
+  return {Corners{c - u - v, c + u - v, c + u + v}, Corners{c - u - v, c + u + v, c - u + v}};
+}
+
+// Sums while points come in, then means.
+struct Sums {
+  int points = 0, seen = 0;
+  bool is_open = false;  // points outside the planned building alone
+  double off_center = std::numeric_limits<double>::infinity();  // of the best point so far [m]
+};
+
+class PatchMaker {
+ public:
+  PatchMaker(const PhotographedSite& site, const PlannedFaces& planned, const Daylight& light,
+             const PatchGrid& grid)
+      : site_(site), planned_(planned), light_(light), patches_(grid) {}
+
+  // `face` is `polygon`, or one after them that lies in its plane.
+  void AddPolygonPart(int face, int polygon, bool is_back, const Eigen::Vector3d& position,
+                      double area) {
+    const Eigen::Vector3d& normal = site_.scene.polygons[polygon].normal;
+    const SurfacePoint point = {position, is_back ? Eigen::Vector3d(-normal) : normal};
+    const int index = patches_.AddOfPolygon(face, is_back, position);
+    patches_.all()[index].polygon = polygon;
+    patches_.all()[index].is_beyond = face != polygon;
+    if (!AddPoint(index, point, area)) return;
+    if (const auto color = LookUpColor(site_, polygon, point)) {
+      patches_.all()[index].photographed += color->true_color;
+      ++sums_[index].seen;
+    }
+  }
+
+  void AddPlannedPart(const SurfacePoint& point, double area) {
+    AddPoint(patches_.AddPlanned(point.normal, point.position), point, area);
+  }
+
+  Patches Finish() {
+    for (size_t i = 0; i < sums_.size(); ++i) {
+      Patch& patch = patches_.all()[i];
+      const Sums& sums = sums_[i];
+      patch.sun_before /= sums.points;
+      patch.sun_after /= sums.points;
+      patch.is_seen = sums.seen > 0;
+      if (patch.is_seen) patch.photographed /= sums.seen;
+    }
+    return std::move(patches_);
+  }
+
+ private:
+  // False if the piece needs no more points. One that is partly within the planned building is
+  // seen where it is not: points in the open stand for it.
+  bool AddPoint(int index, const SurfacePoint& point, double area) {
+    sums_.resize(patches_.all().size());
+    Patch& patch = patches_.all()[index];
+    Sums& sums = sums_[index];
+    patch.area += area;
+    const double off_center = patches_.grid().OffCenter(point.position);
+    const bool is_full = sums.is_open && sums.points >= kMostPoints;
+    if (is_full && off_center >= sums.off_center) return false;
+    const bool is_open = !IsWithinPlanned(point);
+    if (sums.is_open && !is_open) return false;
+    if (is_open && !sums.is_open) {
+      sums = {.seen = sums.seen, .is_open = true};
+      patch.sun_before = patch.sun_after = 0;
+    }
+    if (off_center < sums.off_center) {
+      sums.off_center = off_center;
+      patch.point = point;
+    }
+    if (sums.points >= kMostPoints) return false;
+    ++sums.points;
+    AddSun(point, &patch);
+    return true;
+  }
+
+  bool IsWithinPlanned(const SurfacePoint& point) const {
+    const Ray ray = {point.position + kSurveyClearance * point.normal, point.normal};
+    const auto hit = planned_.rays.Nearest(ray);
+    return hit && planned_.normals[hit->triangle].dot(ray.direction) > 0;
+  }
+
+  void AddSun(const SurfacePoint& point, Patch* patch) const {
+    const double cosine = point.normal.dot(light_.sun_direction);
+    if (cosine <= 0 || light_.zenith_direction.dot(light_.sun_direction) <= 0) return;
+    const Ray ray = {point.position + kSurveyClearance * point.normal, light_.sun_direction};
+    if (site_.rays.IsOccluded(ray)) return;
+    const double sun = cosine * light_.sun_solid_angle;
+    patch->sun_before += sun;
+    if (!planned_.rays.IsOccluded(ray)) patch->sun_after += sun;
+  }
+
+  const PhotographedSite& site_;
+  const PlannedFaces& planned_;
+  const Daylight& light_;
+  Patches patches_;
+  std::vector<Sums> sums_;
+};
+
+}  // namespace
+
+Patches MakePatches(const PhotographedSite& site, const TriangleMesh& natural,
+                    const PlannedFaces& planned, const std::optional<GroundPlane>& ground,
+                    const Daylight& light, const PatchGrid& grid) {
+  PatchMaker maker(site, planned, light, grid);
+  for (size_t t = 0; t < natural.triangles.size(); ++t) {
+    const int polygon = site.polygon_of_triangle[t];
+    ForParts(grid, CornersOf(natural, t), [&](const Eigen::Vector3d& position, double area) {
+      for (bool is_back : {false, true}) {
+        maker.AddPolygonPart(polygon, polygon, is_back, position, area);
+      }
+    });
+  }
+  if (ground) {
+    const int beyond = static_cast<int>(site.scene.polygons.size());
+    for (const Corners& half : HalvesOf(*ground, site.scene)) {
+      ForParts(grid, half, [&](const Eigen::Vector3d& position, double area) {
+        maker.AddPolygonPart(beyond, ground->polygon, false, position, area);
+      });
+    }
+  }
+  for (size_t t = 0; t < planned.mesh.triangles.size(); ++t) {
+    const Eigen::Vector3d& normal = planned.normals[t];
+    ForParts(grid, CornersOf(planned.mesh, t), [&](const Eigen::Vector3d& position, double area) {
+      maker.AddPlannedPart({position, normal}, area);
+      maker.AddPlannedPart({position, -normal}, area);
+    });
+  }
+  return maker.Finish();
+}
+
+}  // namespace insitu

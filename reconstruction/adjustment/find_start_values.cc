@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "reconstruction/adjustment/find_start_values.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "reconstruction/adjustment/start_growth.h"
+
+namespace insitu {
+namespace {
+
+// Grows the start values of a survey that must be whole: tells what it lacks.
+class StartFinder {
+ public:
+  StartFinder(const Survey& survey, const std::vector<std::string>& photos,
+              const std::vector<Camera>& cameras,
+              const std::map<std::string, Rigid3>& initial_cam_from_world)
+      : survey_(survey), growth_(survey, photos, cameras, initial_cam_from_world) {
+    std::map<std::string, const Camera*> camera_of;
+    for (size_t i = 0; i < photos.size(); ++i) camera_of[photos[i]] = &cameras[i];
+    for (const ImageObservation& mark : survey.observations) {
+      RequireOnPhotograph("point '" + mark.point + "'", mark.photo, *camera_of.at(mark.photo),
+                          mark.pixel, mark.place);
+    }
+    for (const EdgeMark& mark : survey.edges) {
+      RequireOnPhotograph("edge '" + mark.from + "' to '" + mark.to + "'", mark.photo,
+                          *camera_of.at(mark.photo), mark.pixel, mark.place);
+    }
+  }
+
+  StartValues Find() {
+    growth_.TakeControl();
+    if (survey_.tie_points) growth_.PlaceByTiePoints();
+    std::vector<size_t> ambiguous, waiting;
+    for (size_t photo = 0; photo < growth_.values().cameras.size(); ++photo) {
+      if (growth_.IsPosed(photo)) continue;
+      if (survey_.tie_points && !growth_.CanResect(photo)) {
+        waiting.push_back(photo);
+      } else if (ResectFromControl(photo)) {
+        ambiguous.push_back(photo);
+      } else {
+        growth_.SetPosed(photo);
+      }
+    }
+    growth_.FindPoints();
+    for (const size_t photo : ambiguous) ResectAgain(photo);
+    growth_.FindPoints();
+    ResectWaiting(std::move(waiting));
+    RequireAllFound();
+    if (survey_.tie_points) growth_.TakeTiePoints();
+    return std::move(growth_.values());
+  }
+
+ private:
+  static void RequireOnPhotograph(const std::string& what, const std::string& photo,
+                                  const Camera& camera, const Eigen::Vector2d& pixel,
+                                  const FilePlace& place) {
+    if (camera.Sees(pixel)) return;
+    throw InputError(place.path, place.line,
+                     what + " is marked outside photo '" + photo +
+                         "', expected a position within " + std::to_string(camera.width()) + "x" +
+                         std::to_string(camera.height()) + " pixels");
+  }
+
+  const std::string& NameOf(size_t photo) { return growth_.values().cameras[photo].photo; }
+
+  // Photos that image matching left out and that show too little control: from points that others
+  // determine, as long as that helps.
+  void ResectWaiting(std::vector<size_t> waiting) {
+    while (!waiting.empty()) {
+      const auto next = std::find_if(waiting.begin(), waiting.end(),
+                                     [&](size_t photo) { return growth_.CanResect(photo); });
+      const size_t photo = next == waiting.end() ? waiting.front() : *next;
+      if (ResectFromControl(photo)) ResectAgain(photo);  // throws if it still shows too little
+      growth_.SetPosed(photo);
+      std::erase(waiting, photo);
+      growth_.FindPoints();
+    }
+  }
+
+  // Returns whether three points left several poses to choose from.
+  bool ResectFromControl(size_t photo) {
+    const std::string& name = NameOf(photo);
+    const auto [points, first_known, first] = growth_.MarksOf(photo);
+    if (points.size() < 3) {
+      const FilePlace place = first ? first->place : FileOfObservations(survey_);
+      throw InputError(place.path, place.line,
+                       "photo '" + name + "' shows " + std::to_string(points.size()) +
+                           " control points, expected at least three (check points do not "
+                           "count); mark more, or let insitu-tie-points connect it to photos that "
+                           "show them");
+    }
+    std::vector<Eigen::Vector3d> positions;
+    for (const ResectionPoint& point : points) positions.push_back(point.world);
+    if (AreCollinear(positions)) {
+      throw InputError(first_known->place.path, first_known->place.line,
+                       "the " + std::to_string(points.size()) + " control points on photo '" +
+                           name + "' lie on one line, expected one well beside it");
+    }
+    return Resect(photo, points, first_known->place).ambiguous;
+  }
+
+  void ResectAgain(size_t photo) {
+    const StartGrowth::PhotoMarks marks = growth_.MarksOf(photo);
+    if (Resect(photo, marks.known, marks.first_known->place).ambiguous) {
+      growth_.values().warnings.push_back(
+          "photo '" + NameOf(photo) +
+          "' fits its three control points from several places; the most "
+          "upright was taken: mark a fourth or give an estimate");
+    }
+    growth_.SetPosed(photo);
+  }
+
+  ResectionResult Resect(size_t photo, const std::vector<ResectionPoint>& points,
+                         const FilePlace& place) {
+    const auto resection = growth_.Resect(photo, points);
+    if (resection) return *resection;
+    throw InputError(place.path, place.line,
+                     "photo '" + NameOf(photo) + "' cannot be resected from its " +
+                         std::to_string(points.size()) +
+                         " control points, expected marks that one camera position explains");
+  }
+
+  void RequireAllFound() const {
+    if (growth_.unknown().empty()) return;
+    const std::string& name = *growth_.unknown().begin();
+    const size_t rays = growth_.Rays(name);
+    const FilePlace place = PlaceOfPoint(survey_, name);
+    throw InputError(place.path, place.line,
+                     "point '" + name + "' is marked on " + std::to_string(rays) +
+                         (rays == 1 ? " photo" : " photos") +
+                         " and cannot be determined; expected marks on two photos from different "
+                         "places, or one mark and a polygon with three other known vertices, or "
+                         "its coordinates as a control point");
+  }
+
+  const Survey& survey_;
+  StartGrowth growth_;
+};
+
+}  // namespace
+
+StartValues FindStartValues(const Survey& survey, const std::vector<std::string>& photos,
+                            const std::vector<Camera>& cameras,
+                            const std::map<std::string, Rigid3>& initial_cam_from_world) {
+  INSITU_CHECK(photos.size() == cameras.size());
+  return StartFinder(survey, photos, cameras, initial_cam_from_world).Find();
+}
+
+}  // namespace insitu

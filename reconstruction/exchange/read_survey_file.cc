@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "reconstruction/exchange/read_survey_file.h"
+
+#include "reconstruction/exchange/survey_file_formats.h"
+
+namespace insitu {
+namespace {
+
+SurveyFile ReadXml(const std::filesystem::path& path) {
+  const XmlNode root = XmlNode::Load(path);
+  if (root.Attribute("dbat_script_version")) return ReadDbatSurvey(path);
+  if (root.Name() == "document") return ReadMetashapeXml(root);
+  return ReadMicMacXml(root);
+}
+
+SurveyFile ReadText(const SurveyText& text) {
+  if (text.rows.empty()) throw InputError(text.path, "is empty");
+  if (IsOdmList(text)) return ReadOdmList(text);
+  if (IsHeaderTable(text)) return ReadHeaderTable(text);
+  if (IsAicon(text)) return ReadAicon(text);
+  if (IsMarkList(text)) return ReadMarkList(text);
+  if (IsPointList(text)) return ReadPointList(text);
+  throw text.rows[0].Error(
+      "is of no format that we know, expected for example a coordinate system and lines \"X Y Z px "
+      "py image name\" (OpenDroneMap), a header \"name,x,y,z\", lines \"name X Y Z\", lines "
+      "\"image,point,x,y\" (Pix4D), XML of Metashape, MicMac or DBAT, JSON of OpenSfM");
+}
+
+}  // namespace
+
+SurveyFile ReadSurveyFile(const std::filesystem::path& path, const PhotoSize& photo_size) {
+  const std::string content = ReadTextFile(path);
+  const std::string_view start = TrimmedView(content);
+  SurveyFile file;
+  if (start.starts_with("<")) {
+    file = ReadXml(path);
+  } else if (start.starts_with("{")) {
+    file = ReadOpenSfmJson(path, photo_size);
+  } else {
+    file = ReadText({path, content, SplitTextRows(path, content, WordSeparator::kGuess)});
+  }
+  file.path = path;
+  if (file.points.empty() && file.marks.empty() && file.centers.empty()) {
+    throw InputError(path, "holds neither points nor marks (read as " + file.format + ")");
+  }
+  return file;
+}
+
+}  // namespace insitu

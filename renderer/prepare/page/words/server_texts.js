@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What the server says, in German (Swiss), by the keys of its sentences (calibration/files/sentence.h);
+// the English stands in the server. scripts/check_pages compares keys and {values}.
+
+import {kDiagnosisTexts} from "./diagnosis_texts.js";
+
+/** @type {Record<string, string>} */
+export const kServerTexts = {
+  ...kDiagnosisTexts,
+  atPlace: "{place}: {message}",
+  named: "{name}: {reason}",
+  nameHorizon: "Horizont",
+  nameHaze: "Dunst",
+  nameDaylight: "Tageslicht",
+  // To do, and why
+  doMontage: "die Montage rechnen",
+  whyMontage: "was sie braucht, ist da",
+  whyFile: "die Datei macht nicht mit, bis das behoben ist",
+  whyFailed: "vorher lässt sich nichts ausgleichen",
+  whyDiagnosis: "in den Messungen gefunden",
+  doCalibrate: "die Kamera kalibrieren",
+  doLens:
+    "Aufnahmen einer Tafel oder eine Kameradatei nach calibration/ legen; oder für einen ersten Blick " +
+    "die Brennweite aus EXIF nehmen",
+  doControl: "Passpunkte: noch {count}",
+  whyControl: "ihre Koordinaten stellen die Fotos in die Welt: eintippen oder einfügen",
+  whyPhoto: "das Foto ist noch nicht orientiert",
+  whyLeftOut: "macht in der Ausgleichung nicht mit",
+  doMore: "und {count} weitere, die nicht mitmachen",
+  doPolygons: "Boden und Gebäude als Polygone umfahren",
+  whyPolygons: "Schatten, Verdeckung und Licht müssen wissen, was dort steht",
+  doImages: "Polygone ohne Foto, das sie zeigt ({count}): {names}",
+  whyImages: "ihre Farbe kommt aus einem Foto",
+  doZenith: "eine lotrechte Kante: unten, dann oben",
+  whyZenith: "sonst sagt die z-Achse der Koordinaten, wo oben ist",
+  doSun: "ein Sonnenpaar: ein Punkt, dann sein Schatten",
+  whySun: "ohne gilt der Himmel als bedeckt, und nichts wirft Schatten",
+  doHorizon: "eine Probe des Himmels am Horizont",
+  whyHorizon: "worin der Dunst sich verliert",
+  doHaze: "Dunst: ein Material in zwei oder mehr Entfernungen",
+  whyHaze: "sonst gilt die Luft als klar",
+  doDaylight: "Tageslichtproben eines Materials, in Sonne und Schatten: noch {count}",
+  whyDaylight: "sie trennen Sonne, Himmel und Umgebungslicht",
+  doReflectance: "die Albedo des Materials der Tageslichtproben",
+  whyReflectance: "von einer Graukarte oder aus einer Tabelle: sonst wird der Bau zu dunkel",
+  whySample: "die Probe macht nicht mit",
+  doSite: "Ort und Zeit der Fotos",
+  whySite: "um die Sonne mit dem Almanach zu vergleichen",
+  doBuilding: "das Modell des geplanten Baus nach building/ legen",
+  whyBuilding: "noch ist nichts geplant",
+  doConvert: "das Modell des Baus umwandeln",
+  whyConvert: "sein Drahtmodell steht dann in jedem Foto",
+  whyFilmFault: "daraus lassen sich die Kameras der Scans nicht machen",
+  doCertificate: "dem Kalibrierschein des Films fehlt ({count}): {names}",
+  whyCertificate: "er verbindet die Scans mit dem Objektiv der Kamera: eintippen",
+  doScans: "die Scans kalibrieren",
+  whyScans: "ihr Film ist vollständig",
+  doFiducials: "{photo}: Rahmenmarken zu messen ({count}): {names}",
+  whyFiducials: "noch {count} verbinden den Scan mit seiner Kamera",
+  whyDisagree: "die Rahmenmarken des Scans stimmen nicht überein",
+  doOneFiducial: "{photo}: noch eine Rahmenmarke",
+  whyOneFiducial: "die Filmabbildung lässt sich nicht prüfen: ein Fehler einer Marke fiele nicht auf",
+  doMoreFiducials: "{photo}: nicht gemessene Rahmenmarken ({count}): {names}",
+  whyMoreFiducials: "jede prüft die anderen",
+  doFilm: "oder, bei gescanntem Film, den Kalibrierschein der Kamera eintippen",
+  whyFilm: "seine Rahmenmarken verbinden dann jeden Scan mit dem Objektiv",
+  doCameras: "die Kameras kalibrieren",
+  // What takes no part in the adjustment
+  photoThree: "braucht drei Passpunkte",
+  photoTwo: "braucht noch zwei Passpunkte",
+  photoOne: "braucht noch einen Passpunkt",
+  photoOnLine: "seine {count} bekannten Punkte liegen auf einer Geraden, noch einen deutlich daneben",
+  photoNoPlace:
+    "kein Standort der Kamera erklärt seine {count} bekannten Punkte: ist einer am falschen Ort oder " +
+    "unter falschem Namen gemessen?",
+  photoFails: "die Ausgleichung scheitert",
+  noLens: "sein Objektiv ist noch nicht bekannt: insitu-calibrate ausführen",
+  markOutside: "ausserhalb des Fotos gemessen",
+  markNoLens: "das Objektiv seines Fotos ist nicht bekannt",
+  markBehind: "sein Punkt läge hinter dem Foto",
+  markWeak: "die Messungen bestimmen seinen Punkt nicht: noch ein Foto, von einer anderen Seite",
+  pointOneRay: "ein Strahl, braucht ein zweites Foto",
+  pointHardlyMeets: "seine Strahlen schneiden sich kaum, braucht ein Foto von einer anderen Seite",
+  pointNoRay: "kein Strahl, braucht zwei Fotos",
+  pointPhotoOut: "ein Strahl, und sein Foto {photo} ist nicht orientiert",
+  pointPhotosOut: "keines seiner {count} Fotos ist orientiert",
+  edgePhotoOut: "ihr Foto ist nicht orientiert",
+  noVertex: "der Eckpunkt {name} ist nicht bestimmt",
+  noPoint: "der Punkt {name} ist nicht bestimmt",
+  noEnd: "das Ende {name} ist nicht bestimmt",
+  noPolygon: "das Polygon {name} ist nicht bestimmt",
+  polygonHeld: "die Ebenen durch den Eckpunkt {vertex} bestimmen ihn nicht: messen",
+  edgeOnePlace: "die Enden liegen am selben Ort",
+  constraintOnePlace: "die Punkte liegen am selben Ort",
+  pairOpposed: "zeigt von den anderen Paaren weg: sind die Enden vertauscht?",
+  leftOut: "{kind} «{name}» macht nicht mit: {reason}",
+  placedByPoints:
+    "das Foto «{photo}» ist nur durch Punkte anderer Fotos orientiert; insitu-reconstruct will drei " +
+    "Passpunkte darauf",
+  // Marks proposed
+  markEdge: "eine Kante, keine Ecke",
+  markEven: "eine gleichmässige Fläche",
+  markFar: "keine Ecke innerhalb von 2.5 px",
+  markEvenOrEdge: "eine gleichmässige Fläche, oder zu nahe am Rand",
+  markNoCentre: "keine Mitte einer Marke innert 4 px, oder eine Linie",
+  matchOblique: "dort zu schräg gesehen",
+  matchFrame: "zu nah am Bildrand",
+  matchNothing: "nichts dort sieht ähnlich aus",
+  matchTwo: "zwei Stellen sehen ähnlich aus",
+  matchUncertain: "nichts innerhalb der Unsicherheit sieht ähnlich aus",
+  matchNotOriented: "nicht orientiert",
+  // Samples and light
+  sampleUnknownPhoto: "nennt das Foto «{photo}», das nicht orientiert ist",
+  sampleUnknownPolygon: "nennt das Polygon «{polygon}», das es nicht gibt oder das nicht bestimmt ist",
+  sampleClipped: "ist überbelichtet, erwartet wird ein Pixel unter dem höchsten Wert des Sensors",
+  sampleOutside: "liegt ausserhalb des Fotos von {width} × {height} Pixeln",
+  sampleMisses: "trifft das Polygon «{polygon}» nicht",
+  sampleHidden: "zeigt das Polygon «{first}» vor dem Polygon «{polygon}»: freie Sicht ist nötig",
+  sampleNoSky: "liegt auf dem Polygon «{polygon}», erwartet wird ein Pixel des Himmels",
+  lightNoMaterial: "Materialien ohne Eintrag in survey/materials.json, als rein matt angenommen: {materials}",
+  lightNoHaze: "keine Dunstproben: die Luft gilt als klar",
+  lightNoReflectance:
+    "die Albedo der Tageslichtproben fehlt: sie gilt als 1, und der Bau wird neben seiner Umgebung zu dunkel",
+  lightOvercast: "keine Sonnenrichtung gemessen: der Himmel gilt als bedeckt",
+  lightSunUnseen: "keine Tageslichtprobe sieht die Sonne: sie bleibt dunkel",
+  lightUnseen:
+    "Tageslichtproben, die viel Licht von Flächen erhalten, die kein Foto zeigt, und weniger zählen: {samples}",
+  lightPoor:
+    "die Tageslichtproben trennen Sonne, Himmel und Umgebungslicht kaum: einige in der Sonne, im offenen " +
+    "und im tiefen Schatten wählen",
+  lightTooFew: "{list}: {count} brauchbare Proben, nötig sind mindestens {least}",
+  lightOneDistance: "Dunst: alle Proben in einer Entfernung, nötig sind verschiedene",
+  adviceHaze:
+    "Dunst: alle Proben liegen {near} bis {far} m entfernt; eine auf demselben Material, viel näher oder " +
+    "weiter weg, sagt mehr",
+  adviceOff:
+    "{kind}: die Probe bei {x}, {y} auf {photo} weicht {percent} % ab: ein anderes Material, ein Schatten, " +
+    "eine Spiegelung?",
+  adviceShade:
+    "Tageslicht: noch eine Probe im offenen und eine im tiefen Schatten trennen Sonne, Himmel und " +
+    "Umgebungslicht besser",
+  relitFailed: "das Licht ist nicht gemessen: {why}",
+  relitNoLight: "noch ist kein Licht gemessen: es braucht orientierte Fotos, Polygone und Proben",
+  relitNotOriented: "das Foto ist noch nicht orientiert"
+};
