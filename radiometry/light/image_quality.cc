@@ -5,25 +5,20 @@
 #include <cmath>
 #include <numbers>
 
+#include "radiometry/light/split_mix.h"
+
 namespace insitu {
 namespace {
-
-// SplitMix64 (Steele, Lea & Flood 2014), one step.
-uint64_t Mix(uint64_t state) {
-  state += 0x9e3779b97f4a7c15u;
-  state = (state ^ (state >> 30)) * 0xbf58476d1ce4e5b9u;
-  state = (state ^ (state >> 27)) * 0x94d049bb133111ebu;
-  return state ^ (state >> 31);
-}
 
 double OpenUnitInterval(uint64_t bits) { return (static_cast<double>(bits >> 11) + 0.5) * 0x1p-53; }
 
 // Four independent standard normal numbers of a pixel: one shared by the channels, one for each.
 // [Box & Muller 1958]
 Eigen::Vector4d WhiteNoise(int x, int y, uint64_t seed) {
-  uint64_t state = Mix(
-      seed ^ Mix(static_cast<uint64_t>(static_cast<uint32_t>(y)) << 32 | static_cast<uint32_t>(x)));
-  const auto next = [&state] { return OpenUnitInterval(state = Mix(state)); };
+  uint64_t state =
+      SplitMix64(seed ^ SplitMix64(static_cast<uint64_t>(static_cast<uint32_t>(y)) << 32 |
+                                   static_cast<uint32_t>(x)));
+  const auto next = [&state] { return OpenUnitInterval(state = SplitMix64(state)); };
   Eigen::Vector4d normal;
   for (int pair = 0; pair < 4; pair += 2) {
     const double radius = std::sqrt(-2 * std::log(next()));

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "radiometry/measure/edge_spread.h"
 
+#include <ceres/tiny_solver.h>
+
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
@@ -79,16 +81,6 @@ double Predict(const EdgeModel& model, const EdgePixel& pixel, EdgeModel* gradie
   return model[3] + model[4] * share + slope * from_edge;
 }
 
-double SumOfSquares(const std::vector<EdgePixel>& pixels, const EdgeModel& model) {
-  EdgeModel unused;
-  double sum = 0;
-  for (const EdgePixel& pixel : pixels) {
-    const double residual = pixel.luminance - Predict(model, pixel, &unused);
-    sum += residual * residual;
-  }
-  return sum;
-}
-
 // Mean luminance beyond kPlateau before (-1) or behind (1) the edge.
 double SideLevel(const std::vector<EdgePixel>& pixels, double side) {
   double sum = 0;
@@ -101,45 +93,41 @@ double SideLevel(const std::vector<EdgePixel>& pixels, double side) {
   return sum / std::max(count, 1);
 }
 
-struct NormalEquations {
-  Eigen::Matrix<double, 7, 7> matrix = Eigen::Matrix<double, 7, 7>::Zero();
-  EdgeModel right = EdgeModel::Zero();
+// As ceres::TinySolver asks for them.
+struct EdgeResiduals {
+  using Scalar = double;
+  static constexpr int NUM_RESIDUALS = Eigen::Dynamic, NUM_PARAMETERS = 7;
+  using Jacobian = Eigen::Matrix<double, Eigen::Dynamic, 7>;
+
+  const std::vector<EdgePixel>& pixels;
+
+  int NumResiduals() const { return static_cast<int>(pixels.size()); }
+
+  bool operator()(const double* parameters, double* residuals, double* jacobian) const {
+    const EdgeModel model = Eigen::Map<const EdgeModel>(parameters);
+    for (int i = 0; i < NumResiduals(); ++i) {
+      EdgeModel gradient;
+      residuals[i] = Predict(model, pixels[i], &gradient) - pixels[i].luminance;
+      if (jacobian) Eigen::Map<Jacobian>(jacobian, NumResiduals(), 7).row(i) = gradient;
+    }
+    return true;
+  }
 };
 
-NormalEquations Linearize(const std::vector<EdgePixel>& pixels, const EdgeModel& model) {
-  NormalEquations equations;
-  for (const EdgePixel& pixel : pixels) {
-    EdgeModel gradient;
-    const double residual = pixel.luminance - Predict(model, pixel, &gradient);
-    equations.matrix += gradient * gradient.transpose();
-    equations.right += gradient * residual;
-  }
-  return equations;
-}
-
-// Levenberg-Marquardt from the expected place.
+// From the expected place.
 EdgeFit FitEdge(const std::vector<EdgePixel>& pixels, double before, double behind) {
   EdgeModel model;
   model << 0, 0, std::log(0.5), before, behind - before, 0, 0;
-  double cost = SumOfSquares(pixels, model), damping = 1e-3;
-  for (int i = 0; i < kIterations && damping < 1e9; ++i) {
-    NormalEquations equations = Linearize(pixels, model);
-    equations.matrix.diagonal() *= 1 + damping;
-    const EdgeModel moved = model + equations.matrix.ldlt().solve(equations.right);
-    const double moved_cost = SumOfSquares(pixels, moved);
-    if (!(moved_cost < cost)) {
-      damping *= 10;
-      continue;
-    }
-    const bool settled = cost - moved_cost < 1e-12 * cost;
-    model = moved;
-    cost = moved_cost;
-    damping /= 10;
-    if (settled) break;
-  }
-  const double variance = cost / static_cast<double>(pixels.size() - 7);
-  const double cofactor =
-      Linearize(pixels, model).matrix.ldlt().solve(EdgeModel(EdgeModel::Unit(2)))[2];
+  const EdgeResiduals problem{pixels};
+  ceres::TinySolver<EdgeResiduals> solver;
+  solver.options.max_num_iterations = kIterations;
+  solver.Solve(problem, &model);
+  Eigen::VectorXd residuals(problem.NumResiduals());
+  EdgeResiduals::Jacobian jacobian(problem.NumResiduals(), 7);
+  problem(model.data(), residuals.data(), jacobian.data());
+  const double variance = residuals.squaredNorm() / static_cast<double>(pixels.size() - 7);
+  const Eigen::Matrix<double, 7, 7> normal = jacobian.transpose() * jacobian;
+  const double cofactor = normal.ldlt().solve(EdgeModel(EdgeModel::Unit(2)))[2];
   return {model, std::sqrt(variance), std::sqrt(variance * std::max(cofactor, 0.0))};
 }
 

@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "radiometry/measure/measure_image_quality.h"
+#include "radiometry/measure/robust_weights.h"
 
 namespace insitu {
 namespace {
@@ -15,6 +17,7 @@ constexpr int kLevels = 16;             // of radiance, as many blocks in each
 constexpr double kEven = 0.1;           // share of a level's blocks that are taken for even
 constexpr double kLongestGrain = 2;     // [px], that a block tells of the grain
 constexpr double kLeastSpread = 1e-12;  // variance below which a block is drawn, not photographed
+
 struct Block {
   Eigen::Vector3d mean, variance;
   double unevenness = 0;  // variance of the block to its left, whose noise is another
@@ -104,9 +107,7 @@ template <typename Property>
 double MedianOf(const Level& blocks, Property property) {
   std::vector<double> values;
   for (const Block& block : blocks) values.push_back(property(block));
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
+  return Median(std::move(values));
 }
 
 // Variance that rounding to 8 bits adds in linear light: 1/12 code, at the curve's steepness.

@@ -6,24 +6,18 @@
 #include <utility>
 
 #include "radiometry/measure/measure_image_quality.h"
+#include "radiometry/measure/robust_weights.h"
 
 namespace insitu {
 namespace {
 
-constexpr double kSamePlace = 8;        // [px]: pieces whose middles share such a cell are one
-constexpr int kEdgesOverField = 20;     // fewest, for a growth towards the corners
-constexpr double kFieldSpan = 0.25;     // of the squared half diagonal, that they must cover
-constexpr double kSignificant = 3;      // growth over its standard deviation
-constexpr double kOutlier = 3;          // robust standard deviations
-constexpr double kMadToSigma = 1.4826;  // of a normal distribution
+constexpr double kSamePlace = 8;     // [px]: pieces whose middles share such a cell are one
+constexpr int kEdgesOverField = 20;  // fewest, for a growth towards the corners
+constexpr double kFieldSpan = 0.25;  // of the squared half diagonal, that they must cover
+constexpr double kSignificant = 3;   // growth over its standard deviation
+constexpr double kOutlier = 3;       // robust standard deviations
 
 using Cell = std::pair<long, long>;
-
-double MedianSpread(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 // A world point's pixel; nullopt behind the camera or beyond the frame.
 std::optional<Eigen::Vector2d> SeenAt(const PosedCamera& posed, const Eigen::Vector3d& point) {
@@ -122,10 +116,10 @@ std::optional<PointSpread> MeasurePointSpread(const Photograph& photo,
     shares.push_back((piece[1] - half).squaredNorm() / half.squaredNorm());
   }
   if (sigmas.size() < kFewestEdges) return std::nullopt;
-  const double median = MedianSpread(sigmas);
+  const double median = Median(sigmas);
   std::vector<double> deviations;
   for (const double sigma : sigmas) deviations.push_back(std::abs(sigma - median));
-  const double spread = kMadToSigma * MedianSpread(deviations);
+  const double spread = kSigmaOverMedian * Median(deviations);
   std::vector<FieldSpread> field;
   for (size_t i = 0; i < sigmas.size(); ++i) {
     if (deviations[i] <= kOutlier * spread) field.push_back({shares[i], sigmas[i] * sigmas[i]});

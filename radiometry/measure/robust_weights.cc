@@ -4,7 +4,6 @@
 #include <algorithm>
 
 namespace insitu {
-namespace {
 
 double Median(std::vector<double> values) {
   if (values.empty()) return 0;
@@ -13,10 +12,8 @@ double Median(std::vector<double> values) {
   return *middle;
 }
 
-}  // namespace
-
 std::vector<double> HuberWeights(const std::vector<double>& residuals) {
-  const double scale = std::max(1.0, 1.4826 * Median(residuals));
+  const double scale = std::max(1.0, kSigmaOverMedian * Median(residuals));
   std::vector<double> weights;
   for (const double residual : residuals) {
     weights.push_back(std::min(1.0, 1.345 * scale / std::max(residual, 1e-300)));

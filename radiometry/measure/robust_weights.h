@@ -6,6 +6,12 @@
 
 namespace insitu {
 
+// Standard deviations per median of magnitudes of a normal distribution.
+inline constexpr double kSigmaOverMedian = 1.4826;
+
+// The middle value, the upper one of two; 0 of none.
+double Median(std::vector<double> values);
+
 // Times that weights and fit take turns.
 inline constexpr int kRobustPasses = 20;
 

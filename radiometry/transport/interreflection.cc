@@ -30,7 +30,6 @@ Eigen::AlignedBox3d BoxOf(const TriangleMesh& mesh) {
   // Embree's robust mode may report hits this far outside.
   if (box.isEmpty()) return box;
   return {box.min() - Eigen::Vector3d::Constant(1e-3), box.max() + Eigen::Vector3d::Constant(1e-3)};
-  return box;
 }
 
 bool MayMeet(const Eigen::AlignedBox3d& box, const Eigen::Vector3d& origin,

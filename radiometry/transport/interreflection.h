@@ -98,7 +98,7 @@ class Interreflection {
   void SetBrdfs(const std::vector<Spectrum>& irradiance);
   void SetBeyond();
   void SolveAfter(const Daylight& light);
-  bool IsUnseen(int patch) const;  // and counts
+  bool IsUnseen(int patch) const;  // by photographs; false where the sky alone counts
   bool IsDirect() const { return options_.bounces == 0; }
   Spectrum RadianceBefore(int patch) const;
   Spectrum RadianceAfter(const Meeting& meeting) const;

@@ -6,6 +6,8 @@
 #include <limits>
 #include <numbers>
 
+#include "radiometry/light/split_mix.h"
+
 namespace insitu {
 namespace {
 
@@ -15,40 +17,18 @@ constexpr double kReachOfGround = 8;  // in sizes of the focus, at least
 // No boundary at round coordinates, where planes lie: points of one would fall to either side.
 constexpr double kShift = 0.37;  // of a voxel
 
-// SplitMix64 (Steele, Lea & Flood 2014), one step.
-uint64_t Scrambled(uint64_t state) {
-  state += 0x9e3779b97f4a7c15u;
-  state = (state ^ (state >> 30)) * 0xbf58476d1ce4e5b9u;
-  state = (state ^ (state >> 27)) * 0x94d049bb133111ebu;
-  return state ^ (state >> 31);
-}
-
 uint64_t VoxelKey(const PatchGrid& grid, uint64_t face, const Eigen::Vector3d& position) {
   const int level = grid.LevelAt(position);
   const Eigen::Array3d cell = (position.array() / std::ldexp(grid.size, level) + kShift).floor();
-  uint64_t key = Scrambled(face + (static_cast<uint64_t>(level) << 56));
+  uint64_t key = SplitMix64(face + (static_cast<uint64_t>(level) << 56));
   for (int i = 0; i < 3; ++i) {
     // Each in turn: a product alone gives voxels that mirror each other in two axes one key.
-    key = Scrambled(key ^ static_cast<uint64_t>(static_cast<int64_t>(cell[i])));
+    key = SplitMix64(key ^ static_cast<uint64_t>(static_cast<int64_t>(cell[i])));
   }
   return key;
 }
 
 uint64_t FaceOf(int face, bool is_back) { return 2 * static_cast<uint64_t>(face) + is_back; }
-
-// The largest that lies within ten degrees of level.
-std::optional<int> LargestLevelPolygon(const SceneGeometry& scene) {
-  const double level = std::cos(10 * std::numbers::pi / 180);
-  std::optional<int> largest;
-  for (size_t i = 0; i < scene.polygons.size(); ++i) {
-    const Polygon& polygon = scene.polygons[i];
-    if (polygon.normal.dot(scene.zenith.unit) <= level) continue;
-    if (!largest || AreaOf(polygon) > AreaOf(scene.polygons[*largest])) {
-      largest = static_cast<int>(i);
-    }
-  }
-  return largest;
-}
 
 // One of 26: planned faces that look about the same way share a voxel's piece.
 uint64_t FaceLooking(const Eigen::Vector3d& normal) {

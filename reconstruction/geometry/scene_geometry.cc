@@ -2,6 +2,8 @@
 #include "reconstruction/geometry/scene_geometry.h"
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 
 #include "reconstruction/geometry/intersection.h"
 #include "reconstruction/geometry/plane.h"
@@ -103,6 +105,19 @@ double AreaOf(const Polygon& polygon) {
   double area = AreaOf(polygon.vertices);
   for (const auto& hole : polygon.holes) area -= AreaOf(hole);
   return std::max(area, 0.0);
+}
+
+std::optional<int> LargestLevelPolygon(const SceneGeometry& scene) {
+  const double level = std::cos(10 * std::numbers::pi / 180);
+  std::optional<int> largest;
+  for (size_t i = 0; i < scene.polygons.size(); ++i) {
+    const Polygon& polygon = scene.polygons[i];
+    if (polygon.normal.dot(scene.zenith.unit) <= level) continue;
+    if (!largest || AreaOf(polygon) > AreaOf(scene.polygons[*largest])) {
+      largest = static_cast<int>(i);
+    }
+  }
+  return largest;
 }
 
 Json::Value HolesToJson(const std::vector<std::vector<Eigen::Vector3d>>& holes) {

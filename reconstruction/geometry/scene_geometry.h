@@ -50,6 +50,10 @@ struct SceneGeometry {
   double vertex_sigma = 0;  // [m], the median posterior sigma of a vertex coordinate
 };
 
+// Index of the polygon of the largest area within ten degrees of level, facing up; nullopt: none
+// is.
+std::optional<int> LargestLevelPolygon(const SceneGeometry& scene);
+
 // Triangles of it, indices into AllVertices, about its normal; nullopt: FaultOfRings has a reason.
 std::optional<std::vector<Eigen::Vector3i>> TrianglesOf(const Polygon& polygon);
 

@@ -68,21 +68,6 @@ Spectrum LampIntensity(const SpectralBasis& spectra, const PointLight& lamp) {
   return shape * (luminance / Tristimulus(shape, spectra.bins()).y());
 }
 
-// Within ten degrees of level.
-bool IsLevel(const SceneGeometry& scene, const Polygon& polygon) {
-  return polygon.normal.dot(scene.zenith.unit) > std::cos(10 * std::numbers::pi / 180);
-}
-
-std::optional<int> LargestLevelPolygon(const SceneGeometry& scene) {
-  std::optional<int> largest;
-  for (size_t i = 0; i < scene.polygons.size(); ++i) {
-    if (!IsLevel(scene, scene.polygons[i])) continue;
-    const bool larger = !largest || AreaOf(scene.polygons[i]) > AreaOf(scene.polygons[*largest]);
-    if (larger) largest = static_cast<int>(i);
-  }
-  return largest;
-}
-
 }  // namespace
 
 MontageScene MakeMontageScene(NaturalEnvironment natural, const ArtificialEnvironment& artificial,

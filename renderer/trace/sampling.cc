@@ -6,17 +6,10 @@
 #include <numbers>
 
 #include "calibration/photo/photograph.h"
+#include "radiometry/light/split_mix.h"
 
 namespace insitu {
 namespace {
-
-// SplitMix64 (Steele, Lea & Flood 2014), one step.
-uint64_t Scramble(uint64_t state) {
-  state += 0x9e3779b97f4a7c15u;
-  state = (state ^ (state >> 30)) * 0xbf58476d1ce4e5b9u;
-  state = (state ^ (state >> 27)) * 0x94d049bb133111ebu;
-  return state ^ (state >> 31);
-}
 
 double UnitInterval(uint64_t bits) { return static_cast<double>(bits >> 11) * 0x1p-53; }
 
@@ -31,8 +24,8 @@ Eigen::Vector2d SpreadPoint(const Eigen::Vector2d& shift, int index) {
 }  // namespace
 
 PixelSampler::PixelSampler(int x, int y) {
-  uint64_t state = Scramble(static_cast<uint64_t>(y) << 32 | static_cast<uint32_t>(x));
-  const auto next = [&state] { return UnitInterval(state = Scramble(state)); };
+  uint64_t state = SplitMix64(static_cast<uint64_t>(y) << 32 | static_cast<uint32_t>(x));
+  const auto next = [&state] { return UnitInterval(state = SplitMix64(state)); };
   pixel_shift_.x() = next();
   pixel_shift_.y() = next();
   disc_shift_.x() = next();

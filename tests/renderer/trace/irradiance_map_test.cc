@@ -40,11 +40,11 @@ class IrradianceMapTest : public testing::Test {
   }
 
   // Of every face but the one that the box stands on.
-  std::vector<FacePlace> SomePlaces() const {
+  std::vector<FacePlace> SomePlaces(int count = 200) const {
     std::mt19937 random(7);
     std::uniform_real_distribution<double> uniform;
     std::vector<FacePlace> places;
-    for (int i = 0; i < 200; ++i) {
+    for (int i = 0; i < count; ++i) {
       Eigen::Vector2d uv(uniform(random), uniform(random));
       if (uv.sum() > 1) uv = Eigen::Vector2d::Ones() - uv;
       places.push_back({2 + i % 10, uv});
@@ -59,15 +59,17 @@ bool AreSame(const SmoothLight& a, const SmoothLight& b) {
   return (a.before == b.before).all() && (a.change == b.change).all() && a.matters == b.matters;
 }
 
+double RelativeError(const SmoothLight& smooth, const GatheredLight& exact) {
+  const Spectrum after = exact.sky_before + exact.surroundings_before + exact.change;
+  return ((smooth.before + smooth.change) / after - 1).abs().maxCoeff();
+}
+
 TEST_F(IrradianceMapTest, FollowsTheGatheredLight) {
   const IrradianceMap map = Fresh();
   double sum = 0;
   const std::vector<FacePlace> places = SomePlaces();
   for (const FacePlace& place : places) {
-    const SmoothLight smooth = map.At(place);
-    const GatheredLight exact = Light().interreflection.At(OnBox(place));
-    const Spectrum after = exact.sky_before + exact.surroundings_before + exact.change;
-    const double error = ((smooth.before + smooth.change) / after - 1).abs().maxCoeff();
+    const double error = RelativeError(map.At(place), Light().interreflection.At(OnBox(place)));
     EXPECT_LT(error, 0.04) << OnBox(place).position.transpose();  // single directions come and go
     sum += error;
   }
@@ -113,6 +115,36 @@ TEST_F(IrradianceMapTest, IsTheSameFromManyThreads) {
       EXPECT_TRUE(AreSame(one[i], map.At(places[i])));
     }
   }
+}
+
+// A box whose walls go up through a plate that juts out over them: what is under it is dark, the
+// walls' upper corners are not.
+ArtificialEnvironment BoxThroughEaves(const SmallSite& site) {
+  ArtificialEnvironment house = Box(site, {-2, -1, 0}, {2, 2, 3}, kGrey);
+  const ArtificialEnvironment eaves = Plate(site, {0, 0.5, 2.9}, 2.3, kGrey);
+  const Eigen::Vector3i first = Eigen::Vector3i::Constant(static_cast<int>(house.vertices.size()));
+  house.vertices.insert(house.vertices.end(), eaves.vertices.begin(), eaves.vertices.end());
+  for (const Eigen::Vector3i& triangle : eaves.triangles) {
+    house.triangles.push_back(first + triangle);
+  }
+  house.material_of_triangle.resize(house.triangles.size(), 0);
+  return house;
+}
+
+TEST_F(IrradianceMapTest, CornersBeyondEavesDoNotShowBelowThem) {
+  const SmallSite site = MakeSmallSite();
+  scene_ = std::make_unique<MontageScene>(site.With(BoxThroughEaves(site)));
+  AddInterreflection(scene_.get(), std::nullopt);
+  const IrradianceMap map = Fresh({.calm = 1});
+  int places = 0;
+  for (const FacePlace& place : SomePlaces(3000)) {
+    const SurfacePoint point = OnBox(place);
+    if (point.normal.z() > 0.5 || point.position.z() < 1 || point.position.z() > 2.85) continue;
+    const GatheredLight exact = Light().interreflection.At(point);
+    EXPECT_LT(RelativeError(map.At(place), exact), 0.05) << point.position.transpose();
+    ++places;
+  }
+  EXPECT_GT(places, 1000);
 }
 
 // The two triangles of a face meet on its diagonal, from corner 0 to corner 2 of the one, 0 to 1 of
