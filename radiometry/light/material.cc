@@ -4,7 +4,7 @@
 #include <filesystem>
 
 #include "calibration/files/json_file.h"
-#include "radiometry/light/illumination.h"
+#include "radiometry/light/fresnel.h"
 
 namespace insitu {
 namespace {
