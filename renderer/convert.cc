@@ -190,7 +190,7 @@ int Converter::Unlisted(const SurfaceNames& names) {
           material.diffuse_rgb.cwiseProduct(MeanColor(ReadPhotograph(names.texture).linear))
               .cwiseMin(1);
     }
-    material.transmission = 1 - names.opacity;
+    if (names.opacity < 1) material.glass = Glass{.weight = 1 - names.opacity};
   }
   (has_color || names.rgb ? own_color_ : grey_).insert(label);
   materials.push_back(material);

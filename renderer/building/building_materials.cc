@@ -10,6 +10,7 @@
 #include "calibration/files/file_beside.h"
 #include "calibration/files/json_file.h"
 #include "calibration/photo/photograph.h"
+#include "renderer/building/material_optics.h"
 #include "renderer/building/spectral_table.h"
 
 namespace insitu {
@@ -86,23 +87,6 @@ void ReadColor(const JsonNode& material, SurfaceMaterial* surface) {
   }
 }
 
-std::optional<double> FresnelIndex(const JsonNode& material) {
-  const JsonNode index = material.At("ior");
-  if (index.Number() <= 1) throw index.Error("is no index of refraction, expected above 1");
-  return index.Number();
-}
-
-std::optional<Specular> SpecularOf(const JsonNode& material) {
-  const auto node = material.Find("specular");
-  const std::string kind = node ? node->Text() : "none";
-  if (kind == "none") return std::nullopt;
-  if (kind != "fresnel" && kind != "mirror") {
-    throw node->Error("is \"" + kind + "\", expected none, fresnel or mirror");
-  }
-  return Specular{ShareOr(material, "specular_weight", 1),
-                  kind == "fresnel" ? FresnelIndex(material) : std::nullopt};
-}
-
 BuildingMaterial ReadMaterial(const std::string& name, const JsonNode& node,
                               const std::map<std::string, BuildingMaterial>& library) {
   if (const auto use = node.Find("use")) {
@@ -121,9 +105,7 @@ BuildingMaterial ReadMaterial(const std::string& name, const JsonNode& node,
   if (material.hidden) return material;
   ReadColor(node, &material.surface);
   material.surface.diffuse_weight = ShareOr(node, "diffuse_weight", 1);
-  material.surface.specular = SpecularOf(node);
-  material.surface.roughness = ShareOr(node, "roughness", 0);
-  material.surface.transmission = ShareOr(node, "transmission", 0);
+  ReadOptics(node, &material.surface);
   if (const auto texture = node.Find("texture")) {
     FileBeside(*texture);
     material.surface.texture = texture->Text();

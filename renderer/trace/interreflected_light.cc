@@ -64,7 +64,10 @@ std::vector<Eigen::Vector3d> NaturalNormals(const MontageScene& scene) {
 
 std::function<Spectrum(const SurfacePoint&)> LampsOf(const MontageScene& scene) {
   if (scene.lamps.empty()) return {};
-  return [&scene](const SurfacePoint& point) { return LampIrradiance(scene, point); };
+  const LightDirections middle{.sun = scene.natural.light.sun_direction,
+                               .facet = Eigen::Vector2d::Zero()};
+  return
+      [&scene, middle](const SurfacePoint& point) { return LampIrradiance(scene, point, middle); };
 }
 
 }  // namespace

@@ -86,7 +86,8 @@ void AddRay(const ViewWork& view, const PixelSampler& sampler, int x, int y,
   PrimaryRay primary;
   primary.ray = SightOf(view, Eigen::Vector2d(x, y) + offset);
   primary.apparent_rgb = view.photo.Rgb(x, y);
-  primary.light = ChooseLightDirections(view.scene, sampler.OnDisc(sum.rays), sum.rays);
+  primary.light = ChooseLightDirections(view.scene, sampler.OnDisc(sum.rays), sum.rays,
+                                        sampler.OnFacet(sum.rays), sampler.Seed(sum.rays));
   const RayOutcome outcome = TracePrimary(view.scene, primary);
   ++sum.rays;
   if (outcome.hits_building) {
