@@ -14,10 +14,10 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr int kSplitDepth = 2;    // mirrors and panes before it
-constexpr int kMostInterior = 12;   // faces met inside a body
-constexpr double kLittle = 0.02;  // share of light inside a body that is not followed any more
-constexpr double kStep = 1e-4;    // [m], off a face of a body
+constexpr int kSplitDepth = 2;     // mirrors and panes before it
+constexpr int kMostInterior = 12;  // faces met inside a body
+constexpr double kLittle = 0.02;   // share of light inside a body that is not followed any more
+constexpr double kStep = 1e-4;     // [m], off a face of a body
 
 // Light at a pane or an interface: what it mirrors and what it lets through, by functions that
 // find it out. Deep in a path only one of them is asked, and stands for both.

@@ -11,13 +11,16 @@ namespace insitu {
 
 // The light directions of one camera ray: a point of the sun's disc and every `stride`-th sky facet
 // from `first`. Four rays a pixel with stride 4 together use every facet once.
-// What else is chosen along the ray: the facet of its first mirror, and by the seed all further.
+// What else goes with the ray: the facet of its first mirror, by the seed all further choices, and
+// whether it may still meet sun and lamps themselves: not behind a rough mirror, where they are
+// counted apart.
 struct LightDirections {
   Eigen::Vector3d sun;  // unit; any point of the disc
   int first = 0;
   int stride = 1;
   Eigen::Vector2d facet = Eigen::Vector2d::Constant(0.5);  // [0, 1)^2
   uint64_t seed = 0;
+  bool sees_lights = true;
 };
 
 // `disc` and `facet` are uniform in [0, 1)^2; `ray` counts the rays of a pixel.

@@ -110,8 +110,10 @@ Spectrum LampIntensity(const SpectralBasis& spectra, const PointLight& lamp) {
   return shape * (luminance / Tristimulus(shape, spectra.bins()).y());
 }
 
+// One that is off is not there.
 void AddLamp(const PointLight& lamp, MontageScene* scene) {
   const Spectrum intensity = LampIntensity(scene->natural.spectra, lamp);
+  if ((intensity <= 0).all()) return;
   const Eigen::Vector3d position = lamp.position - scene->natural.scene.origin;
   const double area = lamp.edge_u.cross(lamp.edge_v).norm();
   scene->lamps.push_back(

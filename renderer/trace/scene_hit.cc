@@ -81,7 +81,7 @@ std::optional<LampHit> FindLamp(const MontageScene& scene, const Ray& ray) {
   std::optional<LampHit> nearest;
   Ray rest = ray;
   for (const LampSpectrum& lamp : scene.lamps) {
-    if (!lamp.is_visible || lamp.radius <= 0) continue;
+    if (!lamp.is_visible) continue;
     const auto distance = MeetSphere(rest, lamp.position, lamp.radius);
     if (!distance) continue;
     const double share = lamp.distribution ? lamp.distribution->At(-ray.direction) : 1;

@@ -29,10 +29,10 @@ Spectrum MirrorImage(const MontageScene& scene, const SurfacePoint& surface,
       ChooseMirrored(surface, roughness, to_viewer, clearance, FacetChoice(light, depth));
   Spectrum image = LightsInRoughMirror(scene, surface, roughness, to_viewer, light,
                                        world == World::kWithBuilding, clearance);
-  if (mirrored.weight > 0) {
-    image += mirrored.weight *
-             TraceSecondary(scene, mirrored.ray, light, world, depth + 1, roughness.slope == 0);
-  }
+  if (mirrored.weight <= 0) return image;
+  LightDirections further = light;
+  further.sees_lights = light.sees_lights && roughness.slope == 0;
+  image += mirrored.weight * TraceSecondary(scene, mirrored.ray, further, world, depth + 1);
   return image;
 }
 
@@ -187,11 +187,11 @@ Spectrum DiffuseChange(const MontageScene& scene, const SurfacePoint& surface,
 }
 
 Spectrum TraceSecondary(const MontageScene& scene, const Ray& ray, const LightDirections& light,
-                        World world, int depth, bool sees_lights) {
+                        World world, int depth) {
   const Atmosphere& air = scene.natural.air;
   if (depth > kMaxMirrors) return air.horizon;
   auto hit = FindHit(scene, ray, world);
-  if (sees_lights && world == World::kWithBuilding) {
+  if (light.sees_lights && world == World::kWithBuilding) {
     Ray to_lamp = ray;
     if (hit) to_lamp.far = hit->distance;
     if (const auto lamp = FindLamp(scene, to_lamp)) {
@@ -202,8 +202,8 @@ Spectrum TraceSecondary(const MontageScene& scene, const Ray& ray, const LightDi
   // Case B. Departure: the paper leaves open what a ray below the horizon returns.
   if (!hit) hit = FindGround(scene, ray);
   if (!hit) {
-    return escapes && sees_lights ? Spectrum(air.horizon + SunAlong(scene, ray.direction))
-                                  : air.horizon;
+    return escapes && light.sees_lights ? Spectrum(air.horizon + SunAlong(scene, ray.direction))
+                                        : air.horizon;
   }
   if (!hit->is_building) {
     return ApparentColor(SiteColor(scene, *hit, -ray.direction, light, world, depth), air,
@@ -211,7 +211,7 @@ Spectrum TraceSecondary(const MontageScene& scene, const Ray& ray, const LightDi
   }
   const auto straight_on = [&] {
     const Ray rest = {hit->surface.position + kBuildingClearance * ray.direction, ray.direction};
-    return TraceSecondary(scene, rest, light, world, depth + 1, sees_lights);
+    return TraceSecondary(scene, rest, light, world, depth + 1);
   };
   return ApparentColor(FaceColor(scene, *hit, ray, light, depth, straight_on), air, hit->distance);
 }

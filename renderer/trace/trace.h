@@ -32,11 +32,10 @@ bool HitsBuilding(const MontageScene& scene, const Ray& ray);
 RayOutcome TracePrimary(const MontageScene& scene, const PrimaryRay& primary);
 
 // Apparent radiance along a secondary ray: cases B, C and D. `depth` counts the mirrors and panes
-// before it; beyond kMaxMirrors the horizon colour is returned. `sees_lights` false: sun and lamps
-// themselves are left out, for the facets of a rough mirror, which counts them apart.
+// before it; beyond kMaxMirrors the horizon colour is returned.
 constexpr int kMaxMirrors = 8;
 Spectrum TraceSecondary(const MontageScene& scene, const Ray& ray, const LightDirections& light,
-                        World world, int depth, bool sees_lights = true);
+                        World world, int depth);
 
 // Case C: true colour of the building at a point, looked at from `to_viewer` (unit). `around` is
 // the light of sky and surroundings there; nullopt: the paper's.
