@@ -4,7 +4,6 @@
 #include <filesystem>
 
 #include "calibration/files/json_file.h"
-#include "radiometry/light/fresnel.h"
 
 namespace insitu {
 namespace {
@@ -50,11 +49,6 @@ NaturalMaterial ReadMaterial(const JsonNode& material) {
 }
 
 }  // namespace
-
-double MirrorWeight(const std::optional<Specular>& specular, double cosine) {
-  if (!specular) return 0;
-  return specular->weight * (specular->index ? FresnelReflectance(cosine, *specular->index) : 1);
-}
 
 std::optional<Specular> ReadSpecular(const JsonNode& material, bool may_be_metal) {
   const auto node = material.Find("specular");

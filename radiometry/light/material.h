@@ -26,9 +26,6 @@ struct NaturalMaterial {
   std::optional<Specular> specular;  // nullopt: purely diffuse
 };
 
-// F w at an angle of incidence; 0 without a specular share.
-double MirrorWeight(const std::optional<Specular>& specular, double cosine);
-
 // Of an entry of materials.json: specular (none, fresnel, mirror), specular_weight, ior, roughness
 // (0..1), distribution (ggx, the default, or beckmann). nullopt: purely diffuse. Throws InputError.
 // `may_be_metal`: conductor is taken, too, as a bare mirror whose colour the caller knows.

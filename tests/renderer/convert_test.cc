@@ -182,7 +182,8 @@ TEST_F(Convert, BadMaterials) {
   EXPECT_THAT(complaint("\"diffuse_weight\": 0.8", "\"diffuse_weight\": 1.8"),
               HasSubstr("is out of range, expected 0 to 1"));
   EXPECT_THAT(complaint("\"fresnel\"", "\"shiny\""), HasSubstr("materials.json:6: "));
-  EXPECT_THAT(complaint("\"fresnel\"", "\"shiny\""), HasSubstr("expected none, fresnel or mirror"));
+  EXPECT_THAT(complaint("\"fresnel\"", "\"shiny\""),
+              HasSubstr("expected \"none\", \"fresnel\", \"mirror\" or \"conductor\""));
   EXPECT_THAT(complaint("0.9", "-0.9"), HasSubstr("materials.json:7: "));
   EXPECT_THAT(complaint("1.5", "0.9"), HasSubstr("materials.json:8: "));
   EXPECT_THAT(complaint("1.5", "null"), HasSubstr("\"ior\" is missing"));
@@ -192,17 +193,16 @@ TEST_F(Convert, BadMaterials) {
 }
 
 // What today's renderer cannot show is kept, and said.
-TEST_F(Convert, RoughnessTransmissionAndTextureAreKept) {
+TEST_F(Convert, RoughGlassAndTextureAreKept) {
   Write("a.dxf", DrawingText(UnitSquare("WALL") + UnitSquare("GLASS")));
   Write("brick.png", "not looked at");
   Write("materials.json", Replaced(Replaced(kMaterials, "0.0}", "0.2, \"transmission\": 0.9}"),
                                    "\"roughness\": null", "\"texture\": \"brick.png\""));
   const ArtificialEnvironment building = Converted().environment;
-  EXPECT_EQ(building.materials[1].roughness, 0.2);
-  EXPECT_EQ(building.materials[1].transmission, 0.9);
+  EXPECT_EQ(building.materials[1].specular->roughness.slope, 0.2);
+  EXPECT_EQ(building.materials[1].glass->weight, 0.9);
   EXPECT_EQ(building.materials[0].texture, "brick.png");
-  EXPECT_THAT(NotShown(building),
-              ElementsAre(HasSubstr("texture"), HasSubstr("rough"), HasSubstr("transmission")));
+  EXPECT_THAT(NotShown(building), ElementsAre(HasSubstr("texture"), HasSubstr("rough glass")));
 }
 
 TEST_F(Convert, MissingTextureIsRefusedUnlessTheMaterialIsListed) {
