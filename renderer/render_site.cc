@@ -4,9 +4,12 @@
 #include <algorithm>
 #include <chrono>
 #include <map>
+#include <memory>
 
 #include "calibration/files/error.h"
+#include "calibration/lens/undistort.h"
 #include "calibration/program/program.h"
+#include "renderer/foreground_matte.h"
 #include "renderer/trace/interreflected_light.h"
 #include "renderer/trace/make_montage_scene.h"
 #include "renderer/trace/profile.h"
@@ -62,6 +65,7 @@ struct View {
   PosedCamera camera;
   ImageQuality quality;
   Photograph photo;
+  std::shared_ptr<const Foreground> foreground = {};  // null: nothing stands in front
 };
 
 // Pixels of a pinhole for one of its photograph, at a pixel of the photograph.
@@ -83,29 +87,52 @@ PointSpread InPinhole(PointSpread spread, const Camera& lens, const Camera& pinh
   return spread;
 }
 
+// A matte in its photograph's frame as the pinhole sees it, resampled as the photograph is.
+Raster InPinhole(const Raster& share, const Camera& lens, const Camera& pinhole) {
+  constexpr float kRounding = 1e-4f;  // what resampling leaves of 0 and 1
+  Raster three(share.width, share.height);
+  for (size_t i = 0; i < three.data.size(); ++i) three.data[i] = share.data[i / 3];
+  const Raster resampled = Reproject(three, lens, pinhole);
+  Raster seen(resampled.width, resampled.height, 1);
+  for (size_t i = 0; i < seen.data.size(); ++i) {
+    const float m = resampled.data[3 * i];
+    seen.data[i] = m < kRounding ? 0 : m > 1 - kRounding ? 1 : m;
+  }
+  return seen;
+}
+
 View LoadView(const SitePaths& site, const MontageScene& scene,
               const std::filesystem::path& photograph, Frame frame) {
   const PhaseScope phase(Phase::kFiles);
   const NaturalEnvironment& natural = scene.natural;
   const size_t index = IndexOf(site, natural.scene, photograph.stem().string());
-  View view = {natural.scene.cameras[index], natural.qualities[index], {}};
+  View view = {natural.scene.cameras[index], natural.qualities[index], {}, {}};
   RequirePhotographSize(photograph, view.camera.camera.width(), view.camera.camera.height());
   view.photo = ReadPhotograph(photograph);
+  const Camera lens = view.camera.camera;
+  auto share = ReadForegroundMatte(site, photograph.stem().string(), lens.width(), lens.height());
   if (frame == Frame::kPinhole) {
     const Camera& pinhole = natural.input_images[index].camera;
     if (auto& spread = view.quality.point_spread) {
-      spread = InPinhole(*spread, view.camera.camera, pinhole);
+      spread = InPinhole(*spread, lens, pinhole);
     }
     view.camera.camera = pinhole;
     view.photo.linear = scene.input_images[index];
+    if (share) share = InPinhole(*share, lens, pinhole);
+  }
+  if (share) {
+    view.foreground = std::make_shared<const Foreground>(
+        SeparateForeground(view.photo.linear, std::move(*share)));
   }
   return view;
 }
 
 void WriteMontage(const SitePaths& site, const std::filesystem::path& photograph,
-                  const Raster& picture, Encoding encoding) {
+                  const RenderResult& result, Encoding encoding) {
   const PhaseScope phase(Phase::kFiles);
   const std::string name = photograph.stem().string();
+  const Raster& picture = result.linear;
+  WriteExr(site.montages() / (name + ".layers.exr"), result.layers);
   WriteExr(site.montages() / (name + ".exr"), picture);
   WritePng(site.montages() / (name + ".png"), picture, encoding);
   WriteJpeg(site.montages() / (name + ".jpg"), picture, photograph);
@@ -153,13 +180,14 @@ std::vector<RenderSiteReport> RenderSite(const SitePaths& site, const RenderSite
     RenderOptions render = options.render;
     if (options.sharpness == Sharpness::kMeasured) render.point_spread = view.quality.point_spread;
     if (options.with_grain) render.grain = view.quality.grain;
+    render.foreground = view.foreground;
     report.point_spread = render.point_spread;
     report.has_grain = render.grain.has_value();
     report.result = RenderMontage(scene, view.camera, view.photo.linear, render,
                                   [&progress] { progress.Step(); });
     report.seconds =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    WriteMontage(site, photograph, report.result.linear, view.photo.encoding);
+    WriteMontage(site, photograph, report.result, view.photo.encoding);
     reports.push_back(std::move(report));
   }
   return reports;
