@@ -13,6 +13,7 @@
 #include "renderer/trace/interreflected_light.h"
 #include "renderer/trace/make_montage_scene.h"
 #include "renderer/trace/profile.h"
+#include "renderer/trace/surface_textures.h"
 
 namespace insitu {
 namespace {
@@ -53,12 +54,40 @@ Raster ReadInputImage(const InputImage& image) {
   return ReadPhotograph(image.file).linear;
 }
 
-MontageScene LoadScene(NaturalEnvironment natural, const ArtificialEnvironment& building) {
+// What a pixel in the middle of the sharpest input image spans [rad].
+double PixelAngle(const NaturalEnvironment& natural) {
+  double smallest = 1;
+  for (const InputImage& image : natural.input_images) {
+    const Eigen::Vector2d center(image.camera.width() / 2.0, image.camera.height() / 2.0);
+    const Eigen::Vector3d here = image.camera.Unproject(center).normalized();
+    const Eigen::Vector3d next =
+        image.camera.Unproject(center + Eigen::Vector2d::UnitX()).normalized();
+    smallest = std::min(smallest, (next - here).norm());
+  }
+  return smallest;
+}
+
+std::shared_ptr<const SurfaceTextures> LoadTextures(const SitePaths& site,
+                                                    const NaturalEnvironment& natural,
+                                                    const ArtificialEnvironment& building) {
+  const auto has_texture = [](const SurfaceMaterial& material) {
+    return !material.texture.empty();
+  };
+  if (std::ranges::none_of(building.materials, has_texture)) return nullptr;
+  return std::make_shared<const SurfaceTextures>(building, site.building(),
+                                                 site.root / "work/textures", PixelAngle(natural));
+}
+
+MontageScene LoadScene(const SitePaths& site, NaturalEnvironment natural,
+                       const ArtificialEnvironment& building) {
   const PhaseScope phase(Phase::kFiles);
   std::vector<Raster> images;
   for (const InputImage& image : natural.input_images) images.push_back(ReadInputImage(image));
+  auto textures = LoadTextures(site, natural, building);
   const PhaseScope shading(Phase::kShading);
-  return MakeMontageScene(std::move(natural), building, std::move(images));
+  MontageScene scene = MakeMontageScene(std::move(natural), building, std::move(images));
+  scene.textures = std::move(textures);
+  return scene;
 }
 
 struct View {
@@ -162,7 +191,7 @@ std::vector<RenderSiteReport> RenderSite(const SitePaths& site, const RenderSite
   const std::vector<std::filesystem::path> photographs = ChoosePhotographs(site, options.photos);
   const ArtificialEnvironment building =
       options.with_building ? ReadArtificialEnvironment(site) : ArtificialEnvironment();
-  MontageScene scene = LoadScene(ReadEnvironment(site), building);
+  MontageScene scene = LoadScene(site, ReadEnvironment(site), building);
   if (!options.uniform_ambient) AddInterreflection(&scene, options.bounces);
   std::map<std::string, UncertaintySummary> uncertainties;
   if (options.with_building) {

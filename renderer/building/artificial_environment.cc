@@ -7,6 +7,7 @@
 
 #include "calibration/files/json_file.h"
 #include "calibration/files/whole_file.h"
+#include "renderer/building/texture_coordinates.h"
 
 namespace insitu {
 namespace {
@@ -84,6 +85,11 @@ Json::Value MaterialJson(const SurfaceMaterial& material) {
   if (material.roughness != 0) json["roughness"] = material.roughness;
   if (material.transmission != 0) json["transmission"] = material.transmission;
   if (!material.texture.empty()) json["texture"] = material.texture;
+  if (material.texture_size) {
+    for (const double metres : *material.texture_size) {
+      json["texture_size_m"].append(metres);
+    }
+  }
   return json;
 }
 
@@ -100,6 +106,10 @@ SurfaceMaterial MaterialOf(const JsonNode& node) {
   if (const auto value = node.Find("roughness")) material.roughness = value->Number();
   if (const auto value = node.Find("transmission")) material.transmission = value->Number();
   if (const auto value = node.Find("texture")) material.texture = value->Text();
+  if (const auto value = node.Find("texture_size_m")) {
+    const std::vector<JsonNode> size = value->Items();
+    material.texture_size = Eigen::Vector2d(size.at(0).Number(), size.at(1).Number());
+  }
   return material;
 }
 
@@ -246,6 +256,18 @@ ArtificialEnvironment ReadArtificialEnvironment(const SitePaths& site) {
   return environment;
 }
 
+// A face that shows nothing of its material's texture.
+static bool HasFaceWithoutTexture(const ArtificialEnvironment& environment,
+                                  const SurfaceMaterial& material) {
+  if (material.texture.empty()) return false;
+  const auto index = &material - environment.materials.data();
+  for (size_t t = 0; t < environment.triangles.size(); ++t) {
+    if (environment.material_of_triangle[t] != index) continue;
+    if (!TextureCoordinates(environment, static_cast<int>(t))) return true;
+  }
+  return false;
+}
+
 std::vector<std::string> NotShown(const ArtificialEnvironment& environment) {
   std::vector<std::string> lines;
   for (const SurfaceMaterial& material : environment.materials) {
@@ -254,8 +276,10 @@ std::vector<std::string> NotShown(const ArtificialEnvironment& environment) {
       lines.push_back(name + "its rough reflection is shown as a smooth mirror");
     }
     if (material.transmission != 0) lines.push_back(name + "its transmission is not shown");
-    if (!material.texture.empty()) {
-      lines.push_back(name + "its texture is not shown, but its mean colour");
+    if (HasFaceWithoutTexture(environment, material)) {
+      lines.push_back(name +
+                      "faces without texture coordinates show the mean colour of its texture: "
+                      "state \"texture_size_m\": [width, height] of a repeat");
     }
   }
   for (const PointLight& light : environment.lights) {

@@ -25,9 +25,12 @@ struct SurfaceMaterial {
   SpectralTable reflectance =
       {};  // albedo by wavelength, 0..1; goes before diffuse_rgb unless empty
   // Kept for renderers that show them; ours says so where they are set.
-  double roughness = 0;      // of the mirroring share, 0..1
-  double transmission = 0;   // 0..1
-  std::string texture = {};  // image of the albedo, relative to building/; empty: none
+  double roughness = 0;     // of the mirroring share, 0..1
+  double transmission = 0;  // 0..1
+  // Image of the albedo, relative to building/, of which diffuse_rgb is the mean; empty: none.
+  std::string texture = {};
+  std::optional<Eigen::Vector2d> texture_size =
+      {};  // [m] of one repeat; nullopt: the model's places
 };
 
 // Shines alike in all directions unless it has a distribution. Area lights are several of these.
@@ -57,7 +60,7 @@ void WriteArtificialEnvironment(const SitePaths& site, const ArtificialEnvironme
 ArtificialEnvironment ReadArtificialEnvironment(const SitePaths& site);
 
 // What the description holds and this version's renderer does not show, a line each: roughness,
-// transmission, textures, lamps of unknown strength.
+// transmission, textures of faces without a place on them, lamps of unknown strength.
 std::vector<std::string> NotShown(const ArtificialEnvironment& environment);
 
 }  // namespace insitu

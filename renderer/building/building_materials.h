@@ -24,7 +24,9 @@ struct BuildingMaterial {
 //   and NCS colours are given for screens), diffuse_lab [L, a, b] with lab_white D65 or D50,
 //   reflectance [[nm, value], ...] or reflectance_file (CSV: wavelength,value);
 // and may say diffuse_weight, specular (none, fresnel, mirror), specular_weight, ior, roughness,
-// transmission, texture (an image beside materials.json), hidden; or use NAME of section "library".
+// transmission, texture (an image beside materials.json, which goes before its colour),
+// texture_size_m [width, height] (of one repeat: projected in metres), hidden; or use NAME of
+// section "library".
 class BuildingMaterials {
  public:
   // Throws InputError: unreadable, weights or albedo outside 0..1, an unknown kind of specular,

@@ -122,6 +122,7 @@ Paths RenderInputs(const MontageRequest& request) {
   const SitePaths& site = request.site;
   Paths inputs = {site.environment(), site.input_image("").parent_path(), site.photos(),
                   site.survey() / "foreground"};
+  if (request.with_building) inputs.push_back(site.building());  // textures
   return inputs += Building(request);
 }
 

@@ -49,6 +49,7 @@ struct InfluenceBox {
 constexpr int kMostFacets = 4 * kMostPolarFacets * kMostPolarFacets;
 
 struct InterreflectedLight;
+class SurfaceTextures;
 
 struct MontageScene {
   NaturalEnvironment natural;
@@ -79,6 +80,8 @@ struct MontageScene {
   // Light among surfaces; null: the paper's uniform ambient light [Durisch92, Eq. (4)]. It refers
   // to this scene, which must not be moved once it has it.
   std::shared_ptr<const InterreflectedLight> interreflected;
+
+  std::shared_ptr<const SurfaceTextures> textures = {};  // of the building; null: none
 
   PhotographedSite Photographed() const {
     return {natural.scene, natural_rays, polygon_of_triangle, images, natural.air, natural.spectra};

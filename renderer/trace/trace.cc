@@ -8,6 +8,7 @@
 #include "radiometry/light/illumination.h"
 #include "renderer/trace/interreflected_light.h"
 #include "renderer/trace/profile.h"
+#include "renderer/trace/surface_textures.h"
 
 namespace insitu {
 namespace {
@@ -158,11 +159,21 @@ Spectrum ChangeInBalance(const Daylight& light, const SplitSun& sun, const Smoot
   return ReflectedRadiance(diffuse_weight, bounded, E_change).max(-true_color);
 }
 
+// What a face of the building is made of where a ray meets it.
+SpectralMaterial MaterialAt(const MontageScene& scene, const SceneHit& hit,
+                            const Eigen::Vector3d& to_viewer) {
+  SpectralMaterial material = scene.artificial_materials[scene.material_of_triangle[hit.index]];
+  if (!scene.textures) return material;
+  if (const auto albedo = scene.textures->Albedo(*hit.place, hit.distance, -to_viewer)) {
+    material.brdf = scene.natural.spectra.ReflectanceFromRgb(*albedo) / kPi;
+  }
+  return material;
+}
+
 Spectrum ColorOf(const MontageScene& scene, const SceneHit& hit, const Eigen::Vector3d& to_viewer,
                  const LightDirections& light, World world, int depth) {
   if (!hit.is_building) return SiteColor(scene, hit, to_viewer, light, world, depth);
-  const int material = scene.material_of_triangle[hit.index];
-  return BuildingColor(scene, hit.surface, scene.artificial_materials[material], to_viewer, light,
+  return BuildingColor(scene, hit.surface, MaterialAt(scene, hit, to_viewer), to_viewer, light,
                        depth, LightAround(scene, hit));
 }
 

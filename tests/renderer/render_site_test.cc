@@ -4,6 +4,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "calibration/files/error.h"
 #include "calibration/files/json_file.h"
 #include "calibration/files/whole_file.h"
@@ -127,6 +129,25 @@ TEST_F(RenderSiteTest, TellsOfMattesThatBelongToNoPhotograph) {
   ASSERT_EQ(unread.size(), 1u);
   EXPECT_THAT(unread[0], HasSubstr("foto.png: is not read"));
   EXPECT_THAT(unread[0], HasSubstr("as in photo.png"));
+}
+
+// Stripes 2 m wide on a box 4 m wide.
+TEST_F(RenderSiteTest, ShowsTheTexturesOfTheBuilding) {
+  Raster stripes(64, 1);
+  for (int x = 0; x < 32; ++x) stripes.SetRgb(x, 0, {1, 1, 1});
+  WritePng(site_.building() / "stripes.png", stripes, Encoding::kSrgb8);
+  SurfaceMaterial material;
+  material.texture = "stripes.png";
+  material.texture_size = {4, 4};
+  WriteArtificialEnvironment(site_, Box(small_, {-2, 0, 0}, {2, 4, 6}, material));
+  const Raster picture = RenderSite(site_, {})[0].result.linear;
+  double least = 1, most = 0;
+  for (int x = 20; x < 44; ++x) {
+    least = std::min(least, picture.Rgb(x, 24).x());
+    most = std::max(most, picture.Rgb(x, 24).x());
+  }
+  EXPECT_LT(least, 0.2 * most);
+  EXPECT_FALSE(std::filesystem::is_empty(site_.root / "work/textures"));
 }
 
 }  // namespace
