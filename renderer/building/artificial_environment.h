@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -58,6 +59,13 @@ struct ArtificialEnvironment {
 // files do not belong together.
 void WriteArtificialEnvironment(const SitePaths& site, const ArtificialEnvironment& environment);
 ArtificialEnvironment ReadArtificialEnvironment(const SitePaths& site);
+
+// Of the three corners of a triangle, in repeats of the image, v up: projected in metres where its
+// material states texture_size, on walls along and up the wall, on what lies flatter than 45
+// degrees along x and y; else the model's. nullopt: neither, as where all three of the model's are
+// alike.
+std::optional<std::array<Eigen::Vector2d, 3>> TextureCoordinates(
+    const ArtificialEnvironment& environment, int triangle);
 
 // What the description holds and this version's renderer does not show, a line each: roughness,
 // transmission, textures of faces without a place on them, lamps of unknown strength.

@@ -13,7 +13,6 @@
 #include "calibration/files/sha256.h"
 #include "calibration/files/whole_file.h"
 #include "calibration/photo/photograph.h"
-#include "renderer/building/texture_coordinates.h"
 
 namespace insitu {
 namespace {
