@@ -4,12 +4,16 @@
 #include <algorithm>
 #include <chrono>
 #include <map>
+#include <memory>
 
 #include "calibration/files/error.h"
+#include "calibration/lens/undistort.h"
 #include "calibration/program/program.h"
+#include "renderer/foreground_matte.h"
 #include "renderer/trace/interreflected_light.h"
 #include "renderer/trace/make_montage_scene.h"
 #include "renderer/trace/profile.h"
+#include "renderer/trace/surface_textures.h"
 
 namespace insitu {
 namespace {
@@ -50,18 +54,47 @@ Raster ReadInputImage(const InputImage& image) {
   return ReadPhotograph(image.file).linear;
 }
 
-MontageScene LoadScene(NaturalEnvironment natural, const ArtificialEnvironment& building) {
+// What a pixel in the middle of the sharpest input image spans [rad].
+double PixelAngle(const NaturalEnvironment& natural) {
+  double smallest = 1;
+  for (const InputImage& image : natural.input_images) {
+    const Eigen::Vector2d center(image.camera.width() / 2.0, image.camera.height() / 2.0);
+    const Eigen::Vector3d here = image.camera.Unproject(center).normalized();
+    const Eigen::Vector3d next =
+        image.camera.Unproject(center + Eigen::Vector2d::UnitX()).normalized();
+    smallest = std::min(smallest, (next - here).norm());
+  }
+  return smallest;
+}
+
+std::shared_ptr<const SurfaceTextures> LoadTextures(const SitePaths& site,
+                                                    const NaturalEnvironment& natural,
+                                                    const ArtificialEnvironment& building) {
+  const auto has_texture = [](const SurfaceMaterial& material) {
+    return !material.texture.empty();
+  };
+  if (std::ranges::none_of(building.materials, has_texture)) return nullptr;
+  return std::make_shared<const SurfaceTextures>(building, site.building(),
+                                                 site.root / "work/textures", PixelAngle(natural));
+}
+
+MontageScene LoadScene(const SitePaths& site, NaturalEnvironment natural,
+                       const ArtificialEnvironment& building) {
   const PhaseScope phase(Phase::kFiles);
   std::vector<Raster> images;
   for (const InputImage& image : natural.input_images) images.push_back(ReadInputImage(image));
+  auto textures = LoadTextures(site, natural, building);
   const PhaseScope shading(Phase::kShading);
-  return MakeMontageScene(std::move(natural), building, std::move(images));
+  MontageScene scene = MakeMontageScene(std::move(natural), building, std::move(images));
+  scene.textures = std::move(textures);
+  return scene;
 }
 
 struct View {
   PosedCamera camera;
   ImageQuality quality;
   Photograph photo;
+  std::shared_ptr<const Foreground> foreground = {};  // null: nothing stands in front
 };
 
 // Pixels of a pinhole for one of its photograph, at a pixel of the photograph.
@@ -83,29 +116,52 @@ PointSpread InPinhole(PointSpread spread, const Camera& lens, const Camera& pinh
   return spread;
 }
 
+// A matte in its photograph's frame as the pinhole sees it, resampled as the photograph is.
+Raster InPinhole(const Raster& share, const Camera& lens, const Camera& pinhole) {
+  constexpr float kRounding = 1e-4f;  // what resampling leaves of 0 and 1
+  Raster three(share.width, share.height);
+  for (size_t i = 0; i < three.data.size(); ++i) three.data[i] = share.data[i / 3];
+  const Raster resampled = Reproject(three, lens, pinhole);
+  Raster seen(resampled.width, resampled.height, 1);
+  for (size_t i = 0; i < seen.data.size(); ++i) {
+    const float m = resampled.data[3 * i];
+    seen.data[i] = m < kRounding ? 0 : m > 1 - kRounding ? 1 : m;
+  }
+  return seen;
+}
+
 View LoadView(const SitePaths& site, const MontageScene& scene,
               const std::filesystem::path& photograph, Frame frame) {
   const PhaseScope phase(Phase::kFiles);
   const NaturalEnvironment& natural = scene.natural;
   const size_t index = IndexOf(site, natural.scene, photograph.stem().string());
-  View view = {natural.scene.cameras[index], natural.qualities[index], {}};
+  View view = {natural.scene.cameras[index], natural.qualities[index], {}, {}};
   RequirePhotographSize(photograph, view.camera.camera.width(), view.camera.camera.height());
   view.photo = ReadPhotograph(photograph);
+  const Camera lens = view.camera.camera;
+  auto share = ReadForegroundMatte(site, photograph.stem().string(), lens.width(), lens.height());
   if (frame == Frame::kPinhole) {
     const Camera& pinhole = natural.input_images[index].camera;
     if (auto& spread = view.quality.point_spread) {
-      spread = InPinhole(*spread, view.camera.camera, pinhole);
+      spread = InPinhole(*spread, lens, pinhole);
     }
     view.camera.camera = pinhole;
     view.photo.linear = scene.input_images[index];
+    if (share) share = InPinhole(*share, lens, pinhole);
+  }
+  if (share) {
+    view.foreground = std::make_shared<const Foreground>(
+        SeparateForeground(view.photo.linear, std::move(*share)));
   }
   return view;
 }
 
 void WriteMontage(const SitePaths& site, const std::filesystem::path& photograph,
-                  const Raster& picture, Encoding encoding) {
+                  const RenderResult& result, Encoding encoding) {
   const PhaseScope phase(Phase::kFiles);
   const std::string name = photograph.stem().string();
+  const Raster& picture = result.linear;
+  WriteExr(site.montages() / (name + ".layers.exr"), result.layers);
   WriteExr(site.montages() / (name + ".exr"), picture);
   WritePng(site.montages() / (name + ".png"), picture, encoding);
   WriteJpeg(site.montages() / (name + ".jpg"), picture, photograph);
@@ -135,7 +191,7 @@ std::vector<RenderSiteReport> RenderSite(const SitePaths& site, const RenderSite
   const std::vector<std::filesystem::path> photographs = ChoosePhotographs(site, options.photos);
   const ArtificialEnvironment building =
       options.with_building ? ReadArtificialEnvironment(site) : ArtificialEnvironment();
-  MontageScene scene = LoadScene(ReadEnvironment(site), building);
+  MontageScene scene = LoadScene(site, ReadEnvironment(site), building);
   if (!options.uniform_ambient) AddInterreflection(&scene, options.bounces);
   std::map<std::string, UncertaintySummary> uncertainties;
   if (options.with_building) {
@@ -153,13 +209,14 @@ std::vector<RenderSiteReport> RenderSite(const SitePaths& site, const RenderSite
     RenderOptions render = options.render;
     if (options.sharpness == Sharpness::kMeasured) render.point_spread = view.quality.point_spread;
     if (options.with_grain) render.grain = view.quality.grain;
+    render.foreground = view.foreground;
     report.point_spread = render.point_spread;
     report.has_grain = render.grain.has_value();
     report.result = RenderMontage(scene, view.camera, view.photo.linear, render,
                                   [&progress] { progress.Step(); });
     report.seconds =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    WriteMontage(site, photograph, report.result.linear, view.photo.encoding);
+    WriteMontage(site, photograph, report.result, view.photo.encoding);
     reports.push_back(std::move(report));
   }
   return reports;

@@ -46,11 +46,14 @@ struct RenderSiteReport {
                                                   // in the frame, or no covariances
 };
 
-// Reads work/environment.json and the input images that it names, work/building.json and the
-// photographs to render into, and nothing else; writes
-// montages/<photo>.exr, .png and .jpg, and how well the building's corners are known in
-// <photo>.uncertainty.csv. Throws InputError: a stage before is missing, an unknown
-// photo, a photograph whose size is not its camera's.
+// Reads work/environment.json and the input images that it names, work/building.json and its
+// textures, the photographs to render into and survey/foreground/, and nothing else; writes
+// montages/<photo>.exr, .png and .jpg; in <photo>.layers.exr which share of each pixel is the
+// photograph's (red), computed (green), in front by the matte (blue); and how well the building's
+// corners are known in <photo>.uncertainty.csv. Keeps the
+// textures in linear light in work/textures/. Throws InputError: a stage before is missing, an
+// unknown photo, a texture that is not there, a photograph or matte whose size is not its camera's,
+// a matte that is not grey.
 std::vector<RenderSiteReport> RenderSite(const SitePaths& site, const RenderSiteOptions& options);
 
 }  // namespace insitu

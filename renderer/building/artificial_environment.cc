@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "renderer/building/artificial_environment.h"
 
+#include <Eigen/Geometry>
 #include <bit>
+#include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <numbers>
 
 #include "calibration/files/json_file.h"
 #include "calibration/files/whole_file.h"
@@ -94,6 +97,11 @@ Json::Value MaterialJson(const SurfaceMaterial& material) {
   if (material.specular) json["specular"] = SpecularJson(*material.specular);
   if (!material.reflectance.empty()) json["reflectance"] = TableJson(material.reflectance);
   if (!material.texture.empty()) json["texture"] = material.texture;
+  if (material.texture_size) {
+    for (const double metres : *material.texture_size) {
+      json["texture_size_m"].append(metres);
+    }
+  }
   if ((material.specular_rgb.array() != 1).any()) {
     json["specular_rgb"] = ToJson(material.specular_rgb);
   }
@@ -113,6 +121,10 @@ SurfaceMaterial MaterialOf(const JsonNode& node) {
   if (const auto specular = node.Find("specular")) material.specular = SpecularOf(*specular);
   if (const auto table = node.Find("reflectance")) material.reflectance = TableOf(*table);
   if (const auto value = node.Find("texture")) material.texture = value->Text();
+  if (const auto value = node.Find("texture_size_m")) {
+    const std::vector<JsonNode> size = value->Items();
+    material.texture_size = Eigen::Vector2d(size.at(0).Number(), size.at(1).Number());
+  }
   if (const auto value = node.Find("specular_rgb")) material.specular_rgb = value->Vector3();
   if (const auto metal = node.Find("metal")) {
     material.metal = Metal{TableOf(metal->At("index")), TableOf(metal->At("extinction"))};
@@ -274,6 +286,57 @@ ArtificialEnvironment ReadArtificialEnvironment(const SitePaths& site) {
   return environment;
 }
 
+namespace {
+
+// Along the face, right and up as one looks at its front.
+std::optional<std::array<Eigen::Vector2d, 3>> Projected(const ArtificialEnvironment& environment,
+                                                        const Eigen::Vector3i& triangle,
+                                                        const Eigen::Vector2d& size) {
+  const auto at = [&](int corner) { return environment.vertices[triangle[corner]]; };
+  const Eigen::Vector3d normal = (at(1) - at(0)).cross(at(2) - at(0)).normalized();
+  if (normal.isZero(0)) return std::nullopt;
+  Eigen::Vector3d right = Eigen::Vector3d::UnitX(), up = Eigen::Vector3d::UnitY();
+  if (std::abs(normal.z()) < std::numbers::sqrt2 / 2) {
+    right = Eigen::Vector3d::UnitZ().cross(normal).normalized();
+    up = normal.cross(right);
+  }
+  std::array<Eigen::Vector2d, 3> corners;
+  for (int c = 0; c < 3; ++c) {
+    corners[c] = {right.dot(at(c)) / size.x(), up.dot(at(c)) / size.y()};
+  }
+  return corners;
+}
+
+}  // namespace
+
+std::optional<std::array<Eigen::Vector2d, 3>> TextureCoordinates(
+    const ArtificialEnvironment& environment, int triangle) {
+  const auto& material = environment.materials[environment.material_of_triangle[triangle]];
+  if (material.texture_size) {
+    return Projected(environment, environment.triangles[triangle], *material.texture_size);
+  }
+  if (environment.corner_uvs.empty()) return std::nullopt;
+  const Eigen::Vector2f* uv = &environment.corner_uvs[3 * static_cast<size_t>(triangle)];
+  if (uv[0] == uv[1] && uv[0] == uv[2]) return std::nullopt;
+  return {{uv[0].cast<double>(), uv[1].cast<double>(), uv[2].cast<double>()}};
+}
+
+namespace {
+
+// A face that shows nothing of its material's texture.
+bool HasFaceWithoutTexture(const ArtificialEnvironment& environment,
+                           const SurfaceMaterial& material) {
+  if (material.texture.empty()) return false;
+  const auto index = &material - environment.materials.data();
+  for (size_t t = 0; t < environment.triangles.size(); ++t) {
+    if (environment.material_of_triangle[t] != index) continue;
+    if (!TextureCoordinates(environment, static_cast<int>(t))) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
 std::vector<std::string> NotShown(const ArtificialEnvironment& environment) {
   std::vector<std::string> lines;
   for (const SurfaceMaterial& material : environment.materials) {
@@ -281,8 +344,10 @@ std::vector<std::string> NotShown(const ArtificialEnvironment& environment) {
     if (material.glass && material.specular && material.specular->roughness.slope > 0) {
       lines.push_back(name + "its rough glass is shown as smooth glass");
     }
-    if (!material.texture.empty()) {
-      lines.push_back(name + "its texture is not shown, but its mean colour");
+    if (HasFaceWithoutTexture(environment, material)) {
+      lines.push_back(name +
+                      "faces without texture coordinates show the mean colour of its texture: "
+                      "state \"texture_size_m\": [width, height] of a repeat");
     }
   }
   for (const PointLight& light : environment.lights) {

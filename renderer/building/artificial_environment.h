@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -39,8 +40,10 @@ struct SurfaceMaterial {
   std::optional<Specular> specular = {};                         // nullopt: purely diffuse
   SpectralTable reflectance =
       {};  // albedo by wavelength, 0..1; goes before diffuse_rgb unless empty
-  // Kept for renderers that show it; ours says so where it is set.
-  std::string texture = {};  // image of the albedo, relative to building/; empty: none
+  // Image of the albedo, relative to building/, of which diffuse_rgb is the mean; empty: none.
+  std::string texture = {};
+  std::optional<Eigen::Vector2d> texture_size =
+      {};  // [m] of one repeat; nullopt: the model's places
   Eigen::Vector3d specular_rgb = Eigen::Vector3d::Ones();  // colour of a bare mirror, 0..1
   std::optional<Metal> metal = {};                         // goes before specular_rgb
   std::optional<Glass> glass = {};                         // nullopt: opaque
@@ -77,8 +80,15 @@ struct ArtificialEnvironment {
 void WriteArtificialEnvironment(const SitePaths& site, const ArtificialEnvironment& environment);
 ArtificialEnvironment ReadArtificialEnvironment(const SitePaths& site);
 
-// What the description holds and this version's renderer does not show, a line each: textures,
-// rough glass, lamps of unknown strength.
+// Of the three corners of a triangle, in repeats of the image, v up: projected in metres where its
+// material states texture_size, on walls along and up the wall, on what lies flatter than 45
+// degrees along x and y; else the model's. nullopt: neither, as where all three of the model's are
+// alike.
+std::optional<std::array<Eigen::Vector2d, 3>> TextureCoordinates(
+    const ArtificialEnvironment& environment, int triangle);
+
+// What the description holds and this version's renderer does not show, a line each: rough glass,
+// textures of faces without a place on them, lamps of unknown strength.
 std::vector<std::string> NotShown(const ArtificialEnvironment& environment);
 
 }  // namespace insitu

@@ -87,6 +87,24 @@ void ReadColor(const JsonNode& material, SurfaceMaterial* surface) {
   }
 }
 
+// The image says the colour; its mean stands for it in light among surfaces.
+void ReadTexture(const JsonNode& material, const JsonNode& node, SurfaceMaterial* surface) {
+  surface->texture = node.Text();
+  const Raster image = ReadPhotograph(FileBeside(node)).linear;
+  Vector3d sum = Vector3d::Zero();
+  for (int y = 0; y < image.height; ++y) {
+    for (int x = 0; x < image.width; ++x) sum += image.Rgb(x, y);
+  }
+  surface->diffuse_rgb = sum / (static_cast<double>(image.width) * image.height);
+  const auto size = material.Find("texture_size_m");
+  if (!size) return;
+  const std::vector<JsonNode> metres = size->Items();
+  if (metres.size() != 2 || !(metres[0].Number() > 0) || !(metres[1].Number() > 0)) {
+    throw size->Error("is no size, expected [width, height] of one repeat in metres");
+  }
+  surface->texture_size = Eigen::Vector2d(metres[0].Number(), metres[1].Number());
+}
+
 BuildingMaterial ReadMaterial(const std::string& name, const JsonNode& node,
                               const std::map<std::string, BuildingMaterial>& library) {
   if (const auto use = node.Find("use")) {
@@ -103,13 +121,13 @@ BuildingMaterial ReadMaterial(const std::string& name, const JsonNode& node,
   const auto hidden = node.Find("hidden");
   material.hidden = hidden && hidden->Boolean();
   if (material.hidden) return material;
-  ReadColor(node, &material.surface);
+  if (const auto texture = node.Find("texture")) {
+    ReadTexture(node, *texture, &material.surface);
+  } else {
+    ReadColor(node, &material.surface);
+  }
   material.surface.diffuse_weight = ShareOr(node, "diffuse_weight", 1);
   ReadOptics(node, &material.surface);
-  if (const auto texture = node.Find("texture")) {
-    FileBeside(*texture);
-    material.surface.texture = texture->Text();
-  }
   return material;
 }
 

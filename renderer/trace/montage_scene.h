@@ -84,6 +84,7 @@ struct SplitFaces {
 constexpr int kMostFacets = 4 * kMostPolarFacets * kMostPolarFacets;
 
 struct InterreflectedLight;
+class SurfaceTextures;
 
 struct MontageScene {
   NaturalEnvironment natural;
@@ -116,6 +117,8 @@ struct MontageScene {
   // Light among surfaces; null: the paper's uniform ambient light [Durisch92, Eq. (4)]. It refers
   // to this scene, which must not be moved once it has it.
   std::shared_ptr<const InterreflectedLight> interreflected;
+
+  std::shared_ptr<const SurfaceTextures> textures = {};  // of the building; null: none
 
   const SpectralMaterial& MaterialOfTriangle(int triangle) const {
     return artificial_materials[material_of_triangle[triangle]];

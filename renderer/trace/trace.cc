@@ -10,6 +10,7 @@
 #include "renderer/trace/glass.h"
 #include "renderer/trace/interreflected_light.h"
 #include "renderer/trace/mirror.h"
+#include "renderer/trace/surface_textures.h"
 
 namespace insitu {
 namespace {
@@ -124,11 +125,22 @@ Spectrum ChangeInBalance(const Daylight& light, const SplitSun& sun, const Smoot
   return ReflectedRadiance(diffuse_weight, bounded, E_change).max(-true_color);
 }
 
+// What a face of the building is made of where a ray meets it.
+SpectralMaterial MaterialAt(const MontageScene& scene, const SceneHit& hit,
+                            const Eigen::Vector3d& to_viewer) {
+  SpectralMaterial material = scene.MaterialOfTriangle(hit.index);
+  if (!scene.textures) return material;
+  if (const auto albedo = scene.textures->Albedo(*hit.place, hit.distance, -to_viewer)) {
+    material.brdf = scene.natural.spectra.ReflectanceFromRgb(*albedo) / kPi;
+  }
+  return material;
+}
+
 // The colour of a face of the building. `straight_on` is what is seen through it if it is a pane.
 Spectrum FaceColor(const MontageScene& scene, const SceneHit& hit, const Ray& ray,
                    const LightDirections& light, int depth,
                    const std::function<Spectrum()>& straight_on) {
-  const SpectralMaterial& material = scene.MaterialOfTriangle(hit.index);
+  const SpectralMaterial material = MaterialAt(scene, hit, -ray.direction);
   if (!material.glass) {
     return BuildingColor(scene, hit.surface, material, -ray.direction, light, depth,
                          LightAround(scene, hit));

@@ -7,6 +7,7 @@
 #include <algorithm>
 
 #include "calibration/files/error.h"
+#include "calibration/photo/photograph.h"
 #include "tests/calibration/files/scratch_folder.h"
 #include "tests/renderer/dxf/dxf_text.h"
 #include "tests/renderer/formats/model_texts.h"
@@ -195,7 +196,7 @@ TEST_F(Convert, BadMaterials) {
 // What today's renderer cannot show is kept, and said.
 TEST_F(Convert, RoughGlassAndTextureAreKept) {
   Write("a.dxf", DrawingText(UnitSquare("WALL") + UnitSquare("GLASS")));
-  Write("brick.png", "not looked at");
+  WritePng(folder_.path() / "building/brick.png", Raster(2, 2), Encoding::kSrgb8);
   Write("materials.json", Replaced(Replaced(kMaterials, "0.0}", "0.2, \"transmission\": 0.9}"),
                                    "\"roughness\": null", "\"texture\": \"brick.png\""));
   const ArtificialEnvironment building = Converted().environment;
