@@ -99,4 +99,9 @@ ExifPlace ReadExifPlace(const std::filesystem::path& photo) {
           Degrees(exif, "Exif.GPSInfo.GPSLongitude", "W"), Altitude(exif), LocalTime(exif)};
 }
 
+int ReadOrientation(const std::filesystem::path& photo) {
+  const auto stated = Positive(ReadExif(photo), "Exif.Image.Orientation");
+  return stated && *stated <= 8 ? static_cast<int>(std::lround(*stated)) : 1;
+}
+
 }  // namespace insitu
