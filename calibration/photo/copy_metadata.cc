@@ -179,9 +179,8 @@ std::string BigEndianText(uint32_t value) {
 
 // A chunk eXIf, which viewers heed [PNG 3rd edition, 11.3.4.5]; Exiv2 0.27 writes another.
 void AddExifChunk(const Exiv2::ExifData& exif, const fs::path& png) {
-  Exiv2::ExifData copy = exif;
   Exiv2::Blob blob;
-  Exiv2::ExifParser::encode(blob, Exiv2::littleEndian, copy);
+  Exiv2::ExifParser::encode(blob, Exiv2::littleEndian, exif);
   if (blob.empty()) return;
   std::string chunk = "eXIf" + std::string(blob.begin(), blob.end());
   const uint32_t sum = static_cast<uint32_t>(
