@@ -30,12 +30,14 @@ uint32_t BigEndian(std::string_view bytes, size_t at, int count) {
   return value;
 }
 
-// The pieces of an ICC profile in APP2 [ICC.1:2010, B.4], in their order. Throws InputError: one is
-// missing.
-std::string ProfileOfJpeg(std::string_view jpeg, const fs::path& path) {
-  constexpr std::string_view kName("ICC_PROFILE\0", 12);
-  std::map<uint32_t, std::string_view> pieces;
-  uint32_t expected = 0;
+struct JpegSegment {
+  uint32_t marker;  // its second byte
+  std::string_view content;
+};
+
+// Those before the scan [ITU-T T.81, B.1.1].
+std::vector<JpegSegment> SegmentsOf(std::string_view jpeg) {
+  std::vector<JpegSegment> segments;
   for (size_t at = 2; at + 4 <= jpeg.size() && jpeg[at] == '\xff';) {
     const uint32_t marker = BigEndian(jpeg, at + 1, 1);
     if (marker == 0xff) {  // fill
@@ -44,21 +46,41 @@ std::string ProfileOfJpeg(std::string_view jpeg, const fs::path& path) {
     }
     const uint32_t length = BigEndian(jpeg, at + 2, 2);
     if (marker == 0xda || length < 2 || at + 2 + length > jpeg.size()) break;
-    const std::string_view segment = jpeg.substr(at + 4, length - 2);
-    if (marker == 0xe2 && segment.size() > 14 && segment.starts_with(kName)) {
-      pieces[BigEndian(segment, 12, 1)] = segment.substr(14);
-      expected = BigEndian(segment, 13, 1);
-    }
+    segments.push_back({marker, jpeg.substr(at + 4, length - 2)});
     at += 2 + length;
+  }
+  return segments;
+}
+
+// OpenImageIO makes RGB of CMYK without a profile. Throws InputError.
+void RequireNoCmyk(const std::vector<JpegSegment>& segments, const fs::path& path) {
+  for (const JpegSegment& segment : segments) {
+    const bool is_frame = segment.marker >= 0xc0 && segment.marker <= 0xcf &&
+                          segment.marker != 0xc4 && segment.marker != 0xc8 &&
+                          segment.marker != 0xcc;
+    if (is_frame && segment.content.size() > 5 && segment.content[5] == 4) {
+      throw InputError(path, "is CMYK, expected RGB or grey; convert it to sRGB");
+    }
+  }
+}
+
+// The pieces of an ICC profile in APP2 [ICC.1:2010, B.4], in their order. Throws InputError: one is
+// missing.
+std::string ProfileOfJpeg(const std::vector<JpegSegment>& segments, const fs::path& path) {
+  constexpr std::string_view kName("ICC_PROFILE\0", 12);
+  std::map<uint32_t, std::string_view> pieces;
+  uint32_t expected = 0;
+  for (const auto& [marker, content] : segments) {
+    if (marker != 0xe2 || content.size() <= 14 || !content.starts_with(kName)) continue;
+    pieces[BigEndian(content, 12, 1)] = content.substr(14);
+    expected = BigEndian(content, 13, 1);
   }
   std::string profile;
   for (const auto& [number, piece] : pieces) profile += piece;
-  if (pieces.size() != expected) {
-    throw InputError(path, "its ICC profile is damaged: " + std::to_string(pieces.size()) + " of " +
-                               std::to_string(expected) + " pieces are there; convert the " +
-                               "photograph to sRGB");
-  }
-  return profile;
+  if (pieces.size() == expected) return profile;
+  throw InputError(path, "its ICC profile is damaged: " + std::to_string(pieces.size()) + " of " +
+                             std::to_string(expected) + " pieces are there; convert the " +
+                             "photograph to sRGB");
 }
 
 // The chunks before the picture, by their names; of one name the first.
@@ -255,7 +277,9 @@ ColorSpace ReadStatedColor(const fs::path& path, const DecodedHeader& header) {
   const std::string content = ReadWhole(path);
   if (content.starts_with("\x89PNG\r\n\x1a\n")) return ColorOfPng(content, header, path);
   if (content.starts_with("\xff\xd8")) {
-    const std::string profile = ProfileOfJpeg(content, path);
+    const std::vector<JpegSegment> segments = SegmentsOf(content);
+    RequireNoCmyk(segments, path);
+    const std::string profile = ProfileOfJpeg(segments, path);
     if (!profile.empty()) return ReadIccProfile(profile, header.channels, path);
   }
   return ColorOfExif(path);

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tests/calibration/photo/made_photographs.h"
 
+#include <cstdio>
+// After what it needs.
+#include <jpeglib.h>
 #include <lcms2.h>
 #include <zlib.h>
 
@@ -98,6 +101,26 @@ std::string MadeCmykProfile() {
   cmsSetColorSpace(profile, cmsSigCmykData);
   cmsSetPCS(profile, cmsSigLabData);
   return Saved(profile);
+}
+
+void WriteCmykJpeg(const std::filesystem::path& path) {
+  jpeg_compress_struct codec = {};
+  jpeg_error_mgr errors;
+  codec.err = jpeg_std_error(&errors);
+  jpeg_create_compress(&codec);
+  std::FILE* file = std::fopen(path.c_str(), "wb");
+  jpeg_stdio_dest(&codec, file);
+  codec.image_width = codec.image_height = 8;
+  codec.input_components = 4;
+  codec.in_color_space = JCS_CMYK;
+  jpeg_set_defaults(&codec);
+  jpeg_start_compress(&codec, TRUE);
+  std::vector<JSAMPLE> row(32, 200);
+  JSAMPROW rows[] = {row.data()};
+  for (int y = 0; y < 8; ++y) jpeg_write_scanlines(&codec, rows, 1);
+  jpeg_finish_compress(&codec);
+  jpeg_destroy_compress(&codec);
+  std::fclose(file);
 }
 
 std::string ChunkInteger(uint32_t value) {

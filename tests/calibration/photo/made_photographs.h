@@ -45,6 +45,9 @@ void WriteMade(const std::filesystem::path& path, int width, int channels,
   ASSERT_TRUE(output->close());
 }
 
+// Of one colour, without a profile.
+void WriteCmykJpeg(const std::filesystem::path& path);
+
 // Puts a chunk into a PNG, after its header.
 void InsertChunk(const std::filesystem::path& png, const std::string& name,
                  const std::string& content, size_t at = 33);

@@ -144,6 +144,9 @@ TEST_F(StatedColor, WhatIsNoRgbIsRefused) {
                      [](OIIO::ImageSpec* spec) { spec->attribute("tiff:ColorSpace", "CMYK"); });
   EXPECT_EQ(FaultOf("cmyk.tif"),
             At("cmyk.tif").string() + ": is CMYK, expected RGB or grey; convert it to sRGB");
+  WriteCmykJpeg(At("cmyk.jpg"));
+  EXPECT_EQ(FaultOf("cmyk.jpg"),
+            At("cmyk.jpg").string() + ": is CMYK, expected RGB or grey; convert it to sRGB");
   WriteMade<float>(At("xyz.exr"), 1, 3, {1, 1, 1}, "", [](OIIO::ImageSpec* spec) {
     spec->channelnames = {"X", "Y", "Z"};
   });
