@@ -105,6 +105,7 @@ int RunRender(int argc, char** argv) {
     for (const RenderSiteReport& report : RenderSite(site, options)) {
       PrintReport(report);
       PrintQuality(report, options);
+      std::fputs(WarningLines(report.remarks).c_str(), stdout);
     }
     if (profile) std::fputs(profile->Report().c_str(), stdout);
   });

@@ -7,7 +7,11 @@
 #include <memory>
 
 #include "calibration/files/error.h"
+#include "calibration/files/sha256.h"
+#include "calibration/files/whole_file.h"
 #include "calibration/lens/undistort.h"
+#include "calibration/photo/exif.h"
+#include "calibration/photo/montage_files.h"
 #include "calibration/program/program.h"
 #include "renderer/foreground_matte.h"
 #include "renderer/trace/interreflected_light.h"
@@ -156,15 +160,54 @@ View LoadView(const SitePaths& site, const MontageScene& scene,
   return view;
 }
 
-void WriteMontage(const SitePaths& site, const std::filesystem::path& photograph,
-                  const RenderResult& result, Encoding encoding) {
+// Of all files of survey/, by their names and contents; "" if there are none.
+std::string SurveySha256(const SitePaths& site) {
+  if (!std::filesystem::is_directory(site.survey())) return "";
+  std::map<std::string, std::filesystem::path> files;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(site.survey())) {
+    if (!entry.is_regular_file()) continue;
+    files[entry.path().lexically_relative(site.survey()).generic_string()] = entry.path();
+  }
+  std::string text;
+  for (const auto& [name, file] : files) text += Sha256(file) + "  " + name + "\n";
+  return Sha256OfText(text);
+}
+
+// What the pictures of this run state.
+MontageStatement StatementOf(const SitePaths& site, bool with_building) {
+  MontageStatement statement;
+  statement.program = std::string("insitu ") + INSITU_VERSION;
+  statement.survey_sha256 = SurveySha256(site);
+  if (with_building) statement.model_sha256 = Sha256(site.artificial());
+  return statement;
+}
+
+MontageStatement StatementOf(MontageStatement statement, const std::filesystem::path& photograph,
+                             const RenderResult& result) {
+  statement.photograph_sha256 = Sha256(photograph);
+  statement.is_composite = result.building_pixels + result.changed_pixels > 0;
+  statement.computed = statement.is_composite ? std::to_string(result.building_pixels) +
+                                                    " pixels of the planned building, " +
+                                                    std::to_string(result.changed_pixels) +
+                                                    " pixels of its surroundings whose light it "
+                                                    "changes; all others are the photograph's"
+                                              : "nothing: all pixels are the photograph's";
+  return statement;
+}
+
+std::vector<std::string> WriteMontage(const SitePaths& site,
+                                      const std::filesystem::path& photograph, Frame frame,
+                                      Photograph photo, const RenderResult& result,
+                                      const MontageStatement& statement) {
   const PhaseScope phase(Phase::kFiles);
-  const std::string name = photograph.stem().string();
-  const Raster& picture = result.linear;
-  WriteExr(site.montages() / (name + ".layers.exr"), result.layers);
-  WriteExr(site.montages() / (name + ".exr"), picture);
-  WritePng(site.montages() / (name + ".png"), picture, encoding);
-  WriteJpeg(site.montages() / (name + ".jpg"), picture, photograph);
+  // As the EXR beside it is turned.
+  const CodedPhotograph layers =
+      Upright(CodesOf(result.layers, Encoding::kLinear, {}), ReadOrientation(photograph));
+  WriteWhole(site.montages() / (photograph.stem().string() + ".layers.exr"),
+             [&](const std::filesystem::path& temporary) { WriteCodes(temporary, layers); });
+  return WriteMontageFiles(site.montages() / photograph.stem(),
+                           {result.linear, std::move(photo), photograph, frame == Frame::kPhoto,
+                            StatementOf(statement, photograph, result)});
 }
 
 // Of the building in every photograph, by name, with its file in montages/.
@@ -197,9 +240,10 @@ std::vector<RenderSiteReport> RenderSite(const SitePaths& site, const RenderSite
   if (options.with_building) {
     uncertainties = WriteUncertainties(site, scene.natural.scene, building);
   }
+  const MontageStatement statement = StatementOf(site, options.with_building);
   std::vector<RenderSiteReport> reports;
   for (const std::filesystem::path& photograph : photographs) {
-    const View view = LoadView(site, scene, photograph, options.frame);
+    View view = LoadView(site, scene, photograph, options.frame);
     Progress progress(photograph.stem().string(), TileCount(view.photo.linear));
     const auto start = std::chrono::steady_clock::now();
     RenderSiteReport report;
@@ -216,7 +260,8 @@ std::vector<RenderSiteReport> RenderSite(const SitePaths& site, const RenderSite
                                   [&progress] { progress.Step(); });
     report.seconds =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    WriteMontage(site, photograph, report.result, view.photo.encoding);
+    report.remarks = WriteMontage(site, photograph, options.frame, std::move(view.photo),
+                                  report.result, statement);
     reports.push_back(std::move(report));
   }
   return reports;

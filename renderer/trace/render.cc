@@ -185,7 +185,8 @@ std::optional<Eigen::Vector3d> ComputedPixel(const ViewWork& view, const PixelSu
   const bool may_stay = sum.building_rays == 0 || has_outline;
   if (may_stay && IsWithinReach(photo, composed(), view.options.reach)) return std::nullopt;
   if (view.options.grain) mean += MissingGrain(*view.options.grain, sum, behind, mean, x, y);
-  return composed().cwiseMax(0);
+  // Only a photograph of colours beyond Rec. 709 has less than no light of a primary.
+  return composed().cwiseMax(photo.cwiseMin(0));
 }
 
 void RenderTile(const ViewWork& view, const Tile& tile, RenderResult& result, Counts& counts) {
