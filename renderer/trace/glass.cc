@@ -7,12 +7,13 @@
 
 #include "radiometry/light/fresnel.h"
 #include "renderer/trace/mirror.h"
-#include "renderer/trace/trace.h"
 
 namespace insitu {
 namespace {
 
 using Eigen::Vector3d;
+
+using TraceRay = std::function<Spectrum(const Ray&)>;
 
 constexpr int kSplitDepth = 2;     // mirrors and panes before it
 constexpr int kMostInterior = 12;  // faces met inside a body
@@ -52,8 +53,8 @@ Vector3d MirroredDirection(const Vector3d& direction, const Vector3d& normal) {
 // A ray within a body of glass.
 class BodyPath {
  public:
-  BodyPath(const MontageScene& scene, const LightDirections& light, int material, int depth)
-      : scene_(scene), light_(light), material_(material), depth_(depth) {}
+  BodyPath(const MontageScene& scene, int material, const TraceRay& trace)
+      : scene_(scene), material_(material), trace_(trace) {}
 
   // Radiance that comes back along it. `throughput`: what is left of it at the viewer.
   Spectrum Follow(const Ray& ray, double throughput, int faces) const {
@@ -63,7 +64,7 @@ class BodyPath {
     const Spectrum left = (-glass.absorption * hit->distance).exp();
     const bool is_own = hit->is_building && scene_.material_of_triangle[hit->index] == material_;
     if (!is_own) {  // something stands in the glass
-      return left * TraceSecondary(scene_, ray, light_, World::kWithBuilding, depth_ + 1);
+      return left * trace_(ray);
     }
     const SurfacePoint& face = hit->surface;
     const double cosine = std::min(1.0, -ray.direction.dot(face.normal));
@@ -71,7 +72,7 @@ class BodyPath {
     Spectrum radiance = Spectrum::Zero();
     if (const auto out = Refracted(ray.direction, face.normal, 1 / glass.index)) {
       const Ray rest = {face.position - kStep * face.normal, *out};
-      radiance += (1 - F) * TraceSecondary(scene_, rest, light_, World::kWithBuilding, depth_ + 1);
+      radiance += (1 - F) * trace_(rest);
     }
     const double further = throughput * F * left.maxCoeff();
     if (further > kLittle && faces < kMostInterior) {
@@ -84,28 +85,24 @@ class BodyPath {
 
  private:
   const MontageScene& scene_;
-  const LightDirections& light_;
-  int material_, depth_;
+  int material_;
+  const TraceRay& trace_;
 };
-
-Spectrum TraceMirrored(const MontageScene& scene, const SurfacePoint& surface, const Ray& ray,
-                       const LightDirections& light, int depth) {
-  const Ray mirrored = {surface.position + kBuildingClearance * surface.normal,
-                        MirroredDirection(ray.direction, surface.normal)};
-  return TraceSecondary(scene, mirrored, light, World::kWithBuilding, depth + 1);
-}
 
 }  // namespace
 
 Spectrum GlassColor(const MontageScene& scene, const SceneHit& hit, const Ray& ray,
                     const LightDirections& light, int depth,
-                    const std::function<Spectrum()>& straight_on) {
+                    const std::function<Spectrum()>& straight_on, const TraceRay& trace) {
   const int index = scene.material_of_triangle[hit.index];
   const SpectralMaterial& material = scene.artificial_materials[index];
   const SpectralGlass& glass = *material.glass;
   const double cosine = std::min(1.0, -ray.direction.dot(hit.surface.normal));
   const double mirrors = material.specular ? material.specular->weight : 0;
-  const auto mirrored = [&] { return TraceMirrored(scene, hit.surface, ray, light, depth); };
+  const auto mirrored = [&] {
+    return trace({hit.surface.position + kBuildingClearance * hit.surface.normal,
+                  MirroredDirection(ray.direction, hit.surface.normal)});
+  };
   const double choice = PathChoice(light, depth);
   if (!glass.is_solid) {
     const SheetOptics pane = ThinSheet(cosine, glass.index, glass.absorption, glass.thickness);
@@ -116,7 +113,7 @@ Spectrum GlassColor(const MontageScene& scene, const SceneHit& hit, const Ray& r
   const auto inside = [&] {
     const auto direction = Refracted(ray.direction, hit.surface.normal, glass.index);
     const Ray within = {hit.surface.position - kStep * hit.surface.normal, *direction};
-    return BodyPath(scene, light, index, depth).Follow(within, 1, 0);
+    return BodyPath(scene, index, trace).Follow(within, 1, 0);
   };
   return Both(Spectrum::Constant(F), Spectrum::Constant(glass.weight * (1 - F)), mirrored, inside,
               depth, choice);

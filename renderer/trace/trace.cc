@@ -145,7 +145,10 @@ Spectrum FaceColor(const MontageScene& scene, const SceneHit& hit, const Ray& ra
     return BuildingColor(scene, hit.surface, material, -ray.direction, light, depth,
                          LightAround(scene, hit));
   }
-  const Spectrum glass = GlassColor(scene, hit, ray, light, depth, straight_on);
+  const auto trace = [&](const Ray& out) {
+    return TraceSecondary(scene, out, light, World::kWithBuilding, depth + 1);
+  };
+  const Spectrum glass = GlassColor(scene, hit, ray, light, depth, straight_on, trace);
   if (material.glass->weight >= 1) return glass;
   SpectralMaterial ground = material;  // what does not go through
   ground.specular.reset();
