@@ -6,9 +6,9 @@
 #include <memory>
 #include <optional>
 
+#include "calibration/photo/foreground.h"
 #include "calibration/photo/raster.h"
 #include "radiometry/light/image_quality.h"
-#include "renderer/trace/foreground.h"
 #include "renderer/trace/montage_scene.h"
 
 namespace insitu {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "renderer/trace/foreground.h"
+#include "calibration/photo/foreground.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
