@@ -98,7 +98,8 @@ class Message {
         continue;
       }
       if (is_listed_ && Millimetres(row) != certified_.at(mark)) {
-        Fault("mark " + mark + " of " + photo + " has other millimetres than the certificate");
+        Fault(Formatted("mark %s of %s has other millimetres than the certificate", mark.c_str(),
+                        photo.c_str()));
       }
       marks.push_back({mark, Millimetres(row), {row["x"].asDouble(), row["y"].asDouble()}});
     }
