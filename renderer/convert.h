@@ -50,18 +50,19 @@ struct Conversion {
   std::map<std::string, std::optional<Eigen::Vector3d>> unlisted;
   std::vector<std::string> warnings;  // entities skipped, names without a material, ...
 
-  std::string BriefReport() const;  // triangles, bounding box, layers, warnings
+  std::string BriefReport() const;  // triangles, bounding box, largest 30 layers, warnings
 };
 
 // Reads the models in building/ (of files with one name but several endings, the first of DXF, IFC,
 // glTF, COLLADA, OBJ, PLY, STL), placement.json, materials.json and lights.json there if they are.
 // A name that materials.json does not list keeps the colour of the model's own material or of the
 // drawing, else it becomes a visible mid grey; both with a warning that lists them.
-// Throws InputError: no model, what the readers of the files state, a texture that is named and
-// used but not there. A building without a surface is none: see RequireSurface.
+// Throws InputError: no model, what the readers of the files state. A building without a surface is
+// none: see RequireSurface.
 Conversion ConvertBuilding(const SitePaths& site, const ConvertOptions& options = {});
 
-// Throws InputError, naming what the models hold instead, if there is no surface.
+// Throws InputError: no surface, naming what the models hold instead and why it was left out; a
+// building of under a millimetre or over 100 km.
 void RequireSurface(const SitePaths& site, const Conversion& conversion);
 
 // A materials.json with an entry for every layer, block and material name of the models.

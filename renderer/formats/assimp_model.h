@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// IFC, glTF, COLLADA, PLY and STL, by Assimp.
+// glTF, COLLADA, PLY and STL, by Assimp.
 #pragma once
 
 #include <filesystem>
@@ -13,7 +13,7 @@ namespace insitu {
 // process of its own, so that no file can break or stall the program. Assimp's coordinates are of
 // single precision: a warning says how much that is if it exceeds 1 mm.
 // Throws InputError: what Assimp says of the file; a file that breaks it or takes it longer than
-// `seconds` or over 3 GB; an IFC of another schema than IFC2X3; a file that was cut.
+// `seconds` or over 3 GB; a file that was cut.
 Model ReadWithAssimp(const std::filesystem::path& path, ModelFormat format, int seconds);
 
 }  // namespace insitu

@@ -115,7 +115,7 @@ ModelFormat RequireModelFormat(const fs::path& path) {
   if (LowerEnding(path) == ".dxf") return ModelFormat::kDxf;
   if (LowerEnding(path) == ".stl") return ModelFormat::kStl;
   throw InputError(path, "is " + NameOfUnread(HeadOf(path)) +
-                             ", expected DXF, IFC 2x3, OBJ, glTF, COLLADA, PLY or STL");
+                             ", expected DXF, IFC, OBJ, glTF, COLLADA, PLY or STL");
 }
 
 }  // namespace insitu

@@ -63,11 +63,11 @@ TEST_F(ModelFile, ColladaComesInMetres) {
 }
 
 TEST_F(ModelFile, IfcOfAnotherSchemaOrCutShort) {
-  const std::string head = "ISO-10303-21;\nHEADER;\nFILE_SCHEMA(('IFC4'));\nENDSEC;\n";
+  const std::string head = "ISO-10303-21;\nHEADER;\nFILE_SCHEMA(('IFC2X2'));\nENDSEC;\n";
   EXPECT_THAT(Complaint("a.ifc", head + "END-ISO-10303-21;\n"),
-              HasSubstr("a.ifc:3: is of schema IFC4, expected IFC2X3"));
+              HasSubstr("a.ifc:3: is of schema IFC2X2, expected IFC2X3"));
   std::string old = head;
-  old.replace(old.find("IFC4"), 4, "IFC2X3");
+  old.replace(old.find("IFC2X2"), 6, "IFC2X3");
   EXPECT_THAT(Complaint("a.ifc", old), HasSubstr("a.ifc:4: the file ends here"));
   EXPECT_THAT(Complaint("a.ifc", "ISO-10303-21;\nENDSEC;\n"), HasSubstr("no FILE_SCHEMA"));
 }
