@@ -13,6 +13,7 @@
 #include <cmath>
 #include <fstream>
 #include <limits>
+#include <set>
 #include <string_view>
 #include <utility>
 
@@ -22,9 +23,9 @@
 #include "calibration/files/xml_file.h"
 #include "calibration/photo/photograph.h"
 #include "renderer/formats/cut_short.h"
+#include "renderer/formats/file_reference.h"
 #include "renderer/formats/isolated.h"
 #include "renderer/formats/ply_syntax.h"
-#include "renderer/formats/stl_syntax.h"
 #include "renderer/mesh/face_triangles.h"
 
 namespace insitu {
@@ -240,7 +241,6 @@ bool IsGlb(const fs::path& path) {
 const char* EndingFor(ModelFormat format, const fs::path& path) {
   if (format == ModelFormat::kCollada) return ".dae";
   if (format == ModelFormat::kPly) return ".ply";
-  if (format == ModelFormat::kStl) return ".stl";
   return IsGlb(path) ? ".glb" : ".gltf";
 }
 
@@ -249,13 +249,22 @@ class RenamingIo : public Assimp::DefaultIOSystem {
  public:
   RenamingIo(std::string shown, std::string real)
       : shown_(std::move(shown)), real_(std::move(real)) {}
-  bool Exists(const char* name) const override { return DefaultIOSystem::Exists(Real(name)); }
+  bool Exists(const char* name) const override {
+    return DefaultIOSystem::Exists(Real(name).c_str());
+  }
   Assimp::IOStream* Open(const char* name, const char* mode) override {
-    return DefaultIOSystem::Open(Real(name), mode);
+    return DefaultIOSystem::Open(Real(name).c_str(), mode);
   }
 
  private:
-  const char* Real(const char* name) const { return name == shown_ ? real_.c_str() : name; }
+  // Files that the model names are found as FindReference finds them.
+  std::string Real(const char* name) const {
+    if (name == shown_) return real_;
+    std::error_code none;
+    if (fs::is_regular_file(name, none)) return name;
+    const auto found = FindReference(real_, name);
+    return found ? found->string() : name;
+  }
   std::string shown_, real_;
 };
 
@@ -279,10 +288,8 @@ const char* NameOf(ModelFormat format) {
       return "glTF";
     case ModelFormat::kCollada:
       return "COLLADA";
-    case ModelFormat::kPly:
-      return "PLY";
     default:
-      return "STL";
+      return "PLY";
   }
 }
 
@@ -291,6 +298,53 @@ int SecondsFor(const fs::path& path) {
   constexpr double kLeast = 8, kPerByte = 30e-6, kMost = 1e6;
   return static_cast<int>(
       std::min(kMost, kLeast + kPerByte * static_cast<double>(fs::file_size(path))));
+}
+
+Json::Value GltfJson(const fs::path& path) {
+  if (!IsGlb(path)) return ReadJson(path);
+  uint32_t head[5] = {};  // "glTF", version, length; length and kind of the JSON chunk
+  std::ifstream file(path, std::ios::binary);
+  file.read(reinterpret_cast<char*>(head), sizeof(head));
+  const uint64_t rest = fs::file_size(path) - std::min<uint64_t>(fs::file_size(path), sizeof(head));
+  std::string text(std::min<uint64_t>(head[3], rest), '\0');
+  file.read(text.data(), std::ssize(text));
+  return ParseJson(path, text);
+}
+
+std::vector<std::string> ExtensionNames(const Json::Value& json, const char* list) {
+  std::vector<std::string> names;
+  if (!json.isObject() || !json[list].isArray()) return names;
+  for (const Json::Value& name : json[list]) {
+    if (name.isString()) names.push_back(name.asString());
+  }
+  return names;
+}
+
+// What Assimp reads, or what changes nothing that is shown.
+bool IsUnderstood(const std::string& extension) {
+  static const std::set<std::string> kUnderstood = {
+      "KHR_materials_unlit", "KHR_materials_pbrSpecularGlossiness", "KHR_materials_sheen",
+      "KHR_materials_clearcoat"};
+  return kUnderstood.contains(extension);
+}
+
+// The specification demands that a required extension that is not understood refuses the file.
+std::vector<std::string> CheckGltfExtensions(const fs::path& path) {
+  const Json::Value json = GltfJson(path);
+  for (const std::string& name : ExtensionNames(json, "extensionsRequired")) {
+    if (IsUnderstood(name)) continue;
+    throw InputError(path, "requires the glTF extension " + name.substr(0, 60) +
+                               ", which is not read: export it without (no compression, no "
+                               "quantisation, no instancing), or as OBJ, IFC or DXF");
+  }
+  std::vector<std::string> warnings;
+  for (const std::string& name : ExtensionNames(json, "extensionsUsed")) {
+    if (IsUnderstood(name)) continue;
+    warnings.push_back(InputError(path, "uses the glTF extension " + name.substr(0, 60) +
+                                            ", which is not read: what it says is left out")
+                           .what());
+  }
+  return warnings;
 }
 
 void CheckGlb(const fs::path& path) {
@@ -304,7 +358,6 @@ void CheckGlb(const fs::path& path) {
 
 // Faults that Assimp passes over in silence, or tells no line of.
 void CheckSyntax(const fs::path& path, ModelFormat format) {
-  if (format == ModelFormat::kStl) CheckStl(path);
   if (format == ModelFormat::kPly) CheckPly(path);
   if (format == ModelFormat::kGltf && IsGlb(path)) CheckGlb(path);
 }
@@ -324,6 +377,8 @@ int64_t FacesOf(const Model& model) {
 
 Model ReadWithAssimp(const fs::path& path, ModelFormat format, int seconds) {
   CheckSyntax(path, format);
+  std::vector<std::string> lost;
+  if (format == ModelFormat::kGltf) lost = CheckGltfExtensions(path);
   const IsolationLimits limits{.seconds = std::min(seconds, SecondsFor(path))};
   IsolatedModel isolated = ReadIsolated([&] { return ReadHere(path, format); }, limits);
   if (!isolated.model) {
@@ -335,8 +390,9 @@ Model ReadWithAssimp(const fs::path& path, ModelFormat format, int seconds) {
   }
   if (format == ModelFormat::kPly) RequirePlyFaces(path, FacesOf(*isolated.model));
   isolated.model->format = NameOf(format);
+  isolated.model->warnings.insert(isolated.model->warnings.end(), lost.begin(), lost.end());
   // glTF and COLLADA name their unit or define it; Assimp has turned it into metres.
-  const bool has_unit = format != ModelFormat::kPly && format != ModelFormat::kStl;
+  const bool has_unit = format != ModelFormat::kPly;
   if (has_unit) isolated.model->metres_per_unit = 1;
   return *std::move(isolated.model);
 }

@@ -6,6 +6,7 @@
 #include "renderer/formats/ifc_model.h"
 #include "renderer/formats/model_format.h"
 #include "renderer/formats/obj_model.h"
+#include "renderer/formats/stl_model.h"
 
 namespace insitu {
 
@@ -20,6 +21,7 @@ Model ReadModel(const std::filesystem::path& path, const ImportOptions& options)
   if (format == ModelFormat::kDxf) return ReadDxf(path, options.dxf);
   if (format == ModelFormat::kObj) return ReadObj(path);
   if (format == ModelFormat::kIfc) return ReadIfc(path, options.seconds);
+  if (format == ModelFormat::kStl) return ReadStl(path);
   return ReadWithAssimp(path, format, options.seconds);
 }
 

@@ -184,10 +184,6 @@ TEST(DxfBadInput, UnclosedParts) {
   ExpectFault(DrawingText("", "0 BLOCK\n2 B\n"), "BLOCK", "expected an ENDBLK");
 }
 
-TEST(DxfBadInput, UnknownBlock) {
-  ExpectFault(DrawingText("0 INSERT\n2 DOOR"), "INSERT", "\"DOOR\", which the drawing does not");
-}
-
 TEST(DxfBadInput, BlocksThatInsertThemselves) {
   const std::string blocks =
       "0 BLOCK\n2 A\n0 INSERT\n2 B\n0 ENDBLK\n"
