@@ -279,6 +279,7 @@ Conversion Converter::Finish() {
   WarnOfMaterials();
   WarnOfSolids();
   DropUnused(&mesh_);
+  conversion_.elements = MeasuresByLayer(mesh_);
   for (const Vector3d& vertex : mesh_.vertices) conversion_.box.extend(vertex);
   const int raised = RaiseOverlaidFaces(&mesh_);
   if (raised > 0) {

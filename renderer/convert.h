@@ -13,6 +13,7 @@
 #include "renderer/building/artificial_environment.h"
 #include "renderer/building/placement.h"
 #include "renderer/formats/model_file.h"
+#include "renderer/mesh/element_measures.h"
 #include "renderer/mesh/solids.h"
 
 namespace insitu {
@@ -43,7 +44,8 @@ struct Conversion {
   std::vector<ModelReport> models;
   Eigen::AlignedBox3d box;  // [m], world, as the models draw it; empty without a surface
   SolidsReport solids;
-  double chord_tolerance = 0;  // [m], of what the drawings' arcs became
+  std::map<std::string, ElementMeasures> elements;  // by layer, as shown
+  double chord_tolerance = 0;                       // [m], of what the drawings' arcs became
   std::map<std::string, int> triangles_of_layer;
   std::map<std::string, int> triangles_of_material;
   // What materials.json does not list: label -> what the model itself says of its colour.

@@ -108,6 +108,11 @@ Json::Value SolidsJson(const SolidsReport& solids) {
   return json;
 }
 
+void AddMeasures(const ElementMeasures& measures, Json::Value* json) {
+  (*json)["area_m2"] = measures.area;
+  (*json)["volume_m3"] = measures.volume ? Json::Value(*measures.volume) : Json::Value();
+}
+
 struct Sums {
   std::map<std::string, int> entities;
   SkippedEntities skipped;
@@ -272,6 +277,11 @@ void WriteConvertReport(const std::filesystem::path& path, const Conversion& con
   json["chord_tolerance"] = conversion.chord_tolerance;
   json["lights"] = Json::Value::Int64(conversion.environment.lights.size());
   AddBox(conversion.box, "", &json);
+  AddMeasures(Sum(conversion.elements), &json);
+  json["elements"] = Json::Value(Json::objectValue);
+  for (const auto& [name, measures] : conversion.elements) {
+    AddMeasures(measures, &json["elements"][name]);
+  }
   json["layers"] = CountsJson(conversion.triangles_of_layer);
   json["materials"] = CountsJson(conversion.triangles_of_material);
   json["entities"] = CountsJson(sums.entities);
