@@ -206,13 +206,18 @@ TEST_F(Convert, RoughGlassAndTextureAreKept) {
   EXPECT_THAT(NotShown(building), ElementsAre(HasSubstr("texture"), HasSubstr("rough glass")));
 }
 
-TEST_F(Convert, MissingTextureIsRefusedUnlessTheMaterialIsListed) {
+TEST_F(Convert, ASizeThatNoBuildingHasIsRefused) {
+  Write("house.obj", "v 0 0 0\nv 1e-5 0 0\nv 0 1e-5 0\nf 1 2 3\n");
+  EXPECT_THAT(Complaint(), HasSubstr("expected 1 mm to 100 km"));
+}
+
+TEST_F(Convert, MissingTextureCostsOnlyItself) {
   Write("house.obj", kObj);
   Write("house.mtl", "newmtl BRICK\nKd 1 1 1\nmap_Kd brick.png\n");
-  EXPECT_THAT(Complaint(), HasSubstr("house.mtl:3: names the texture"));
-  EXPECT_THAT(Complaint(), HasSubstr("brick.png, which is not there"));
-  Write("materials.json", R"({"materials": {"BRICK": {"diffuse_rgb": [1, 0, 0]}}})");
-  EXPECT_EQ(Converted().environment.triangles.size(), 3u);
+  const Conversion conversion = Converted();
+  EXPECT_EQ(conversion.environment.triangles.size(), 3u);
+  EXPECT_THAT(conversion.warnings, Contains(AllOf(HasSubstr("house.mtl:3: names the texture"),
+                                                  HasSubstr("brick.png, which is not there"))));
 }
 
 // As GLB and glTF mostly come: a red image inside the file.
