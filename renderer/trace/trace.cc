@@ -47,6 +47,24 @@ Spectrum Mirrored(const MontageScene& scene, const SurfacePoint& surface,
                              depth, kSurveyClearance);
 }
 
+// What of a natural surface's radiance towards a camera is mirrored, before the building stands. A
+// rough mirror counts as what it is on the mean, a smooth one: what is left, which is not below
+// zero, would grow with the scatter of single facets.
+Spectrum MirroredBefore(const MontageScene& scene, const SurfacePoint& surface,
+                        const SpectralMaterial& material, const Eigen::Vector3d& to_camera,
+                        const LightDirections& light, int depth) {
+  if (!material.specular || material.specular->roughness.slope == 0) {
+    return Mirrored(scene, surface, material, to_camera, light, World::kSiteOnly, depth);
+  }
+  LightDirections without_lights = light;
+  without_lights.sees_lights = false;
+  const Spectrum image = MirrorImage(scene, surface, {}, to_camera, without_lights,
+                                     World::kSiteOnly, depth, kSurveyClearance) +
+                         LightsInRoughMirror(scene, surface, material.specular->roughness,
+                                             to_camera, light, false, kSurveyClearance);
+  return MirrorReflectance(material, CosineTo(surface, to_camera)) * image;
+}
+
 // Case D on a primary ray: the change of the pixel. The photograph is the current one.
 Eigen::Vector3d ChangeOfPixel(const MontageScene& scene, const PrimaryRay& primary,
                               const SceneHit& hit) {
@@ -59,11 +77,13 @@ Eigen::Vector3d ChangeOfPixel(const MontageScene& scene, const PrimaryRay& prima
   Spectrum change = Spectrum::Zero();
   Spectrum mirrored_before = Spectrum::Zero();
   if (material.specular) {
-    mirrored_before =
-        Mirrored(scene, hit.surface, material, to_viewer, primary.light, World::kSiteOnly, 0);
+    mirrored_before = MirroredBefore(scene, hit.surface, material, to_viewer, primary.light, 0);
+    const auto mirrored = [&](World world) {
+      return Mirrored(scene, hit.surface, material, to_viewer, primary.light, world, 0);
+    };
+    const bool is_rough = material.specular->roughness.slope > 0;
     change =
-        Mirrored(scene, hit.surface, material, to_viewer, primary.light, World::kWithBuilding, 0) -
-        mirrored_before;
+        mirrored(World::kWithBuilding) - (is_rough ? mirrored(World::kSiteOnly) : mirrored_before);
   }
   change += DiffuseChange(scene, hit.surface, (L0 - mirrored_before).max(0),
                           material.diffuse_weight, primary.light, LightAround(scene, hit));
@@ -94,8 +114,8 @@ Spectrum SiteColor(const MontageScene& scene, const SceneHit& hit, const Eigen::
   const std::optional<SmoothLight> around = LightAround(scene, hit);
   Spectrum diffuse;
   if (const auto seen = LookUpColor(scene.Photographed(), hit.index, hit.surface)) {
-    diffuse = (seen->true_color - Mirrored(scene, hit.surface, material, seen->to_camera, light,
-                                           World::kSiteOnly, depth))
+    diffuse = (seen->true_color -
+               MirroredBefore(scene, hit.surface, material, seen->to_camera, light, depth))
                   .max(0);
   } else if (around) {
     diffuse = ReflectedRadiance(1, scene.interreflected->interreflection.MeanBrdf(hit.index),
