@@ -34,14 +34,10 @@ Json::Value AirJson(const Daylight& daylight) {
   return json;
 }
 
-// A mask holds codes / 255; PNG's sRGB curve must give the codes back. Grey, in three channels.
+// A mask holds codes / 255; PNG's sRGB curve must give the codes back.
 Raster EncodableMask(const Raster& mask) {
-  Raster encodable(mask.width, mask.height);
-  for (int y = 0; y < mask.height; ++y) {
-    for (int x = 0; x < mask.width; ++x) {
-      encodable.SetRgb(x, y, Vector3d::Constant(LinearFromSrgb(*mask.At(x, y))));
-    }
-  }
+  Raster encodable = mask;
+  for (float& value : encodable.data) value = static_cast<float>(LinearFromSrgb(value));
   return encodable;
 }
 

@@ -237,6 +237,14 @@ void EncodeRow(const Raster& linear, int y, const ColorSpace& color,
   }
 }
 
+Raster InThreeChannels(const Raster& grey) {
+  Raster three(grey.width, grey.height);
+  for (size_t i = 0; i < grey.data.size(); ++i) {
+    for (int c = 0; c < 3; ++c) three.data[3 * i + c] = grey.data[i];
+  }
+  return three;
+}
+
 template <typename Code>
 std::vector<Code> EncodedCodes(const Raster& linear, const ColorSpace& color,
                                const std::function<bool(int, int)>& is_wanted) {
@@ -320,6 +328,7 @@ ColorSpace ReadPhotographColor(const fs::path& path) { return ColorOf(*Open(path
 
 CodedPhotograph CodesOf(const Raster& linear, Encoding encoding, const ColorSpace& color,
                         const std::function<bool(int, int)>& is_wanted) {
+  if (linear.channels == 1) return CodesOf(InThreeChannels(linear), encoding, color, is_wanted);
   CodedPhotograph picture{linear.width, linear.height, {}, color};
   switch (encoding) {
     case Encoding::kSrgb8:

@@ -64,8 +64,8 @@ void RequirePhotographSize(const std::filesystem::path& path, int width, int hei
 // Whether the sensor clipped here: a channel at its highest code (never for linear files).
 bool IsClipped(const Photograph& photo, int x, int y);
 
-// Each writes a temporary file and renames it, of three channels. Values outside [0, 1] are clamped
-// by PNG and JPEG.
+// Each writes a temporary file and renames it, of three channels, a grey raster's alike. Values
+// outside [0, 1] are clamped by PNG and JPEG.
 void WriteExr(const std::filesystem::path& path, const Raster& linear);  // 32-bit float
 void WritePng(const std::filesystem::path& path, const Raster& linear, Encoding encoding);
 // sRGB, quality 95, no chroma subsampling; EXIF, XMP and ICC are copied from `metadata_source` if

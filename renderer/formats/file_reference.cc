@@ -13,7 +13,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string WithoutQuotes(std::string name) {
+std::string WithoutQuotes(const std::string& name) {
   constexpr char kAround[] = " \t\r\"'";
   const size_t first = name.find_first_not_of(kAround);
   if (first == name.npos) return "";
