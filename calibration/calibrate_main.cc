@@ -2,6 +2,8 @@
 #include <iostream>
 
 #include "calibration/program/program.h"
+#include "calibration/program/unread_files.h"
+#include "calibration/program/warnings.h"
 #include "calibration/site_calibration.h"
 #include "calibration/site_cameras.h"
 
@@ -35,6 +37,8 @@ int main(int argc, char** argv) {
       }
       return;
     }
+    // Before what may fail for want of them.
+    std::cerr << insitu::WarningLines(insitu::UnreadFiles(site));
     const insitu::SiteCalibration calibration = insitu::CalibrateSite(site, options);
     std::cout << calibration.BriefReport() << "\n";
     for (const insitu::CameraCalibration& camera : calibration.cameras) {

@@ -30,20 +30,26 @@ void JudgeDeviation(double deviation_px, CameraCalibration* camera) {
 
 // ---- boards --------------------------------------------------------------------------------
 
-// A lens is calibrated at one zoom setting; EXIF tells where that was not heeded.
+// A lens is calibrated at one zoom setting; EXIF tells where that was not heeded: against the first
+// that states its focal length, a board if one does.
 void JudgeFocalLengths(const std::vector<fs::path>& boards, const std::vector<fs::path>& photos,
                        CameraCalibration* camera) {
-  const ExifCamera first = ReadExifCamera(boards.front());
-  if (!first.focal_mm) return;
   std::vector<fs::path> all = boards;
   all.insert(all.end(), photos.begin(), photos.end());
-  for (const fs::path& photo : all) {
-    const ExifCamera exif = ReadExifCamera(photo);
-    if (!exif.focal_mm || std::abs(*exif.focal_mm / *first.focal_mm - 1) < 0.02) continue;
+  std::optional<double> first_mm;
+  std::string first;
+  for (size_t i = 0; i < all.size(); ++i) {
+    const auto focal_mm = ReadExifCamera(all[i]).focal_mm;
+    if (!focal_mm) continue;
+    if (!first_mm) {
+      first_mm = focal_mm;
+      first = i < boards.size() ? "the boards" : all[i].filename().string();
+    }
+    if (std::abs(*focal_mm / *first_mm - 1) < 0.02) continue;
     camera->findings.push_back(
         {Severity::kFail,
-         photo.filename().string() + " was taken at " +
-             Formatted("%.1f mm, the boards at %.1f mm.", *exif.focal_mm, *first.focal_mm),
+         all[i].filename().string() + Formatted(" was taken at %.1f mm, ", *focal_mm) + first +
+             Formatted(" at %.1f mm.", *first_mm),
          "Calibrate each zoom setting with boards of its own, in a folder of its own."});
     return;
   }
@@ -82,6 +88,7 @@ CameraCalibration FromFile(const SitePaths& site, const CameraFolder& folder,
   CameraCalibration camera{.name = folder.name, .camera = file.camera};
   camera.file = file;
   NoteUnusedBoards(folder, &camera);
+  JudgeFocalLengths({}, photos, &camera);
   JudgeDeviation(file.largest_deviation_px, &camera);
   const fs::path model = site.camera(folder.name);
   if (file.format != "mrcal") {

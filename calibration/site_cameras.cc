@@ -225,6 +225,7 @@ std::vector<std::string> CamerasOf(const std::vector<CameraFolder>& folders) {
 
 std::vector<std::string> CamerasOfPhotos(const SitePaths& site,
                                          const std::vector<fs::path>& photos) {
+  for (const fs::path& photo : photos) RequireNoPanorama(photo);
   const std::vector<CameraFolder> folders = ListCameraFolders(site);
   if (folders.empty()) return std::vector<std::string>(photos.size());
   const auto film_of_photo = FilmOfPhotos(folders, photos);

@@ -57,12 +57,16 @@ SiteUndistortion UndistortSite(const SitePaths& site) {
     const Camera& camera = lenses.at(cameras[i]).camera;
     RequirePhotographSize(photos[i], camera.width(), camera.height());
   }
-  const SiteUndistortion result{WritePinholes(site, lenses), static_cast<int>(photos.size())};
+  SiteUndistortion result{WritePinholes(site, lenses), static_cast<int>(photos.size()), {}};
   Progress progress("undistorting", result.photos);
   for (size_t i = 0; i < photos.size(); ++i) {
     const Lens& lens = lenses.at(cameras[i]);
-    const Raster original = ReadPhotograph(photos[i]).linear;
-    WriteExr(site.input_image(photos[i].stem()), Reproject(original, lens.camera, lens.pinhole));
+    const Photograph original = ReadPhotograph(photos[i]);
+    if (const std::string& assumption = original.color.assumption; !assumption.empty()) {
+      result.warnings.push_back(photos[i].string() + ": " + assumption);
+    }
+    WriteExr(site.input_image(photos[i].stem()),
+             Reproject(original.linear, lens.camera, lens.pinhole));
     progress.Step();
   }
   return result;

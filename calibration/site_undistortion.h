@@ -13,6 +13,7 @@ namespace insitu {
 struct SiteUndistortion {
   std::vector<Camera> pinholes;  // one a camera
   int photos = 0;
+  std::vector<std::string> warnings;  // colours that had to be assumed, by photograph
   std::string BriefReport() const;
 };
 

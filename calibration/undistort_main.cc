@@ -2,6 +2,7 @@
 #include <iostream>
 
 #include "calibration/program/program.h"
+#include "calibration/program/warnings.h"
 #include "calibration/site_undistortion.h"
 
 int main(int argc, char** argv) {
@@ -12,6 +13,8 @@ int main(int argc, char** argv) {
   app.footer(
       "Example: insitu-undistort gallery\n"
       "writes gallery/work/input_images/*.exr and pinhole.cameramodel.");
-  return insitu::RunProgram(
-      app, argc, argv, [&] { std::cout << insitu::UndistortSite(site).BriefReport() << "\n"; });
+  return insitu::RunProgram(app, argc, argv, [&] {
+    const insitu::SiteUndistortion undistortion = insitu::UndistortSite(site);
+    std::cout << undistortion.BriefReport() << "\n" << insitu::WarningLines(undistortion.warnings);
+  });
 }

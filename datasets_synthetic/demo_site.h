@@ -10,7 +10,7 @@ namespace insitu::demo {
 
 struct DemoSiteOptions {
   int width = 960, height = 640;  // [px], of photographs and board photographs
-  int strata = 12;                // squared: directions that light comes from; for 2 x 2 pixels
+  int strata = 12;                // squared: directions that light comes from; for 3 x 3 pixels
   bool with_boards = true;
   std::function<void()> step_done;  // called kDemoSiteSteps times, if set
 };

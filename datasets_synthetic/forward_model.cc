@@ -20,7 +20,7 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 
 constexpr int kGrid = 2;               // samples along a pixel's side
-constexpr int kBlock = 2;              // [px]
+constexpr int kBlock = 3;              // [px]
 constexpr int kNear = 4;               // [px], about a changed pixel
 constexpr double kChange = 0.1 / 255;  // of sRGB, that is none
 
@@ -107,7 +107,9 @@ class Renderer {
     const Vector3d out = direction - 2 * direction.dot(spot.normal) * spot.normal;
     const std::optional<Spot> seen = Look(place_, {spot.point, out}).after;
     if (!seen) return place_.daylight.sky_radiance;
-    const Incoming rest = light_.Gather(seen->point, seen->normal, options_.strata, seed);
+    // Each sample of a pixel looks for itself.
+    const int strata = std::max(1, options_.strata / kGrid);
+    const Incoming rest = light_.Gather(seen->point, seen->normal, strata, seed);
     const Lighting light = {VisibleSun(place_, seen->point, seen->normal, seed), &rest};
     const double footprint = (spot.distance + seen->distance) / view_.lens.focal_x;
     return ThroughAir(place_.daylight, Diffuse(place_, *seen, light, When::kAfter, footprint),

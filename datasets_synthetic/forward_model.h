@@ -28,7 +28,7 @@ struct RenderedView {
 };
 
 struct RenderOptions {
-  int strata = 12;  // squared: directions that light is gathered from for 2 x 2 pixels of a face
+  int strata = 12;  // squared: directions that light is gathered from for 3 x 3 pixels of a face
 };
 
 // 2 x 2 samples a pixel. Independent of the number of threads.

@@ -91,8 +91,7 @@ Json::Value MaterialToJson(const NaturalMaterial& material) {
   Json::Value json;
   json["diffuse_weight"] = material.diffuse_weight;
   if (!material.specular) return json;
-  json["specular"]["weight"] = material.specular->weight;
-  if (material.specular->index) json["specular"]["index"] = *material.specular->index;
+  json["specular"] = SpecularJson(*material.specular);
   return json;
 }
 
@@ -243,8 +242,7 @@ NaturalMaterial ReadMaterial(const JsonNode& node) {
   NaturalMaterial material;
   material.diffuse_weight = node.At("diffuse_weight").Number();
   if (const auto specular = node.Find("specular")) {
-    material.specular = Specular{specular->At("weight").Number(), std::nullopt};
-    if (const auto index = specular->Find("index")) material.specular->index = index->Number();
+    material.specular = SpecularOf(*specular);
   }
   return material;
 }

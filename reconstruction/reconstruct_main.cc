@@ -3,6 +3,8 @@
 
 #include "calibration/files/json_file.h"
 #include "calibration/program/program.h"
+#include "calibration/program/unread_files.h"
+#include "calibration/program/warnings.h"
 #include "reconstruction/colmap/colmap_text.h"
 #include "reconstruction/colmap_export.h"
 #include "reconstruction/reconstruct_site.h"
@@ -41,6 +43,8 @@ int main(int argc, char** argv) {
                  "folder to receive the result as a COLMAP text model as well");
   app.footer("Example:\n  insitu-reconstruct sites/gallery --plane-sigma 0.01");
   return insitu::RunProgram(app, argc, argv, [&] {
+    // Before what may fail for want of them.
+    std::cerr << insitu::WarningLines(insitu::UnreadFiles(site));
     const insitu::Adjustment adjustment =
         insitu::ReconstructSite(site, options, start_poses, insitu::CommandLine(app));
     if (!colmap_model.empty()) {

@@ -9,7 +9,6 @@
 #include "calibration/files/wording.h"
 #include "calibration/photo/photograph.h"
 #include "calibration/program/program.h"
-#include "calibration/program/warnings.h"
 #include "renderer/building/building_lights.h"
 #include "renderer/building/building_materials.h"
 #include "renderer/building/site_check.h"
@@ -99,7 +98,12 @@ class Converter {
 void Converter::WarnOf(const ModelReport& report, const Model& model) {
   if (!model.metres_per_unit && !report.placement.metres_per_unit &&
       !model.mesh.triangles.empty()) {
-    Warn(report.file, "names no unit: taken as metres");
+    const bool is_drawing = model.format.starts_with("DXF");  // whose vertical axis is z
+    Warn(report.file, std::string("names no unit: taken as metres") +
+                          (is_drawing || report.placement.y_up
+                               ? ""
+                               : "; and no vertical axis: z taken as up (\"up\": \"y\" in "
+                                 "placement.json if it lies on its side)"));
   }
   std::map<std::string, std::map<std::string, int>> kinds_of_reason;
   for (const auto& [what, count] : model.skipped) kinds_of_reason[what.second][what.first] += count;
@@ -160,12 +164,6 @@ void Converter::Add(const fs::path& path) {
 std::string Converter::TextureOf(const SurfaceNames& names) {
   if (names.texture.empty()) return "";
   std::error_code none;
-  if (!fs::is_regular_file(names.texture, none)) {
-    throw InputError(names.texture_place, "names the texture " + names.texture +
-                                              ", which is not there, expected the image, or an "
-                                              "entry for material \"" +
-                                              names.material + "\" in materials.json");
-  }
   return fs::proximate(names.texture, site_.building(), none).string();
 }
 
@@ -190,7 +188,7 @@ int Converter::Unlisted(const SurfaceNames& names) {
           material.diffuse_rgb.cwiseProduct(MeanColor(ReadPhotograph(names.texture).linear))
               .cwiseMin(1);
     }
-    material.transmission = 1 - names.opacity;
+    if (names.opacity < 1) material.glass = Glass{.weight = 1 - names.opacity};
   }
   (has_color || names.rgb ? own_color_ : grey_).insert(label);
   materials.push_back(material);
@@ -281,6 +279,7 @@ Conversion Converter::Finish() {
   WarnOfMaterials();
   WarnOfSolids();
   DropUnused(&mesh_);
+  conversion_.elements = MeasuresByLayer(mesh_);
   for (const Vector3d& vertex : mesh_.vertices) conversion_.box.extend(vertex);
   const int raised = RaiseOverlaidFaces(&mesh_);
   if (raised > 0) {
@@ -293,7 +292,9 @@ Conversion Converter::Finish() {
   environment.triangles = std::move(mesh_.triangles);
   environment.corner_normals = std::move(mesh_.corner_normals);
   environment.corner_uvs = std::move(mesh_.corner_uvs);
-  for (const std::string& suspicion : SuspicionsOf(conversion_.box, SiteBox(site_))) {
+  const bool names_unit = std::ranges::all_of(
+      conversion_.models, [](const ModelReport& m) { return m.metres_per_unit.has_value(); });
+  for (const std::string& suspicion : SuspicionsOf(conversion_.box, SiteBox(site_), names_unit)) {
     Warn(site_.building(), suspicion);
   }
   const fs::path lights = site_.building() / "lights.json";
@@ -305,8 +306,19 @@ ModelList ModelsOf(const SitePaths& site, const ConvertOptions& options) {
   return options.models.empty() ? ListModels(site) : ModelList{options.models, {}};
 }
 
-std::string Written(const Vector3d& point) {
-  return Formatted("(%.3f, %.3f, %.3f)", point.x(), point.y(), point.z());
+fs::path FileOf(const SitePaths& site, const Conversion& conversion) {
+  return conversion.models.size() == 1 ? conversion.models.front().file : site.building();
+}
+
+// A size that no building has is a fault of reading or of units.
+void RequireSize(const SitePaths& site, const Conversion& conversion) {
+  constexpr double kSmallest = 1e-3, kLargest = 1e5;  // [m]
+  const double size = conversion.box.diagonal().norm();
+  if (size >= kSmallest && size <= kLargest) return;
+  throw InputError(FileOf(site, conversion),
+                   Formatted("is %.3g m across, expected 1 mm to 100 km: see \"unit\" and the "
+                             "warnings of the report",
+                             size));
 }
 
 }  // namespace
@@ -330,15 +342,18 @@ Conversion ConvertBuilding(const SitePaths& site, const ConvertOptions& options)
 }
 
 void RequireSurface(const SitePaths& site, const Conversion& conversion) {
-  if (!conversion.environment.triangles.empty()) return;
-  std::map<std::string, int> entities;
+  if (!conversion.environment.triangles.empty()) return RequireSize(site, conversion);
+  std::map<std::string, int> entities, reasons;
   for (const ModelReport& model : conversion.models) {
     for (const auto& [kind, count] : model.entities) entities[kind] += count;
+    for (const auto& [what, count] : model.skipped) {
+      reasons[what.first + " left out (" + what.second + ")"] += count;
+    }
   }
-  const fs::path file =
-      conversion.models.size() == 1 ? conversion.models.front().file : site.building();
+  const fs::path file = FileOf(site, conversion);
   throw InputError(file, "has no surface to show, expected faces, meshes or solids; it has " +
-                             (entities.empty() ? "nothing" : Listed(entities)));
+                             (entities.empty() ? "nothing" : Listed(entities)) +
+                             (reasons.empty() ? "" : "; " + Listed(reasons)));
 }
 
 std::string MaterialsTemplate(const SitePaths& site, const ConvertOptions& options) {
@@ -360,18 +375,6 @@ std::string MaterialsTemplate(const SitePaths& site, const ConvertOptions& optio
     for (const auto& [name, entry] : entries) root[section][name] = entry;
   }
   return root.toStyledString();
-}
-
-std::string Conversion::BriefReport() const {
-  std::string report = std::to_string(environment.triangles.size()) + " triangles, " +
-                       std::to_string(environment.lights.size()) + " lights\n";
-  if (!box.isEmpty()) {
-    report += "  from " + Written(box.min()) + " to " + Written(box.max()) + " m\n";
-  }
-  for (const auto& [layer, triangles] : triangles_of_layer) {
-    report += "  " + layer + ": " + std::to_string(triangles) + "\n";
-  }
-  return report + WarningLines(warnings);
 }
 
 }  // namespace insitu

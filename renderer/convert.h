@@ -13,6 +13,7 @@
 #include "renderer/building/artificial_environment.h"
 #include "renderer/building/placement.h"
 #include "renderer/formats/model_file.h"
+#include "renderer/mesh/element_measures.h"
 #include "renderer/mesh/solids.h"
 
 namespace insitu {
@@ -43,25 +44,27 @@ struct Conversion {
   std::vector<ModelReport> models;
   Eigen::AlignedBox3d box;  // [m], world, as the models draw it; empty without a surface
   SolidsReport solids;
-  double chord_tolerance = 0;  // [m], of what the drawings' arcs became
+  std::map<std::string, ElementMeasures> elements;  // by layer, as shown
+  double chord_tolerance = 0;                       // [m], of what the drawings' arcs became
   std::map<std::string, int> triangles_of_layer;
   std::map<std::string, int> triangles_of_material;
   // What materials.json does not list: label -> what the model itself says of its colour.
   std::map<std::string, std::optional<Eigen::Vector3d>> unlisted;
   std::vector<std::string> warnings;  // entities skipped, names without a material, ...
 
-  std::string BriefReport() const;  // triangles, bounding box, layers, warnings
+  std::string BriefReport() const;  // triangles, bounding box, largest 30 layers, warnings
 };
 
 // Reads the models in building/ (of files with one name but several endings, the first of DXF, IFC,
 // glTF, COLLADA, OBJ, PLY, STL), placement.json, materials.json and lights.json there if they are.
 // A name that materials.json does not list keeps the colour of the model's own material or of the
 // drawing, else it becomes a visible mid grey; both with a warning that lists them.
-// Throws InputError: no model, what the readers of the files state, a texture that is named and
-// used but not there. A building without a surface is none: see RequireSurface.
+// Throws InputError: no model, what the readers of the files state. A building without a surface is
+// none: see RequireSurface.
 Conversion ConvertBuilding(const SitePaths& site, const ConvertOptions& options = {});
 
-// Throws InputError, naming what the models hold instead, if there is no surface.
+// Throws InputError: no surface, naming what the models hold instead and why it was left out; a
+// building of under a millimetre or over 100 km.
 void RequireSurface(const SitePaths& site, const Conversion& conversion);
 
 // A materials.json with an entry for every layer, block and material name of the models.

@@ -11,7 +11,7 @@ namespace {
 
 int RunConvert(int argc, char** argv) {
   CLI::App app(
-      "Reads the planned building: the models in building/ (DXF, IFC 2x3, OBJ, glTF, COLLADA, "
+      "Reads the planned building: the models in building/ (DXF, IFC, OBJ, glTF, COLLADA, "
       "PLY,\n"
       "STL), placement.json, materials.json and lights.json.\n"
       "Writes work/building.json and work/building.bin.",

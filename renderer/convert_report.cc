@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "renderer/convert_report.h"
 
+#include <algorithm>
+#include <functional>
 #include <initializer_list>
 
 #include "calibration/files/json_file.h"
 #include "calibration/files/whole_file.h"
 #include "calibration/files/wording.h"
 #include "calibration/photo/photograph.h"
+#include "calibration/program/warnings.h"
 #include "renderer/preview_image.h"
 
 namespace insitu {
@@ -103,6 +106,11 @@ Json::Value SolidsJson(const SolidsReport& solids) {
   json["degenerate_faces"] = solids.degenerate_faces;
   json["coincident_faces"] = solids.coincident_faces;
   return json;
+}
+
+void AddMeasures(const ElementMeasures& measures, Json::Value* json) {
+  (*json)["area_m2"] = measures.area;
+  (*json)["volume_m3"] = measures.volume ? Json::Value(*measures.volume) : Json::Value();
 }
 
 struct Sums {
@@ -233,7 +241,32 @@ std::string Page(const std::string& picture, const Conversion& conversion) {
   return page + CountsTable("Solids", "what", solids) + "</main></body></html>\n";
 }
 
+std::string Written(const Vector3d& point) {
+  return Formatted("(%.3f, %.3f, %.3f)", point.x(), point.y(), point.z());
+}
+
 }  // namespace
+
+std::string Conversion::BriefReport() const {
+  std::string report = std::to_string(environment.triangles.size()) + " triangles, " +
+                       std::to_string(environment.lights.size()) + " lights\n";
+  if (!box.isEmpty()) {
+    report += "  from " + Written(box.min()) + " to " + Written(box.max()) + " m\n";
+  }
+  constexpr size_t kMostLayers = 30;
+  std::vector<std::pair<std::string, int>> layers(triangles_of_layer.begin(),
+                                                  triangles_of_layer.end());
+  if (layers.size() > kMostLayers) {
+    std::ranges::stable_sort(layers, std::greater(), &std::pair<std::string, int>::second);
+  }
+  for (size_t i = 0; i < std::min(layers.size(), kMostLayers); ++i) {
+    report += "  " + layers[i].first + ": " + std::to_string(layers[i].second) + "\n";
+  }
+  if (layers.size() > kMostLayers) {
+    report += "  and " + std::to_string(layers.size() - kMostLayers) + " smaller ones: --report\n";
+  }
+  return report + WarningLines(warnings);
+}
 
 void WriteConvertReport(const std::filesystem::path& path, const Conversion& conversion) {
   const Sums sums = SumOver(conversion.models);
@@ -244,6 +277,11 @@ void WriteConvertReport(const std::filesystem::path& path, const Conversion& con
   json["chord_tolerance"] = conversion.chord_tolerance;
   json["lights"] = Json::Value::Int64(conversion.environment.lights.size());
   AddBox(conversion.box, "", &json);
+  AddMeasures(Sum(conversion.elements), &json);
+  json["elements"] = Json::Value(Json::objectValue);
+  for (const auto& [name, measures] : conversion.elements) {
+    AddMeasures(measures, &json["elements"][name]);
+  }
   json["layers"] = CountsJson(conversion.triangles_of_layer);
   json["materials"] = CountsJson(conversion.triangles_of_material);
   json["entities"] = CountsJson(sums.entities);

@@ -5,6 +5,8 @@
 #include <memory>
 
 #include "calibration/program/program.h"
+#include "calibration/program/warnings.h"
+#include "renderer/foreground_matte.h"
 #include "renderer/render_site.h"
 #include "renderer/trace/profile.h"
 
@@ -67,8 +69,10 @@ int RunRender(int argc, char** argv) {
   CLI::App app("Renders the planned building into the photographs of its site.", "insitu-render");
   app.footer(
       "Example: insitu-render path/to/site --photo IMG_2102\n"
-      "Reads work/environment.json, work/building.json and work/input_images/;\n"
-      "writes montages/<photo>.exr, .png and .jpg.");
+      "Reads work/environment.json, work/building.json, work/input_images/ and what\n"
+      "stands in front, survey/foreground/<photo>.png (white: in front);\n"
+      "writes montages/<photo>.exr, .png and .jpg, and .layers.exr: the shares of the\n"
+      "photograph (red), computed (green) and in front (blue).");
   SitePaths site;
   RenderSiteOptions options;
   bool no_building = false, timing = false;
@@ -97,9 +101,11 @@ int RunRender(int argc, char** argv) {
   return RunProgram(app, argc, argv, [&] {
     options.with_building = !no_building;
     const auto profile = timing ? std::make_unique<Profile>() : nullptr;
+    std::fputs(WarningLines(UnreadForegroundFiles(site)).c_str(), stdout);
     for (const RenderSiteReport& report : RenderSite(site, options)) {
       PrintReport(report);
       PrintQuality(report, options);
+      std::fputs(WarningLines(report.remarks).c_str(), stdout);
     }
     if (profile) std::fputs(profile->Report().c_str(), stdout);
   });

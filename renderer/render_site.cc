@@ -4,12 +4,20 @@
 #include <algorithm>
 #include <chrono>
 #include <map>
+#include <memory>
 
 #include "calibration/files/error.h"
+#include "calibration/files/sha256.h"
+#include "calibration/files/whole_file.h"
+#include "calibration/lens/undistort.h"
+#include "calibration/photo/exif.h"
+#include "calibration/photo/montage_files.h"
 #include "calibration/program/program.h"
+#include "renderer/foreground_matte.h"
 #include "renderer/trace/interreflected_light.h"
 #include "renderer/trace/make_montage_scene.h"
 #include "renderer/trace/profile.h"
+#include "renderer/trace/surface_textures.h"
 
 namespace insitu {
 namespace {
@@ -50,18 +58,47 @@ Raster ReadInputImage(const InputImage& image) {
   return ReadPhotograph(image.file).linear;
 }
 
-MontageScene LoadScene(NaturalEnvironment natural, const ArtificialEnvironment& building) {
+// What a pixel in the middle of the sharpest input image spans [rad].
+double PixelAngle(const NaturalEnvironment& natural) {
+  double smallest = 1;
+  for (const InputImage& image : natural.input_images) {
+    const Eigen::Vector2d center(image.camera.width() / 2.0, image.camera.height() / 2.0);
+    const Eigen::Vector3d here = image.camera.Unproject(center).normalized();
+    const Eigen::Vector3d next =
+        image.camera.Unproject(center + Eigen::Vector2d::UnitX()).normalized();
+    smallest = std::min(smallest, (next - here).norm());
+  }
+  return smallest;
+}
+
+std::shared_ptr<const SurfaceTextures> LoadTextures(const SitePaths& site,
+                                                    const NaturalEnvironment& natural,
+                                                    const ArtificialEnvironment& building) {
+  const auto has_texture = [](const SurfaceMaterial& material) {
+    return !material.texture.empty();
+  };
+  if (std::ranges::none_of(building.materials, has_texture)) return nullptr;
+  return std::make_shared<const SurfaceTextures>(building, site.building(),
+                                                 site.root / "work/textures", PixelAngle(natural));
+}
+
+MontageScene LoadScene(const SitePaths& site, NaturalEnvironment natural,
+                       const ArtificialEnvironment& building) {
   const PhaseScope phase(Phase::kFiles);
   std::vector<Raster> images;
   for (const InputImage& image : natural.input_images) images.push_back(ReadInputImage(image));
+  auto textures = LoadTextures(site, natural, building);
   const PhaseScope shading(Phase::kShading);
-  return MakeMontageScene(std::move(natural), building, std::move(images));
+  MontageScene scene = MakeMontageScene(std::move(natural), building, std::move(images));
+  scene.textures = std::move(textures);
+  return scene;
 }
 
 struct View {
   PosedCamera camera;
   ImageQuality quality;
   Photograph photo;
+  std::shared_ptr<const Foreground> foreground = {};  // null: nothing stands in front
 };
 
 // Pixels of a pinhole for one of its photograph, at a pixel of the photograph.
@@ -83,32 +120,94 @@ PointSpread InPinhole(PointSpread spread, const Camera& lens, const Camera& pinh
   return spread;
 }
 
+// A matte in its photograph's frame as the pinhole sees it, resampled as the photograph is.
+Raster InPinhole(const Raster& share, const Camera& lens, const Camera& pinhole) {
+  constexpr float kRounding = 1e-4f;  // what resampling leaves of 0 and 1
+  Raster three(share.width, share.height);
+  for (size_t i = 0; i < three.data.size(); ++i) three.data[i] = share.data[i / 3];
+  const Raster resampled = Reproject(three, lens, pinhole);
+  Raster seen(resampled.width, resampled.height, 1);
+  for (size_t i = 0; i < seen.data.size(); ++i) {
+    const float m = resampled.data[3 * i];
+    seen.data[i] = m < kRounding ? 0 : m > 1 - kRounding ? 1 : m;
+  }
+  return seen;
+}
+
 View LoadView(const SitePaths& site, const MontageScene& scene,
               const std::filesystem::path& photograph, Frame frame) {
   const PhaseScope phase(Phase::kFiles);
   const NaturalEnvironment& natural = scene.natural;
   const size_t index = IndexOf(site, natural.scene, photograph.stem().string());
-  View view = {natural.scene.cameras[index], natural.qualities[index], {}};
+  View view = {natural.scene.cameras[index], natural.qualities[index], {}, {}};
   RequirePhotographSize(photograph, view.camera.camera.width(), view.camera.camera.height());
   view.photo = ReadPhotograph(photograph);
+  const Camera lens = view.camera.camera;
+  auto share = ReadForegroundMatte(site, photograph.stem().string(), lens.width(), lens.height());
   if (frame == Frame::kPinhole) {
     const Camera& pinhole = natural.input_images[index].camera;
     if (auto& spread = view.quality.point_spread) {
-      spread = InPinhole(*spread, view.camera.camera, pinhole);
+      spread = InPinhole(*spread, lens, pinhole);
     }
     view.camera.camera = pinhole;
     view.photo.linear = scene.input_images[index];
+    if (share) share = InPinhole(*share, lens, pinhole);
+  }
+  if (share) {
+    view.foreground = std::make_shared<const Foreground>(
+        SeparateForeground(view.photo.linear, std::move(*share)));
   }
   return view;
 }
 
-void WriteMontage(const SitePaths& site, const std::filesystem::path& photograph,
-                  const Raster& picture, Encoding encoding) {
+// Of all files of survey/, by their names and contents; "" if there are none.
+std::string SurveySha256(const SitePaths& site) {
+  if (!std::filesystem::is_directory(site.survey())) return "";
+  std::map<std::string, std::filesystem::path> files;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(site.survey())) {
+    if (!entry.is_regular_file()) continue;
+    files[entry.path().lexically_relative(site.survey()).generic_string()] = entry.path();
+  }
+  std::string text;
+  for (const auto& [name, file] : files) text += Sha256(file) + "  " + name + "\n";
+  return Sha256OfText(text);
+}
+
+// What the pictures of this run state.
+MontageStatement StatementOf(const SitePaths& site, bool with_building) {
+  MontageStatement statement;
+  statement.program = std::string("insitu ") + INSITU_VERSION;
+  statement.survey_sha256 = SurveySha256(site);
+  if (with_building) statement.model_sha256 = Sha256(site.artificial());
+  return statement;
+}
+
+MontageStatement StatementOf(MontageStatement statement, const std::filesystem::path& photograph,
+                             const RenderResult& result) {
+  statement.photograph_sha256 = Sha256(photograph);
+  statement.is_composite = result.building_pixels + result.changed_pixels > 0;
+  statement.computed = statement.is_composite ? std::to_string(result.building_pixels) +
+                                                    " pixels of the planned building, " +
+                                                    std::to_string(result.changed_pixels) +
+                                                    " pixels of its surroundings whose light it "
+                                                    "changes; all others are the photograph's"
+                                              : "nothing: all pixels are the photograph's";
+  return statement;
+}
+
+std::vector<std::string> WriteMontage(const SitePaths& site,
+                                      const std::filesystem::path& photograph, Frame frame,
+                                      Photograph photo, const RenderResult& result,
+                                      const MontageStatement& statement) {
   const PhaseScope phase(Phase::kFiles);
-  const std::string name = photograph.stem().string();
-  WriteExr(site.montages() / (name + ".exr"), picture);
-  WritePng(site.montages() / (name + ".png"), picture, encoding);
-  WriteJpeg(site.montages() / (name + ".jpg"), picture, photograph);
+  // As the EXR beside it is turned.
+  const CodedPhotograph layers =
+      Upright(CodesOf(result.layers, Encoding::kLinear, {}), ReadOrientation(photograph));
+  WriteWhole(site.montages() / (photograph.stem().string() + ".layers.exr"),
+             [&](const std::filesystem::path& temporary) { WriteCodes(temporary, layers); });
+  return WriteMontageFiles(site.montages() / photograph.stem(),
+                           {result.linear, std::move(photo), photograph, frame == Frame::kPhoto,
+                            StatementOf(statement, photograph, result)});
 }
 
 // Of the building in every photograph, by name, with its file in montages/.
@@ -135,15 +234,16 @@ std::vector<RenderSiteReport> RenderSite(const SitePaths& site, const RenderSite
   const std::vector<std::filesystem::path> photographs = ChoosePhotographs(site, options.photos);
   const ArtificialEnvironment building =
       options.with_building ? ReadArtificialEnvironment(site) : ArtificialEnvironment();
-  MontageScene scene = LoadScene(ReadEnvironment(site), building);
+  MontageScene scene = LoadScene(site, ReadEnvironment(site), building);
   if (!options.uniform_ambient) AddInterreflection(&scene, options.bounces);
   std::map<std::string, UncertaintySummary> uncertainties;
   if (options.with_building) {
     uncertainties = WriteUncertainties(site, scene.natural.scene, building);
   }
+  const MontageStatement statement = StatementOf(site, options.with_building);
   std::vector<RenderSiteReport> reports;
   for (const std::filesystem::path& photograph : photographs) {
-    const View view = LoadView(site, scene, photograph, options.frame);
+    View view = LoadView(site, scene, photograph, options.frame);
     Progress progress(photograph.stem().string(), TileCount(view.photo.linear));
     const auto start = std::chrono::steady_clock::now();
     RenderSiteReport report;
@@ -153,13 +253,15 @@ std::vector<RenderSiteReport> RenderSite(const SitePaths& site, const RenderSite
     RenderOptions render = options.render;
     if (options.sharpness == Sharpness::kMeasured) render.point_spread = view.quality.point_spread;
     if (options.with_grain) render.grain = view.quality.grain;
+    render.foreground = view.foreground;
     report.point_spread = render.point_spread;
     report.has_grain = render.grain.has_value();
     report.result = RenderMontage(scene, view.camera, view.photo.linear, render,
                                   [&progress] { progress.Step(); });
     report.seconds =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    WriteMontage(site, photograph, report.result.linear, view.photo.encoding);
+    report.remarks = WriteMontage(site, photograph, options.frame, std::move(view.photo),
+                                  report.result, statement);
     reports.push_back(std::move(report));
   }
   return reports;

@@ -44,13 +44,18 @@ struct RenderSiteReport {
   double seconds = 0;                             // rendering, files apart
   std::optional<UncertaintySummary> uncertainty;  // of the building's image; nullopt: no building
                                                   // in the frame, or no covariances
+  std::vector<std::string> remarks;               // what of the photograph could not be delivered
 };
 
-// Reads work/environment.json and the input images that it names, work/building.json and the
-// photographs to render into, and nothing else; writes
-// montages/<photo>.exr, .png and .jpg, and how well the building's corners are known in
-// <photo>.uncertainty.csv. Throws InputError: a stage before is missing, an unknown
-// photo, a photograph whose size is not its camera's.
+// Reads work/environment.json and the input images that it names, work/building.json and its
+// textures, the photographs to render into and survey/foreground/, of the rest of
+// survey/ only the hash; writes montages/<photo>.exr, .png and .jpg, .tif of a TIFF
+// (montage_files.h); in <photo>.layers.exr which share of each pixel is the
+// photograph's (red), computed (green), in front by the matte (blue); and how well the building's
+// corners are known in <photo>.uncertainty.csv. Keeps the
+// textures in linear light in work/textures/. Throws InputError: a stage before is missing, an
+// unknown photo, a texture that is not there, a photograph or matte whose size is not its camera's,
+// a matte that is not grey.
 std::vector<RenderSiteReport> RenderSite(const SitePaths& site, const RenderSiteOptions& options);
 
 }  // namespace insitu

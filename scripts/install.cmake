@@ -25,6 +25,11 @@ install(FILES scripts/completion.bash RENAME insitu
 install(FILES LICENSE RENAME copyright DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/insitu)
 install(FILES README.md CHANGELOG.md CONVENTIONS.md DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/insitu)
 
+# What reads IFC, as scripts/setup has fetched it; without it IFC is refused.
+install(FILES build/web-ifc/web-ifc-api-node.js build/web-ifc/web-ifc-node.wasm
+    build/web-ifc/LICENSE.md build/web-ifc/package.json
+  DESTINATION ${CMAKE_INSTALL_DATADIR}/insitu/web-ifc OPTIONAL)
+
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_CONTACT "the insitu authors <insitu@localhost>")
 set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "planned buildings in photographs of their site, to be checked")
@@ -34,5 +39,5 @@ set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SECTION graphics)
 # Libraries as the programs are linked; then the programs that ours run.
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
-set(CPACK_DEBIAN_PACKAGE_DEPENDS "python3, python3-mrcal, mrcal, mrgingham, colmap")
+set(CPACK_DEBIAN_PACKAGE_DEPENDS "python3, python3-mrcal, mrcal, mrgingham, colmap, nodejs")
 include(CPack)

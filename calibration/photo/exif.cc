@@ -4,6 +4,7 @@
 #include <cmath>
 #include <exiv2/exiv2.hpp>
 
+#include "calibration/files/error.h"
 #include "calibration/photo/photograph.h"
 
 namespace insitu {
@@ -97,6 +98,27 @@ ExifPlace ReadExifPlace(const std::filesystem::path& photo) {
   const Exiv2::ExifData exif = ReadExif(photo);
   return {Degrees(exif, "Exif.GPSInfo.GPSLatitude", "S"),
           Degrees(exif, "Exif.GPSInfo.GPSLongitude", "W"), Altitude(exif), LocalTime(exif)};
+}
+
+void RequireNoPanorama(const std::filesystem::path& photo) {
+  std::string projection;
+  try {
+    const auto image = Exiv2::ImageFactory::open(photo.string());
+    image->readMetadata();
+    const auto entry = image->xmpData().findKey(Exiv2::XmpKey("Xmp.GPano.ProjectionType"));
+    if (entry != image->xmpData().end()) projection = entry->toString();
+  } catch (const Exiv2::Error&) {  // without metadata, or without GPano in it
+    return;
+  }
+  if (projection.empty()) return;
+  throw InputError(photo, "is a panorama (GPano: " + projection +
+                              "), expected a photograph that a lens made; put the single "
+                              "photographs that it was joined from into the folder");
+}
+
+int ReadOrientation(const std::filesystem::path& photo) {
+  const auto stated = Positive(ReadExif(photo), "Exif.Image.Orientation");
+  return stated && *stated <= 8 ? static_cast<int>(std::lround(*stated)) : 1;
 }
 
 }  // namespace insitu

@@ -36,4 +36,10 @@ ExifPlace ReadExifPlace(const std::filesystem::path& photo);
 // All but the size is empty when the file holds no metadata. Throws InputError: not an image.
 ExifCamera ReadExifCamera(const std::filesystem::path& photo);
 
+// Throws InputError if a photograph says that it is a panorama (GPano): no lens shows it.
+void RequireNoPanorama(const std::filesystem::path& photo);
+
+// How a photograph is to be turned to stand upright, 1 to 8 as EXIF counts; 1: not stated.
+int ReadOrientation(const std::filesystem::path& photo);
+
 }  // namespace insitu

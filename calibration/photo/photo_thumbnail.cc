@@ -3,6 +3,7 @@
 
 #include <openssl/evp.h>
 
+#include <algorithm>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 #include <vector>
@@ -23,6 +24,18 @@ std::string Base64(const std::vector<unsigned char>& bytes) {
   return text;
 }
 
+// Blue comes first.
+void ShowAsSrgb(const ColorSpace& color, cv::Mat* image) {
+  if (color.IsDefault()) return;
+  image->forEach<cv::Vec3b>([&](cv::Vec3b& code, const int*) {
+    const Eigen::Vector3d linear = color.Linear(Eigen::Vector3d(code[2], code[1], code[0]) / 255);
+    for (int c = 0; c < 3; ++c) {
+      code[2 - c] =
+          cv::saturate_cast<uint8_t>(255 * SrgbFromLinear(std::clamp(linear[c], 0.0, 1.0)));
+    }
+  });
+}
+
 }  // namespace
 
 std::optional<std::string> PhotoThumbnail(const std::filesystem::path& photograph, int width) {
@@ -37,6 +50,7 @@ std::optional<std::string> PhotoThumbnail(const std::filesystem::path& photograp
   cv::Mat small;
   cv::resize(image, small, cv::Size(width, std::max(1, image.rows * width / image.cols)), 0, 0,
              cv::INTER_AREA);
+  ShowAsSrgb(ReadPhotographColor(photograph), &small);
   std::vector<unsigned char> jpeg;
   if (!cv::imencode(".jpg", small, jpeg, {cv::IMWRITE_JPEG_QUALITY, kQuality})) return std::nullopt;
   return "data:image/jpeg;base64," + Base64(jpeg);

@@ -5,8 +5,10 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <array>
+#include <cctype>
 #include <cmath>
-#include <exiv2/exiv2.hpp>
+#include <limits>
 #include <stdexcept>
 #include <string>
 #include <type_traits>
@@ -15,6 +17,8 @@
 
 #include "calibration/files/error.h"
 #include "calibration/files/whole_file.h"
+#include "calibration/photo/copy_metadata.h"
+#include "calibration/photo/stated_color.h"
 
 namespace insitu {
 namespace {
@@ -27,14 +31,80 @@ using OIIO::TypeDesc;
 
 std::string FirstLine(const std::string& text) { return text.substr(0, text.find('\n')); }
 
-std::unique_ptr<ImageInput> Open(const fs::path& path) {
-  if (!fs::is_regular_file(path)) throw InputError(path, "no such file, expected a photograph");
+// A header may claim what would not fit into memory.
+constexpr int64_t kMostPixels = int64_t{1} << 29;
+
+std::unique_ptr<ImageInput> OpenAs(const fs::path& path, bool as_stored) {
   ImageSpec config;
-  config.attribute("oiio:RawColor", 1);           // the codes as they stand in the file,
-  config.attribute("oiio:UnassociatedAlpha", 1);  // not multiplied by alpha
+  config.attribute("oiio:RawColor", as_stored ? 1 : 0);  // the codes as they stand in the file,
+  config.attribute("oiio:UnassociatedAlpha", 1);         // not multiplied by alpha
   auto input = ImageInput::open(path.string(), &config);
   if (!input) throw InputError(path, "not a readable image: " + FirstLine(OIIO::geterror()));
   return input;
+}
+
+// [TIFF 6.0, PhotometricInterpretation]; -1: no TIFF.
+int PhotometricOf(const ImageSpec& spec) {
+  return spec.get_int_attribute("tiff:PhotometricInterpretation", -1);
+}
+
+// What the channels are, where they are not grey or RGB.
+std::string StrangeColors(const ImageInput& input) {
+  const ImageSpec& spec = input.spec();
+  const int photometric = PhotometricOf(spec);
+  const std::string format = input.format_name();
+  if (photometric == 5 || (format == "jpeg" && spec.nchannels == 4)) return "CMYK";
+  if (photometric >= 8 && photometric <= 10) return "CIELab";
+  if (photometric > 10) {
+    return "a TIFF of photometric interpretation " + std::to_string(photometric);
+  }
+  if (format != "openexr" || spec.nchannels < 3) return "";
+  for (int c = 0; c < 3; ++c) {
+    const std::string& name = spec.channelnames[c];
+    if (name.empty() || std::toupper(static_cast<unsigned char>(name.back())) != "RGB"[c]) {
+      return "an EXR of channels " + spec.channelnames[0] + ", " + spec.channelnames[1] + ", " +
+             spec.channelnames[2];
+    }
+  }
+  return "";
+}
+
+std::unique_ptr<ImageInput> Open(const fs::path& path) {
+  if (!fs::is_regular_file(path)) throw InputError(path, "no such file, expected a photograph");
+  auto input = OpenAs(path, true);
+  if (PhotometricOf(input->spec()) == 6) input = OpenAs(path, false);  // YCbCr
+  const ImageSpec& spec = input->spec();
+  if (int64_t{spec.width} * spec.height > kMostPixels) {
+    throw InputError(path, "is " + SizeText(spec.width, spec.height) +
+                               ", expected at most 536 megapixels; make it smaller");
+  }
+  if (const std::string colors = StrangeColors(*input); !colors.empty()) {
+    throw InputError(path, "is " + colors + ", expected RGB or grey; convert it to sRGB");
+  }
+  return input;
+}
+
+template <typename Element>
+std::vector<Element> ArrayOf(const ImageSpec& spec, const char* name) {
+  const OIIO::ParamValue* value = spec.find_attribute(name);
+  if (!value || value->type().elementtype() != OIIO::BaseTypeFromC<Element>::value) return {};
+  const auto* first = static_cast<const Element*>(value->data());
+  return {first, first + value->type().basevalues()};
+}
+
+ColorSpace ColorOf(const ImageInput& input, const fs::path& path) {
+  const ImageSpec& spec = input.spec();
+  DecodedHeader header;
+  header.channels = spec.nchannels < 3 ? 1 : 3;
+  header.is_float = spec.format == TypeDesc::FLOAT || spec.format == TypeDesc::HALF;
+  if (PhotometricOf(spec) >= 0) {
+    const auto profile = ArrayOf<unsigned char>(spec, "ICCProfile");
+    header.profile.assign(profile.begin(), profile.end());
+  }
+  if (std::string(input.format_name()) == "openexr") {
+    header.chromaticities = ArrayOf<float>(spec, "chromaticities");
+  }
+  return ReadStatedColor(path, header);
 }
 
 Encoding EncodingOf(const ImageSpec& spec, const fs::path& path) {
@@ -79,15 +149,6 @@ std::vector<Sample> ReadThreeChannels(ImageInput& input, const fs::path& path) {
   return three;
 }
 
-// The same through `decode`.
-template <typename Sample, typename Decode>
-Raster Decoded(ImageInput& input, const fs::path& path, const Decode& decode) {
-  const std::vector<Sample> samples = ReadThreeChannels<Sample>(input, path);
-  Raster raster(input.spec().width, input.spec().height);
-  std::transform(samples.begin(), samples.end(), raster.data.begin(), decode);
-  return raster;
-}
-
 template <typename Code>
 const std::vector<float>& LinearTable() {
   static const std::vector<float> table = [] {
@@ -101,36 +162,99 @@ const std::vector<float>& LinearTable() {
   return table;
 }
 
-template <typename Code>
-Raster DecodedCodes(ImageInput& input, const fs::path& path) {
-  const std::vector<float>& table = LinearTable<Code>();
-  return Decoded<Code>(input, path, [&](Code code) { return table[code]; });
+// What stands for 1.
+template <typename Sample>
+constexpr double Highest() {
+  return std::is_floating_point_v<Sample> ? 1 : std::numeric_limits<Sample>::max();
 }
 
-void CheckFinite(const Raster& raster, const fs::path& path) {
-  for (int y = 0; y < raster.height; ++y) {
-    for (int x = 0; x < raster.width; ++x) {
-      if (raster.Rgb(x, y).allFinite()) continue;
-      throw InputError(path, "pixel (" + std::to_string(x) + ", " + std::to_string(y) +
-                                 ") is NaN or infinite, expected finite values");
-    }
+template <typename Sample>
+Raster DecodedByDefault(const CodedPhotograph& photo, std::vector<Sample>& samples) {
+  Raster raster(photo.width, photo.height);
+  if constexpr (std::is_floating_point_v<Sample>) {
+    raster.data = std::move(samples);
+  } else {
+    const std::vector<float>& table = LinearTable<Sample>();
+    std::transform(samples.begin(), samples.end(), raster.data.begin(),
+                   [&](Sample code) { return table[code]; });
   }
+  return raster;
+}
+
+// Takes the samples.
+template <typename Sample>
+Raster Decoded(const CodedPhotograph& photo, std::vector<Sample>& samples) {
+  if (photo.color.IsDefault()) return DecodedByDefault(photo, samples);
+  Raster raster(photo.width, photo.height);
+  tbb::parallel_for(0, photo.height, [&](int y) {
+    const Sample* code = &samples[static_cast<size_t>(y) * photo.width * 3];
+    for (int x = 0; x < photo.width; ++x, code += 3) {
+      const Eigen::Vector3d encoded(code[0], code[1], code[2]);
+      raster.SetRgb(x, y, photo.color.Linear(encoded / Highest<Sample>()));
+    }
+  });
+  return raster;
+}
+
+void CheckFinite(const std::vector<float>& values, int width, const fs::path& path) {
+  const auto strange =
+      std::find_if(values.begin(), values.end(), [](float value) { return !std::isfinite(value); });
+  if (strange == values.end()) return;
+  const auto pixel = (strange - values.begin()) / 3;
+  throw InputError(path, "pixel (" + std::to_string(pixel % width) + ", " +
+                             std::to_string(pixel / width) +
+                             ") is NaN or infinite, expected finite values");
 }
 
 // The nearest code; NaN becomes 0.
 template <typename Code>
+Code NearestCode(double encoded) {
+  const double clamped = encoded > 0 ? std::min(encoded, 1.0) : 0.0;
+  return static_cast<Code>(std::lround(Highest<Code>() * clamped));
+}
+
+// The default's, of one channel.
+template <typename Code>
 Code Encoded(float linear) {
-  constexpr double kHighest = std::numeric_limits<Code>::max();
   const double clamped = linear > 0 ? std::min(static_cast<double>(linear), 1.0) : 0.0;
-  return static_cast<Code>(std::lround(kHighest * SrgbFromLinear(clamped)));
+  return NearestCode<Code>(SrgbFromLinear(clamped));
 }
 
 template <typename Code>
-std::vector<Code> EncodedCodes(const Raster& linear) {
+void EncodeRow(const Raster& linear, int y, const ColorSpace& color,
+               const std::function<bool(int, int)>& is_wanted, Code* codes) {
+  for (int x = 0; x < linear.width; ++x, codes += 3) {
+    if (is_wanted && !is_wanted(x, y)) continue;
+    if constexpr (std::is_floating_point_v<Code>) {
+      const Eigen::Vector3d encoded = color.conversion->Encoded(linear.Rgb(x, y));
+      for (int c = 0; c < 3; ++c) codes[c] = static_cast<Code>(encoded[c]);
+    } else if (color.IsDefault()) {
+      for (int c = 0; c < 3; ++c) codes[c] = Encoded<Code>(linear.At(x, y)[c]);
+    } else {
+      const Eigen::Vector3d encoded = color.Encoded(linear.Rgb(x, y));
+      for (int c = 0; c < 3; ++c) codes[c] = NearestCode<Code>(encoded[c]);
+    }
+  }
+}
+
+Raster InThreeChannels(const Raster& grey) {
+  Raster three(grey.width, grey.height);
+  for (size_t i = 0; i < grey.data.size(); ++i) {
+    for (int c = 0; c < 3; ++c) three.data[3 * i + c] = grey.data[i];
+  }
+  return three;
+}
+
+template <typename Code>
+std::vector<Code> EncodedCodes(const Raster& linear, const ColorSpace& color,
+                               const std::function<bool(int, int)>& is_wanted) {
+  INSITU_CHECK(linear.channels == 3);
+  if constexpr (std::is_floating_point_v<Code>) {
+    if (color.IsDefault()) return linear.data;
+  }
   std::vector<Code> codes(linear.data.size());
-  tbb::parallel_for(size_t{0}, static_cast<size_t>(linear.height), [&](size_t y) {
-    const size_t row = linear.data.size() / linear.height;
-    for (size_t i = y * row; i < (y + 1) * row; ++i) codes[i] = Encoded<Code>(linear.data[i]);
+  tbb::parallel_for(0, linear.height, [&](int y) {
+    EncodeRow(linear, y, color, is_wanted, &codes[static_cast<size_t>(y) * linear.width * 3]);
   });
   return codes;
 }
@@ -145,73 +269,87 @@ void WriteImage(const fs::path& path, ImageSpec spec, const std::vector<Sample>&
   if (!written) throw std::runtime_error(path.string() + ": " + FirstLine(output->geterror()));
 }
 
-ImageSpec SpecOf(const Raster& raster) {
-  INSITU_CHECK(raster.width > 0 && raster.height > 0);
-  return ImageSpec(raster.width, raster.height, raster.channels);
-}
-
-// The thumbnail is left behind: it shows the photograph before the montage.
-void CopyMetadata(const fs::path& source, const fs::path& target) {
-  Exiv2::LogMsg::setLevel(Exiv2::LogMsg::mute);  // cameras' own oddities are not the user's
-  try {
-    const auto from = Exiv2::ImageFactory::open(source.string());
-    from->readMetadata();
-    Exiv2::ExifData exif = from->exifData();
-    Exiv2::ExifThumb(exif).erase();
-    const auto to = Exiv2::ImageFactory::open(target.string());
-    to->readMetadata();
-    to->setExifData(exif);
-    to->setXmpData(from->xmpData());
-    if (from->iccProfileDefined()) {
-      Exiv2::DataBuf profile(from->iccProfile()->pData_, from->iccProfile()->size_);
-      to->setIccProfile(profile);
-    }
-    to->writeMetadata();
-  } catch (const Exiv2::Error& error) {
-    throw InputError(source, std::string("its metadata cannot be copied: ") + error.what());
+ImageSpec SpecOf(const CodedPhotograph& picture) {
+  INSITU_CHECK(picture.width > 0 && picture.height > 0);
+  ImageSpec spec(picture.width, picture.height, 3);
+  spec.attribute("CompressionQuality", 95);  // a JPEG's
+  spec.attribute("jpeg:subsampling", "4:4:4");
+  if (const std::string& profile = picture.color.profile; !profile.empty()) {
+    spec.attribute("ICCProfile", TypeDesc(TypeDesc::UINT8, static_cast<int>(profile.size())),
+                   profile.data());
   }
+  return spec;
 }
 
-bool MayHoldMetadata(const fs::path& path) {
-  if (!fs::is_regular_file(path)) throw InputError(path, "no such file, expected a photograph");
-  return Exiv2::ImageFactory::getType(path.string()) != Exiv2::ImageType::none;
+// Its primaries are always stated; the time of writing is not, or it would change the bytes.
+void DescribeExr(const std::vector<float>& chromaticities, ImageSpec* spec) {
+  constexpr std::array<float, 8> kOfRec709 = {0.64f, 0.33f, 0.30f,   0.60f,
+                                              0.15f, 0.06f, 0.3127f, 0.3290f};
+  spec->attribute("compression", "zip");
+  spec->attribute("DateTime", "");
+  spec->attribute("chromaticities", TypeDesc(TypeDesc::FLOAT, 8),
+                  chromaticities.empty() ? kOfRec709.data() : chromaticities.data());
+}
+
+void DescribeTiff(ImageSpec* spec) {
+  spec->attribute("compression", "zip");
+  spec->attribute("DateTime", "0000:00:00 00:00:00");
 }
 
 }  // namespace
 
-double LinearFromSrgb(double encoded) {
-  return encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4);
-}
-
-double SrgbFromLinear(double linear) {
-  return linear <= 0.0031308 ? linear * 12.92 : 1.055 * std::pow(linear, 1 / 2.4) - 0.055;
+CodedPhotograph ReadCodedPhotograph(const fs::path& path) {
+  const auto input = Open(path);
+  CodedPhotograph photo{input->spec().width, input->spec().height, {}, {}};
+  const Encoding encoding = EncodingOf(input->spec(), path);
+  photo.color = ColorOf(*input, path);
+  if (encoding == Encoding::kSrgb8) {
+    photo.samples = ReadThreeChannels<uint8_t>(*input, path);
+  } else if (encoding == Encoding::kSrgb16) {
+    photo.samples = ReadThreeChannels<uint16_t>(*input, path);
+  } else {
+    auto values = ReadThreeChannels<float>(*input, path);
+    CheckFinite(values, photo.width, path);
+    photo.samples = std::move(values);
+  }
+  return photo;
 }
 
 Photograph ReadPhotograph(const fs::path& path) {
-  const auto input = Open(path);
-  const Encoding encoding = EncodingOf(input->spec(), path);
-  if (encoding == Encoding::kSrgb8) return {DecodedCodes<uint8_t>(*input, path), encoding};
-  if (encoding == Encoding::kSrgb16) return {DecodedCodes<uint16_t>(*input, path), encoding};
-  Photograph photo{Decoded<float>(*input, path, [](float value) { return value; }), encoding};
-  CheckFinite(photo.linear, path);
+  CodedPhotograph coded = ReadCodedPhotograph(path);
+  Photograph photo;
+  photo.linear = std::visit([&](auto& samples) { return Decoded(coded, samples); }, coded.samples);
+  photo.encoding = static_cast<Encoding>(coded.samples.index());
+  photo.color = coded.color;
   return photo;
 }
 
-CodedPhotograph ReadCodedPhotograph(const fs::path& path) {
-  const auto input = Open(path);
-  CodedPhotograph photo{input->spec().width, input->spec().height, {}};
-  switch (EncodingOf(input->spec(), path)) {
+ColorSpace ReadPhotographColor(const fs::path& path) { return ColorOf(*Open(path), path); }
+
+CodedPhotograph CodesOf(const Raster& linear, Encoding encoding, const ColorSpace& color,
+                        const std::function<bool(int, int)>& is_wanted) {
+  if (linear.channels == 1) return CodesOf(InThreeChannels(linear), encoding, color, is_wanted);
+  CodedPhotograph picture{linear.width, linear.height, {}, color};
+  switch (encoding) {
     case Encoding::kSrgb8:
-      photo.samples = ReadThreeChannels<uint8_t>(*input, path);
+      picture.samples = EncodedCodes<uint8_t>(linear, color, is_wanted);
       break;
     case Encoding::kSrgb16:
-      photo.samples = ReadThreeChannels<uint16_t>(*input, path);
+      picture.samples = EncodedCodes<uint16_t>(linear, color, is_wanted);
       break;
     case Encoding::kLinear:
-      photo.samples = std::move(ReadPhotograph(path).linear.data);  // finite
+      picture.samples = EncodedCodes<float>(linear, color, is_wanted);
       break;
   }
-  return photo;
+  return picture;
+}
+
+void WriteCodes(const fs::path& path, const CodedPhotograph& picture) {
+  ImageSpec spec = SpecOf(picture);
+  const std::string ending = path.extension().string();
+  if (ending == ".exr") DescribeExr(picture.color.chromaticities, &spec);
+  if (ending == ".tif") DescribeTiff(&spec);
+  std::visit([&](const auto& samples) { WriteImage(path, spec, samples); }, picture.samples);
 }
 
 Eigen::Vector2i ReadPhotographSize(const fs::path& path) {
@@ -231,34 +369,29 @@ void RequirePhotographSize(const fs::path& path, int width, int height) {
 }
 
 bool IsClipped(const Photograph& photo, int x, int y) {
-  return photo.encoding != Encoding::kLinear && photo.linear.Rgb(x, y).maxCoeff() >= 1;
+  if (photo.encoding == Encoding::kLinear) return false;
+  const Eigen::Vector3d rgb = photo.linear.Rgb(x, y);
+  if (photo.color.IsDefault()) return rgb.maxCoeff() >= 1;
+  return photo.color.Encoded(rgb).maxCoeff() >= 1 - 1e-4;  // 0.03 of an 8-bit code for rounding
 }
 
 void WriteExr(const fs::path& path, const Raster& linear) {
-  ImageSpec spec = SpecOf(linear);
-  spec.attribute("compression", "zip");
-  spec.attribute("DateTime", "");  // else the time of writing would change the bytes
-  WriteWhole(path, [&](const fs::path& temporary) { WriteImage(temporary, spec, linear.data); });
+  const CodedPhotograph picture = CodesOf(linear, Encoding::kLinear, {});
+  WriteWhole(path, [&](const fs::path& temporary) { WriteCodes(temporary, picture); });
 }
 
 void WritePng(const fs::path& path, const Raster& linear, Encoding encoding) {
-  const ImageSpec spec = SpecOf(linear);
-  WriteWhole(path, [&](const fs::path& temporary) {
-    if (encoding == Encoding::kSrgb8) {
-      WriteImage(temporary, spec, EncodedCodes<uint8_t>(linear));
-    } else {
-      WriteImage(temporary, spec, EncodedCodes<uint16_t>(linear));
-    }
-  });
+  const bool is_8_bit = encoding == Encoding::kSrgb8;
+  const CodedPhotograph picture =
+      CodesOf(linear, is_8_bit ? Encoding::kSrgb8 : Encoding::kSrgb16, {});
+  WriteWhole(path, [&](const fs::path& temporary) { WriteCodes(temporary, picture); });
 }
 
 void WriteJpeg(const fs::path& path, const Raster& linear, const fs::path& metadata_source) {
-  ImageSpec spec = SpecOf(linear);
-  spec.attribute("CompressionQuality", 95);
-  spec.attribute("jpeg:subsampling", "4:4:4");
+  const CodedPhotograph picture = CodesOf(linear, Encoding::kSrgb8, {});
   WriteWhole(path, [&](const fs::path& temporary) {
-    WriteImage(temporary, spec, EncodedCodes<uint8_t>(linear));
-    if (MayHoldMetadata(metadata_source)) CopyMetadata(metadata_source, temporary);
+    WriteCodes(temporary, picture);
+    CopyMetadata(metadata_source, temporary);
   });
 }
 

@@ -12,7 +12,7 @@ namespace insitu {
 namespace fs = std::filesystem;
 
 bool HasPhotographEnding(const fs::path& name) {
-  static constexpr std::array kEndings = {".jpg", ".jpeg", ".png", ".tif", ".tiff", ".exr"};
+  static constexpr std::array kEndings = {".jpg", ".jpeg", ".jpe", ".png", ".tif", ".tiff", ".exr"};
   std::string ending = name.extension().string();
   std::transform(ending.begin(), ending.end(), ending.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });

@@ -55,6 +55,22 @@ cv::Mat BlueFirst(const CodedPhotograph& photo, std::vector<Sample>& samples) {
   return image;
 }
 
+// Codes or numbers as [0, 1], through a colour space that is not the default.
+cv::Mat Shown(const cv::Mat& image, const ColorSpace& color) {
+  cv::Mat encoded, shown(image.size(), CV_8UC3);
+  const double highest = image.depth() == CV_8U ? 255 : image.depth() == CV_16U ? 65535 : 1;
+  image.convertTo(encoded, CV_64F, 1 / highest);
+  shown.forEach<cv::Vec3b>([&](cv::Vec3b& code, const int* at) {
+    const auto& blue_first = encoded.at<cv::Vec3d>(at[0], at[1]);
+    const Eigen::Vector3d linear = color.Linear({blue_first[2], blue_first[1], blue_first[0]});
+    for (int c = 0; c < 3; ++c) {
+      const double value = std::clamp(linear[c], 0., 1.);
+      code[2 - c] = static_cast<uint8_t>(std::lround(255 * SrgbFromLinear(value)));
+    }
+  });
+  return shown;
+}
+
 // Where an axis of `size` is cut: pairs, and what is left over.
 std::array<std::pair<cv::Range, cv::Range>, 2> Halvings(int size) {
   const int half = size / 2;
@@ -92,7 +108,8 @@ cv::Mat HalvedImage(const cv::Mat& image) {
   return half;
 }
 
-cv::Mat EightBit(const cv::Mat& image) {
+cv::Mat EightBit(const cv::Mat& image, const ColorSpace& color) {
+  if (!color.IsDefault()) return Shown(image, color);
   cv::Mat shown;
   if (image.depth() != CV_32F) {
     image.convertTo(shown, CV_8U, image.depth() == CV_16U ? 1 / 257. : 1);

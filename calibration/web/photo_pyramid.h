@@ -7,10 +7,12 @@
 #include <opencv2/core.hpp>
 #include <vector>
 
+#include "calibration/photo/color_space.h"
+
 namespace insitu {
 
 // The pixels as in the file, EXIF's orientation not applied, three channels, blue first: 8 or 16
-// bit sRGB, or linear float. Throws InputError: cannot be decoded.
+// bit codes, or numbers, of its own colour space. Throws InputError: cannot be decoded.
 cv::Mat ReadShownPhotograph(const std::filesystem::path& path);
 
 // Of a JPEG only, in a fraction of the time: one pixel for 8 x 8, their mean; the size rounded up.
@@ -20,8 +22,8 @@ cv::Mat ReadEighthOfPhotograph(const std::filesystem::path& path);
 // The mean of 2 x 2 pixels each; an odd last column or row counts twice.
 cv::Mat HalvedImage(const cv::Mat& image);
 
-// As 8-bit sRGB.
-cv::Mat EightBit(const cv::Mat& image);
+// As 8-bit sRGB, from codes or numbers of a colour space.
+cv::Mat EightBit(const cv::Mat& image, const ColorSpace& color = {});
 
 // The levels of an image, made when they are asked for. Any thread may ask.
 class PhotoPyramid {

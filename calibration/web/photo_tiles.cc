@@ -32,10 +32,10 @@ int TileCount(int size, int level) {
 }
 
 // The pixels of `wanted`, as 8-bit sRGB; what lies beyond the image as `border` says.
-cv::Mat CutOut(const cv::Mat& image, const cv::Rect& wanted, int border) {
+cv::Mat CutOut(const cv::Mat& image, const ColorSpace& color, const cv::Rect& wanted, int border) {
   const cv::Rect inside = wanted & cv::Rect({0, 0}, image.size());
   cv::Mat cut;
-  cv::copyMakeBorder(EightBit(image(inside)), cut, inside.y - wanted.y,
+  cv::copyMakeBorder(EightBit(image(inside), color), cut, inside.y - wanted.y,
                      wanted.br().y - inside.br().y, inside.x - wanted.x,
                      wanted.br().x - inside.br().x, border);
   return cut;
@@ -57,7 +57,11 @@ double CodeAt(const cv::Mat& image, int x, int y, int channel) {
 struct PhotoTiles::Parts {
   Parts(std::vector<std::filesystem::path> paths, const std::filesystem::path& folder,
         size_t most_bytes)
-      : photos(std::move(paths)), overviews(folder), cache(most_bytes), sizes(photos.size()) {}
+      : photos(std::move(paths)),
+        overviews(folder),
+        cache(most_bytes),
+        sizes(photos.size()),
+        colors(photos.size()) {}
 
   const std::filesystem::path& PathOf(int photo) const {
     if (photo >= 0 && photo < static_cast<int>(photos.size())) return photos[photo];
@@ -83,6 +87,18 @@ struct PhotoTiles::Parts {
     const std::lock_guard lock(mutex);
     sizes[photo] = PyramidSizeOf(size.x(), size.y());
     return *sizes[photo];
+  }
+
+  ColorSpace ColorOf(int photo) {
+    const std::filesystem::path& path = PathOf(photo);
+    {
+      const std::lock_guard lock(mutex);
+      if (colors[photo]) return *colors[photo];
+    }
+    const ColorSpace color = ReadPhotographColor(path);
+    const std::lock_guard lock(mutex);
+    colors[photo] = color;
+    return color;
   }
 
   // A photograph changed meanwhile, or its header lies: its tiles would be others than announced.
@@ -125,6 +141,7 @@ struct PhotoTiles::Parts {
   PhotoCache cache;
   std::mutex mutex;  // for the next one
   std::vector<std::optional<PyramidSize>> sizes;
+  std::vector<std::optional<ColorSpace>> colors;
 };
 
 PyramidSize PyramidSizeOf(int width, int height) {
@@ -152,8 +169,10 @@ std::string PhotoTiles::Tile(int photo, int level, int x, int y) {
                                                 std::to_string(level));
   }
   const cv::Rect wanted(x * kTileSize, y * kTileSize, kTileSize, kTileSize);
-  return Encoded(".jpg", CutOut(parts_->LevelOf(photo, level), wanted, cv::BORDER_REPLICATE),
-                 {cv::IMWRITE_JPEG_QUALITY, kTileQuality});
+  return Encoded(
+      ".jpg",
+      CutOut(parts_->LevelOf(photo, level), parts_->ColorOf(photo), wanted, cv::BORDER_REPLICATE),
+      {cv::IMWRITE_JPEG_QUALITY, kTileQuality});
 }
 
 std::string PhotoTiles::Patch(int photo, int x, int y, int radius) {
@@ -163,20 +182,23 @@ std::string PhotoTiles::Patch(int photo, int x, int y, int radius) {
                                                 ", expected 0 to " + std::to_string(kMostRadius));
   }
   const cv::Rect wanted(x - radius, y - radius, 2 * radius + 1, 2 * radius + 1);
-  return Encoded(".png", CutOut(parts_->Whole(photo)->Level(0), wanted, cv::BORDER_CONSTANT),
-                 {cv::IMWRITE_PNG_COMPRESSION, kPatchCompression});
+  return Encoded(
+      ".png",
+      CutOut(parts_->Whole(photo)->Level(0), parts_->ColorOf(photo), wanted, cv::BORDER_CONSTANT),
+      {cv::IMWRITE_PNG_COMPRESSION, kPatchCompression});
 }
 
 PixelValue PhotoTiles::Value(int photo, int x, int y) {
   parts_->RequirePixel(photo, x, y);
   const cv::Mat image = parts_->Whole(photo)->Level(0);
+  const ColorSpace color = parts_->ColorOf(photo);
+  const Eigen::Vector3d code(CodeAt(image, x, y, 2), CodeAt(image, x, y, 1),
+                             CodeAt(image, x, y, 0));
+  const bool is_linear = image.depth() == CV_32F && color.IsDefault();
   PixelValue value;
-  for (int c = 0; c < 3; ++c) {
-    const double code = CodeAt(image, x, y, 2 - c);
-    const bool is_linear = image.depth() == CV_32F;
-    value.linear[c] = is_linear ? code : LinearFromSrgb(code);
-    value.encoded[c] = is_linear ? SrgbFromLinear(code) : code;
-  }
+  value.linear = is_linear ? code : color.Linear(code);
+  value.encoded =
+      color.IsDefault() && !is_linear ? code : value.linear.unaryExpr(&SrgbFromLinear).eval();
   return value;
 }
 

@@ -23,7 +23,7 @@ PyramidSize PyramidSizeOf(int width, int height);
 
 struct PixelValue {
   Eigen::Vector3d linear;   // Rec. 709
-  Eigen::Vector3d encoded;  // sRGB, [0, 1]; beyond for an EXR
+  Eigen::Vector3d encoded;  // sRGB, [0, 1]; beyond for an EXR and colours beyond sRGB
 };
 
 // Pixels are the file's, EXIF's orientation not applied; 16 bits and EXR are shown as 8-bit sRGB.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The illumination model of an opaque surface: diffuse reflection, and the mirror's share.
+// The diffuse part of the illumination model; what mirrors is in fresnel.h and microfacet.h.
 #pragma once
 
 #include "radiometry/spectrum/spectrum.h"
@@ -13,9 +13,5 @@ Spectrum ReflectedRadiance(double diffuse_weight, const Spectrum& brdf, const Sp
 // Second inversion of the illumination model. [Durisch92, Eq. (10)]  rho = L0 / (k_d E)
 // Zero in bins without light. diffuse_weight > 0.
 Spectrum DiffuseBrdf(const Spectrum& true_color, double diffuse_weight, const Spectrum& irradiance);
-
-// Unpolarised Fresnel reflectance of a dielectric in air; cosine of incidence in [0, 1], index > 0.
-// [Hall & Greenberg 1983, after Born & Wolf]
-double FresnelReflectance(double cosine, double index);
 
 }  // namespace insitu

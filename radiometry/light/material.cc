@@ -4,7 +4,6 @@
 #include <filesystem>
 
 #include "calibration/files/json_file.h"
-#include "radiometry/light/illumination.h"
 
 namespace insitu {
 namespace {
@@ -14,12 +13,12 @@ double NumberOr(const JsonNode& material, const std::string& key, double otherwi
   return found ? found->Number() : otherwise;
 }
 
-double ReadWeight(const JsonNode& material) {
-  const double weight = NumberOr(material, "specular_weight", 1);
-  if (weight < 0 || weight > 1) {
-    throw material.At("specular_weight").Error("is out of range, expected 0 to 1");
+double Share(const JsonNode& material, const std::string& key, double otherwise) {
+  const double share = NumberOr(material, key, otherwise);
+  if (share < 0 || share > 1) {
+    throw material.At(key).Error("is out of range, expected 0 to 1");
   }
-  return weight;
+  return share;
 }
 
 double ReadIndex(const JsonNode& material) {
@@ -28,20 +27,11 @@ double ReadIndex(const JsonNode& material) {
   return ior.Number();
 }
 
-std::optional<Specular> ReadSpecular(const JsonNode& material) {
-  const auto kind = material.Find("specular");
-  if (!kind || kind->Text() == "none") return std::nullopt;
-  if (kind->Text() != "fresnel" && kind->Text() != "mirror") {
-    throw kind->Error("is \"" + kind->Text() + "\", expected \"none\", \"fresnel\" or \"mirror\"");
-  }
-  if (NumberOr(material, "roughness", 0) != 0) {
-    throw material.At("roughness")
-        .Error("is a rough mirror's, which cannot be shown yet, expected 0 or null");
-  }
-  Specular specular;
-  specular.weight = ReadWeight(material);
-  if (kind->Text() == "fresnel") specular.index = ReadIndex(material);
-  return specular;
+FacetDistribution ReadDistribution(const JsonNode& material) {
+  const auto name = material.Find("distribution");
+  if (!name || name->Text() == "ggx") return FacetDistribution::kGgx;
+  if (name->Text() == "beckmann") return FacetDistribution::kBeckmann;
+  throw name->Error("is \"" + name->Text() + "\", expected \"ggx\" or \"beckmann\"");
 }
 
 NaturalMaterial ReadMaterial(const JsonNode& material) {
@@ -60,9 +50,36 @@ NaturalMaterial ReadMaterial(const JsonNode& material) {
 
 }  // namespace
 
-double MirrorWeight(const std::optional<Specular>& specular, double cosine) {
-  if (!specular) return 0;
-  return specular->weight * (specular->index ? FresnelReflectance(cosine, *specular->index) : 1);
+std::optional<Specular> ReadSpecular(const JsonNode& material, bool may_be_metal) {
+  const auto node = material.Find("specular");
+  const std::string kind = node ? node->Text() : "none";
+  if (kind == "none") return std::nullopt;
+  if (kind != "fresnel" && kind != "mirror" && !(may_be_metal && kind == "conductor")) {
+    throw node->Error("is \"" + kind + "\", expected \"none\", \"fresnel\"" +
+                      (may_be_metal ? ", \"mirror\" or \"conductor\"" : " or \"mirror\""));
+  }
+  Specular specular{Share(material, "specular_weight", 1), {}, {}};
+  if (kind == "fresnel") specular.index = ReadIndex(material);
+  specular.roughness = {Share(material, "roughness", 0), ReadDistribution(material)};
+  return specular;
+}
+
+Json::Value SpecularJson(const Specular& specular) {
+  Json::Value json;
+  json["weight"] = specular.weight;
+  if (specular.index) json["index"] = *specular.index;
+  if (specular.roughness.slope == 0) return json;
+  json["roughness"] = specular.roughness.slope;
+  const bool is_ggx = specular.roughness.distribution == FacetDistribution::kGgx;
+  json["distribution"] = is_ggx ? "ggx" : "beckmann";
+  return json;
+}
+
+Specular SpecularOf(const JsonNode& node) {
+  Specular specular{node.At("weight").Number(), {}, {}};
+  if (const auto index = node.Find("index")) specular.index = index->Number();
+  specular.roughness = {Share(node, "roughness", 0), ReadDistribution(node)};
+  return specular;
 }
 
 std::map<std::string, NaturalMaterial> ReadNaturalMaterials(const SitePaths& site) {

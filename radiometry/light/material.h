@@ -6,15 +6,19 @@
 #include <optional>
 #include <string>
 
+#include "calibration/files/json_file.h"
 #include "calibration/program/site.h"
+#include "radiometry/light/microfacet.h"
 
 namespace insitu {
 
 // A mirroring share over a diffuse ground: L = F w L_mirror + (1 - F w) diffuse, F the Fresnel
-// reflectance of `index`, or 1 for a bare mirror without index.
+// reflectance of `index`, or 1 for a bare mirror without index. L_mirror is what the facets of a
+// rough mirror show, F that of the mean surface.
 struct Specular {
-  double weight = 0;            // 0..1
-  std::optional<double> index;  // of refraction, > 1; nullopt: F = 1
+  double weight = 0;                 // 0..1
+  std::optional<double> index = {};  // of refraction, > 1; nullopt: F = 1
+  Roughness roughness = {};
 };
 
 struct NaturalMaterial {
@@ -22,11 +26,17 @@ struct NaturalMaterial {
   std::optional<Specular> specular;  // nullopt: purely diffuse
 };
 
-// F w at an angle of incidence; 0 without a specular share.
-double MirrorWeight(const std::optional<Specular>& specular, double cosine);
+// Of an entry of materials.json: specular (none, fresnel, mirror), specular_weight, ior, roughness
+// (0..1), distribution (ggx, the default, or beckmann). nullopt: purely diffuse. Throws InputError.
+// `may_be_metal`: conductor is taken, too, as a bare mirror whose colour the caller knows.
+std::optional<Specular> ReadSpecular(const JsonNode& material, bool may_be_metal = false);
+
+// The same in the environment descriptions, which hold what was read.
+Json::Value SpecularJson(const Specular& specular);
+Specular SpecularOf(const JsonNode& node);
 
 // By name. A site without the file has no entries: every material is then purely diffuse.
-// Throws InputError (weights out of range, roughness > 0, which this version cannot show).
+// Throws InputError (weights out of range).
 std::map<std::string, NaturalMaterial> ReadNaturalMaterials(const SitePaths& site);
 
 }  // namespace insitu

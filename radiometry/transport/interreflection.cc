@@ -75,6 +75,7 @@ Interreflection::Interreflection(const TransportScene& scene, const Daylight& li
       patch_directions_(options.patch_directions),
       point_directions_(options.point_directions),
       planned_box_(BoxOf(scene.planned.mesh)),
+      clear_box_(scene.planned.clear ? BoxOf(scene.planned.clear->mesh) : Eigen::AlignedBox3d()),
       zenith_(light.zenith_direction),
       ground_(GroundOf(scene.site.scene, grid)),
       patches_(grid) {
@@ -124,13 +125,43 @@ std::vector<Interreflection::Meeting> Interreflection::Meet(
       if (on_site[i]) far[i] = on_site[i]->distance + kCoincidence;
       may_meet = may_meet || MayMeet(planned_box_, origin, packet[i]);
     }
-    if (!may_meet) continue;
-    const auto on_planned = scene_.planned.rays.NearestOfPacket(origin, packet, {far.data(), size});
+    if (may_meet) {
+      const auto on_planned =
+          scene_.planned.rays.NearestOfPacket(origin, packet, {far.data(), size});
+      for (size_t i = 0; i < size; ++i) {
+        if (on_planned[i]) MeetPlanned({origin, packet[i]}, *on_planned[i], &meetings[first + i]);
+      }
+    }
     for (size_t i = 0; i < size; ++i) {
-      if (on_planned[i]) MeetPlanned({origin, packet[i]}, *on_planned[i], &meetings[first + i]);
+      if (MayMeet(clear_box_, origin, packet[i])) {
+        MeetGlass({origin, packet[i]}, &meetings[first + i]);
+      }
     }
   }
   return meetings;
+}
+
+// A ray that goes through more panes than are counted loses nothing in the others.
+void Interreflection::MeetGlass(const Ray& ray, Meeting* meeting) const {
+  constexpr int kBits = 4, kMostPanes = 16 / kBits, kMostKinds = (1 << kBits) - 1;
+  const ClearFaces& clear = *scene_.planned.clear;
+  Ray rest = ray;
+  if (meeting->distance > 0) rest.far = meeting->distance;
+  for (int i = 0; i < kMostPanes; ++i) {
+    const auto hit = clear.rays.Nearest(rest);
+    if (!hit) return;
+    const int kind = std::min(clear.kind_of_triangle[hit->triangle], kMostKinds - 1);
+    meeting->panes = static_cast<uint16_t>(meeting->panes << kBits | (kind + 1));
+    rest.near = hit->distance + kSurveyClearance;
+  }
+}
+
+Spectrum Interreflection::Through(const Meeting& meeting) const {
+  Spectrum share = Spectrum::Ones();
+  for (unsigned panes = meeting.panes; panes != 0; panes >>= 4) {
+    share *= scene_.planned.clear->mean_transmittance[(panes & 15) - 1];
+  }
+  return share;
 }
 
 int Interreflection::GroundBeyond(const Ray& ray) const {
@@ -154,15 +185,22 @@ Spectrum Interreflection::RadianceBefore(int patch) const {
 }
 
 Spectrum Interreflection::RadianceAfter(const Meeting& meeting) const {
+  Spectrum radiance;
   if (meeting.material >= 0 && meeting.after >= 0) {
-    return scene_.planned.brdf_of_material[meeting.material] * irradiance_[meeting.after];
+    radiance = scene_.planned.brdf_of_material[meeting.material] * irradiance_[meeting.after];
+  } else if (meeting.after < 0) {
+    radiance = RadianceBefore(meeting.after);
+  } else {
+    radiance = before_[meeting.after] + change_[meeting.after];
   }
-  if (meeting.after < 0) return RadianceBefore(meeting.after);
-  return before_[meeting.after] + change_[meeting.after];
+  if (meeting.panes != 0) radiance *= Through(meeting);
+  return radiance;
 }
 
 Spectrum Interreflection::ChangeAlong(const Meeting& meeting) const {
-  if (meeting.material >= 0) return RadianceAfter(meeting) - RadianceBefore(meeting.before);
+  if (meeting.material >= 0 || meeting.panes != 0) {
+    return RadianceAfter(meeting) - RadianceBefore(meeting.before);
+  }
   return meeting.after < 0 ? Spectrum::Zero().eval() : change_[meeting.after];
 }
 
@@ -177,7 +215,7 @@ void Interreflection::Solve(const Daylight& light) {
   brdf_of_polygon_.assign(scene_.site.scene.polygons.size(), Spectrum::Zero());
   if (n == 0) return;
   SolveBefore(light);
-  if (!planned_box_.isEmpty() || scene_.lamps) SolveAfter(light);
+  if (!planned_box_.isEmpty() || !clear_box_.isEmpty() || scene_.lamps) SolveAfter(light);
 }
 
 // From all pieces that a photograph shows, by material; where it shows none of it, of the site.

@@ -76,6 +76,7 @@ class Interreflection {
     int material = -1;    // of the planned face met after; -1: none is met
     double distance = 0;  // after [m]; 0: none
     bool is_back = false;
+    uint16_t panes = 0;  // the kinds of glass before it, four bits each, counted from 1
   };
 
   // What is met from a piece before: the photographed radiances' sum, how often sky and ground
@@ -88,6 +89,8 @@ class Interreflection {
 
   // Of all directions in turn.
   std::vector<Meeting> Meet(const SurfacePoint& surface, const CosineDirections& directions) const;
+  void MeetGlass(const Ray& ray, Meeting* meeting) const;
+  Spectrum Through(const Meeting& meeting) const;  // what its panes let through
   void MeetSite(const Ray& ray, const std::optional<RayHit>& hit, Meeting* meeting) const;
   void MeetPlanned(const Ray& ray, const RayHit& hit, Meeting* meeting) const;
   int GroundBeyond(const Ray& ray) const;
@@ -109,7 +112,7 @@ class Interreflection {
   const TransportScene& scene_;
   InterreflectionOptions options_;
   CosineDirections patch_directions_, point_directions_;
-  Eigen::AlignedBox3d planned_box_;
+  Eigen::AlignedBox3d planned_box_, clear_box_;
   Eigen::Vector3d zenith_;
   std::optional<GroundPlane> ground_;
   Patches patches_;

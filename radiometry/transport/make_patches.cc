@@ -113,7 +113,8 @@ class PatchMaker {
     if (sums.is_open && !is_open) return false;
     if (is_open && !sums.is_open) {
       sums = {.seen = sums.seen, .is_open = true};
-      patch.sun_before = patch.sun_after = 0;
+      patch.sun_before = 0;
+      patch.sun_after.setZero();
     }
     if (off_center < sums.off_center) {
       sums.off_center = off_center;
@@ -138,7 +139,11 @@ class PatchMaker {
     if (site_.rays.IsOccluded(ray)) return;
     const double sun = cosine * light_.sun_solid_angle;
     patch->sun_before += sun;
-    if (!planned_.rays.IsOccluded(ray)) patch->sun_after += sun;
+    if (planned_.clear) {
+      patch->sun_after += sun * planned_.clear->transmittance_along(ray);
+    } else if (!planned_.rays.IsOccluded(ray)) {
+      patch->sun_after += sun;
+    }
   }
 
   const PhotographedSite& site_;

@@ -7,6 +7,7 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <unordered_map>
 #include <utility>
@@ -18,6 +19,17 @@
 
 namespace insitu {
 
+// Glass of the planned building, straight through which light goes, dimmed and tinted; what it
+// mirrors is not followed.
+struct ClearFaces {
+  const TriangleMesh& mesh;
+  const RayScene& rays;                      // of `mesh`
+  const std::vector<int>& kind_of_triangle;  // index into mean_transmittance
+  std::vector<Spectrum> mean_transmittance;  // of light from the hemisphere, 0..1
+  // Of the building along a ray, 0 behind what is opaque.
+  std::function<Spectrum(const Ray&)> transmittance_along;
+};
+
 // The planned building as light meets it; all of one size, in the site's local frame.
 struct PlannedFaces {
   const TriangleMesh& mesh;
@@ -25,6 +37,7 @@ struct PlannedFaces {
   const std::vector<Eigen::Vector3d>& normals;  // of each triangle, unit
   const std::vector<int>& material_of_triangle;
   const std::vector<Spectrum>& brdf_of_material;  // diffuse [1/sr]
+  const ClearFaces* clear = nullptr;              // nullptr: nothing is of glass
 };
 
 struct Patch {
@@ -34,8 +47,10 @@ struct Patch {
   double area = 0;                           // [m^2]
   bool is_seen = false;                      // by a photograph
   Spectrum photographed = Spectrum::Zero();  // mean radiance, if seen
-  double sun_before = 0, sun_after = 0;  // n.d_s Omega_s of what the sun sees of it, without and
-                                         // with the planned building [sr]
+  // n.d_s Omega_s of what the sun sees of it [sr], without the planned building, and with it, times
+  // what its glass lets through.
+  double sun_before = 0;
+  Spectrum sun_after = Spectrum::Zero();
 };
 
 // Where pieces are smallest, and how small.

@@ -42,7 +42,7 @@ std::vector<EditedTable> FilmTables() {
       JsonTable("film_marks", "calibration/film.json", TableForm::kList, {"mark"},
                 {"mark", "x_mm", "y_mm"}),
       CsvTable("fiducials", {"photo", "mark"}, {"mark", "x_mm", "y_mm", "photo", "x", "y"},
-               {"x_mm", "y_mm", "x", "y"}, false)};
+               {"x_mm", "y_mm", "x", "y"}, true)};
   tables[1].member = "fiducials";
   tables[2].file = "calibration/fiducials.csv";
   return tables;

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "renderer/building/artificial_environment.h"
 
+#include <Eigen/Geometry>
 #include <bit>
+#include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <numbers>
 
 #include "calibration/files/json_file.h"
 #include "calibration/files/whole_file.h"
@@ -14,7 +17,7 @@ namespace {
 using Eigen::Vector3d;
 using Eigen::Vector3i;
 
-constexpr int kVersion = 2;
+constexpr int kVersion = 3;
 static_assert(std::endian::native == std::endian::little, "building.bin is written as in memory");
 
 std::filesystem::path MeshPath(const SitePaths& site) {
@@ -71,19 +74,42 @@ SpectralTable TableOf(const JsonNode& node) {
   return table;
 }
 
+Json::Value GlassJson(const Glass& glass) {
+  Json::Value json;
+  json["weight"] = glass.weight;
+  json["is_solid"] = glass.is_solid;
+  json["index"] = glass.index;
+  json["thickness"] = glass.thickness;
+  json["absorption_rgb"] = ToJson(glass.absorption_rgb);
+  return json;
+}
+
+Glass GlassOf(const JsonNode& node) {
+  return {node.At("weight").Number(), node.At("is_solid").Boolean(), node.At("index").Number(),
+          node.At("thickness").Number(), node.At("absorption_rgb").Vector3()};
+}
+
 Json::Value MaterialJson(const SurfaceMaterial& material) {
   Json::Value json;
   json["name"] = material.name;
   json["diffuse_rgb"] = ToJson(Eigen::VectorXd(material.diffuse_rgb));
   json["diffuse_weight"] = material.diffuse_weight;
-  if (material.specular) {
-    json["specular"]["weight"] = material.specular->weight;
-    if (material.specular->index) json["specular"]["index"] = *material.specular->index;
-  }
+  if (material.specular) json["specular"] = SpecularJson(*material.specular);
   if (!material.reflectance.empty()) json["reflectance"] = TableJson(material.reflectance);
-  if (material.roughness != 0) json["roughness"] = material.roughness;
-  if (material.transmission != 0) json["transmission"] = material.transmission;
   if (!material.texture.empty()) json["texture"] = material.texture;
+  if (material.texture_size) {
+    for (const double metres : *material.texture_size) {
+      json["texture_size_m"].append(metres);
+    }
+  }
+  if ((material.specular_rgb.array() != 1).any()) {
+    json["specular_rgb"] = ToJson(material.specular_rgb);
+  }
+  if (material.metal) {
+    json["metal"]["index"] = TableJson(material.metal->index);
+    json["metal"]["extinction"] = TableJson(material.metal->extinction);
+  }
+  if (material.glass) json["glass"] = GlassJson(*material.glass);
   return json;
 }
 
@@ -92,14 +118,18 @@ SurfaceMaterial MaterialOf(const JsonNode& node) {
   material.name = node.At("name").Text();
   material.diffuse_rgb = node.At("diffuse_rgb").Vector3();
   material.diffuse_weight = node.At("diffuse_weight").Number();
-  if (const auto specular = node.Find("specular")) {
-    material.specular = Specular{specular->At("weight").Number(), std::nullopt};
-    if (const auto index = specular->Find("index")) material.specular->index = index->Number();
-  }
+  if (const auto specular = node.Find("specular")) material.specular = SpecularOf(*specular);
   if (const auto table = node.Find("reflectance")) material.reflectance = TableOf(*table);
-  if (const auto value = node.Find("roughness")) material.roughness = value->Number();
-  if (const auto value = node.Find("transmission")) material.transmission = value->Number();
   if (const auto value = node.Find("texture")) material.texture = value->Text();
+  if (const auto value = node.Find("texture_size_m")) {
+    const std::vector<JsonNode> size = value->Items();
+    material.texture_size = Eigen::Vector2d(size.at(0).Number(), size.at(1).Number());
+  }
+  if (const auto value = node.Find("specular_rgb")) material.specular_rgb = value->Vector3();
+  if (const auto metal = node.Find("metal")) {
+    material.metal = Metal{TableOf(metal->At("index")), TableOf(metal->At("extinction"))};
+  }
+  if (const auto glass = node.Find("glass")) material.glass = GlassOf(*glass);
   return material;
 }
 
@@ -139,6 +169,12 @@ Json::Value LightJson(const PointLight& light) {
   if (light.distribution) json["distribution"] = DistributionJson(*light.distribution);
   if (!light.spectrum.empty()) json["spectrum"] = TableJson(light.spectrum);
   if (light.candela != 0) json["candela"] = light.candela;
+  if (light.radius != 0) json["radius"] = light.radius;
+  if (!light.edge_u.isZero(0)) {
+    json["edge_u"] = ToJson(light.edge_u);
+    json["edge_v"] = ToJson(light.edge_v);
+  }
+  if (light.is_visible) json["is_visible"] = true;
   return json;
 }
 
@@ -152,6 +188,10 @@ PointLight LightOf(const JsonNode& node) {
   if (const auto value = node.Find("distribution")) light.distribution = DistributionOf(*value);
   if (const auto value = node.Find("spectrum")) light.spectrum = TableOf(*value);
   if (const auto value = node.Find("candela")) light.candela = value->Number();
+  if (const auto value = node.Find("radius")) light.radius = value->Number();
+  if (const auto value = node.Find("edge_u")) light.edge_u = value->Vector3();
+  if (const auto value = node.Find("edge_v")) light.edge_v = value->Vector3();
+  if (const auto value = node.Find("is_visible")) light.is_visible = value->Boolean();
   return light;
 }
 
@@ -246,16 +286,68 @@ ArtificialEnvironment ReadArtificialEnvironment(const SitePaths& site) {
   return environment;
 }
 
+namespace {
+
+// Along the face, right and up as one looks at its front.
+std::optional<std::array<Eigen::Vector2d, 3>> Projected(const ArtificialEnvironment& environment,
+                                                        const Eigen::Vector3i& triangle,
+                                                        const Eigen::Vector2d& size) {
+  const auto at = [&](int corner) { return environment.vertices[triangle[corner]]; };
+  const Eigen::Vector3d normal = (at(1) - at(0)).cross(at(2) - at(0)).normalized();
+  if (normal.isZero(0)) return std::nullopt;
+  Eigen::Vector3d right = Eigen::Vector3d::UnitX(), up = Eigen::Vector3d::UnitY();
+  if (std::abs(normal.z()) < std::numbers::sqrt2 / 2) {
+    right = Eigen::Vector3d::UnitZ().cross(normal).normalized();
+    up = normal.cross(right);
+  }
+  std::array<Eigen::Vector2d, 3> corners;
+  for (int c = 0; c < 3; ++c) {
+    corners[c] = {right.dot(at(c)) / size.x(), up.dot(at(c)) / size.y()};
+  }
+  return corners;
+}
+
+}  // namespace
+
+std::optional<std::array<Eigen::Vector2d, 3>> TextureCoordinates(
+    const ArtificialEnvironment& environment, int triangle) {
+  const auto& material = environment.materials[environment.material_of_triangle[triangle]];
+  if (material.texture_size) {
+    return Projected(environment, environment.triangles[triangle], *material.texture_size);
+  }
+  if (environment.corner_uvs.empty()) return std::nullopt;
+  const Eigen::Vector2f* uv = &environment.corner_uvs[3 * static_cast<size_t>(triangle)];
+  if (uv[0] == uv[1] && uv[0] == uv[2]) return std::nullopt;
+  return {{uv[0].cast<double>(), uv[1].cast<double>(), uv[2].cast<double>()}};
+}
+
+namespace {
+
+// A face that shows nothing of its material's texture.
+bool HasFaceWithoutTexture(const ArtificialEnvironment& environment,
+                           const SurfaceMaterial& material) {
+  if (material.texture.empty()) return false;
+  const auto index = &material - environment.materials.data();
+  for (size_t t = 0; t < environment.triangles.size(); ++t) {
+    if (environment.material_of_triangle[t] != index) continue;
+    if (!TextureCoordinates(environment, static_cast<int>(t))) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
 std::vector<std::string> NotShown(const ArtificialEnvironment& environment) {
   std::vector<std::string> lines;
   for (const SurfaceMaterial& material : environment.materials) {
     const std::string name = "material \"" + material.name + "\": ";
-    if (material.specular && material.roughness != 0) {
-      lines.push_back(name + "its rough reflection is shown as a smooth mirror");
+    if (material.glass && material.specular && material.specular->roughness.slope > 0) {
+      lines.push_back(name + "its rough glass is shown as smooth glass");
     }
-    if (material.transmission != 0) lines.push_back(name + "its transmission is not shown");
-    if (!material.texture.empty()) {
-      lines.push_back(name + "its texture is not shown, but its mean colour");
+    if (HasFaceWithoutTexture(environment, material)) {
+      lines.push_back(name +
+                      "faces without texture coordinates show the mean colour of its texture: "
+                      "state \"texture_size_m\": [width, height] of a repeat");
     }
   }
   for (const PointLight& light : environment.lights) {

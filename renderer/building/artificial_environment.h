@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -17,6 +18,21 @@ namespace insitu {
 // Wavelength [nm], rising, and a value there; linear between, constant beyond.
 using SpectralTable = std::vector<Eigen::Vector2d>;
 
+// Complex index of refraction, n - i k.
+struct Metal {
+  SpectralTable index, extinction;  // n > 0, k >= 0
+};
+
+// What lets light through: a pane that is drawn as one face, alike from both sides, or a body that
+// its faces bound.
+struct Glass {
+  double weight = 1;  // of the light that is not mirrored, 0..1; the rest meets the diffuse part
+  bool is_solid = false;
+  double index = 1.5;                                        // of refraction, > 1
+  double thickness = 0;                                      // of a pane [m]
+  Eigen::Vector3d absorption_rgb = Eigen::Vector3d::Zero();  // linear Rec. 709, >= 0 [1/m]
+};
+
 struct SurfaceMaterial {
   std::string name;                                              // the model's layer
   Eigen::Vector3d diffuse_rgb = Eigen::Vector3d::Constant(0.5);  // albedo, linear Rec. 709, 0..1
@@ -24,10 +40,13 @@ struct SurfaceMaterial {
   std::optional<Specular> specular = {};                         // nullopt: purely diffuse
   SpectralTable reflectance =
       {};  // albedo by wavelength, 0..1; goes before diffuse_rgb unless empty
-  // Kept for renderers that show them; ours says so where they are set.
-  double roughness = 0;      // of the mirroring share, 0..1
-  double transmission = 0;   // 0..1
-  std::string texture = {};  // image of the albedo, relative to building/; empty: none
+  // Image of the albedo, relative to building/, of which diffuse_rgb is the mean; empty: none.
+  std::string texture = {};
+  std::optional<Eigen::Vector2d> texture_size =
+      {};  // [m] of one repeat; nullopt: the model's places
+  Eigen::Vector3d specular_rgb = Eigen::Vector3d::Ones();  // colour of a bare mirror, 0..1
+  std::optional<Metal> metal = {};                         // goes before specular_rgb
+  std::optional<Glass> glass = {};                         // nullopt: opaque
 };
 
 // Shines alike in all directions unless it has a distribution. Area lights are several of these.
@@ -38,6 +57,11 @@ struct PointLight {
   std::optional<LightDistribution> distribution = {};  // factor of the intensity
   SpectralTable spectrum = {};  // its shape; empty: as Appendix A makes it from intensity_rgb
   double candela = 0;           // at distribution 1; 0: not known in photometric units
+  double radius = 0;            // of its luminous sphere, which makes soft shadows [m]
+  // Of the parallelogram about its position that it stands for, zero if there is none; it shines
+  // to the side of u x v [m].
+  Eigen::Vector3d edge_u = Eigen::Vector3d::Zero(), edge_v = Eigen::Vector3d::Zero();
+  bool is_visible = false;  // the luminous surface itself
 };
 
 struct ArtificialEnvironment {
@@ -56,8 +80,15 @@ struct ArtificialEnvironment {
 void WriteArtificialEnvironment(const SitePaths& site, const ArtificialEnvironment& environment);
 ArtificialEnvironment ReadArtificialEnvironment(const SitePaths& site);
 
-// What the description holds and this version's renderer does not show, a line each: roughness,
-// transmission, textures, lamps of unknown strength.
+// Of the three corners of a triangle, in repeats of the image, v up: projected in metres where its
+// material states texture_size, on walls along and up the wall, on what lies flatter than 45
+// degrees along x and y; else the model's. nullopt: neither, as where all three of the model's are
+// alike.
+std::optional<std::array<Eigen::Vector2d, 3>> TextureCoordinates(
+    const ArtificialEnvironment& environment, int triangle);
+
+// What the description holds and this version's renderer does not show, a line each: rough glass,
+// textures of faces without a place on them, lamps of unknown strength.
 std::vector<std::string> NotShown(const ArtificialEnvironment& environment);
 
 }  // namespace insitu

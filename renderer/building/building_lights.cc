@@ -163,6 +163,8 @@ std::vector<PointLight> Spread(const JsonNode& light, const PointLight& whole, c
     lamp.position = area.corner + s * area.u + t * area.v + kClearance * normal;
     lamp.intensity_rgb /= samples * samples;
     lamp.candela /= samples * samples;
+    lamp.edge_u = area.u / samples;
+    lamp.edge_v = area.v / samples;
     lamps.push_back(std::move(lamp));
   }
   return lamps;
@@ -177,7 +179,7 @@ void AddLight(const JsonNode& light, std::optional<double> site_luminance,
     throw type_node->Error("is \"" + type + "\", expected point, spot, area or ies");
   }
   if (type == "ies" && !ies) throw light.Error("is of type ies, expected \"ies\": its file");
-  PointLight lamp{light.At("name").Text(), light.At("position").Vector3(), {}, {}, {}, 0};
+  PointLight lamp{light.At("name").Text(), light.At("position").Vector3(), {}};
   std::optional<Area> area;
   if (type == "spot") lamp.distribution = SpotDistribution(light);
   if (type == "area") {
@@ -186,6 +188,12 @@ void AddLight(const JsonNode& light, std::optional<double> site_luminance,
   }
   if (ies) lamp.distribution = IesDistribution(light, *ies);
   ReadStrength(light, site_luminance, area, &lamp);
+  if (const auto radius = light.Find("radius_m")) lamp.radius = NotNegative(*radius);
+  const auto visible = light.Find("visible");
+  lamp.is_visible = visible && visible->Boolean();
+  if (lamp.is_visible && !area && lamp.radius == 0) {
+    throw visible->Error("is true of a lamp without a size, expected radius_m above 0");
+  }
   if (!area) {
     lights->push_back(std::move(lamp));
     return;

@@ -17,7 +17,8 @@ namespace insitu {
 // "type": "point" (the default); "spot" with direction, half_angle_deg and edge_deg (over which it
 // fades); "area", a parallelogram from position along edge_u and edge_v, that shines to the side of
 // their cross product; an ies lamp has direction (down if absent) and turn_deg. An area becomes
-// samples x samples (4 x 4) lamps.
+// samples x samples (4 x 4) lamps. radius_m: of a luminous sphere about the position, which makes
+// soft shadows; visible true: it, or the area, is seen itself.
 // Photometric strengths need the luminance that the site's unit stands for, which a luminance meter
 // tells; without it they are kept in candela, and intensity_rgb is zero.
 // Throws InputError: unreadable, a negative strength, an unknown type or spectrum, a direction of

@@ -10,6 +10,7 @@
 #include "calibration/files/file_beside.h"
 #include "calibration/files/json_file.h"
 #include "calibration/photo/photograph.h"
+#include "renderer/building/material_optics.h"
 #include "renderer/building/spectral_table.h"
 
 namespace insitu {
@@ -86,21 +87,22 @@ void ReadColor(const JsonNode& material, SurfaceMaterial* surface) {
   }
 }
 
-std::optional<double> FresnelIndex(const JsonNode& material) {
-  const JsonNode index = material.At("ior");
-  if (index.Number() <= 1) throw index.Error("is no index of refraction, expected above 1");
-  return index.Number();
-}
-
-std::optional<Specular> SpecularOf(const JsonNode& material) {
-  const auto node = material.Find("specular");
-  const std::string kind = node ? node->Text() : "none";
-  if (kind == "none") return std::nullopt;
-  if (kind != "fresnel" && kind != "mirror") {
-    throw node->Error("is \"" + kind + "\", expected none, fresnel or mirror");
+// The image says the colour; its mean stands for it in light among surfaces.
+void ReadTexture(const JsonNode& material, const JsonNode& node, SurfaceMaterial* surface) {
+  surface->texture = node.Text();
+  const Raster image = ReadPhotograph(FileBeside(node)).linear;
+  Vector3d sum = Vector3d::Zero();
+  for (int y = 0; y < image.height; ++y) {
+    for (int x = 0; x < image.width; ++x) sum += image.Rgb(x, y);
   }
-  return Specular{ShareOr(material, "specular_weight", 1),
-                  kind == "fresnel" ? FresnelIndex(material) : std::nullopt};
+  surface->diffuse_rgb = sum / (static_cast<double>(image.width) * image.height);
+  const auto size = material.Find("texture_size_m");
+  if (!size) return;
+  const std::vector<JsonNode> metres = size->Items();
+  if (metres.size() != 2 || !(metres[0].Number() > 0) || !(metres[1].Number() > 0)) {
+    throw size->Error("is no size, expected [width, height] of one repeat in metres");
+  }
+  surface->texture_size = Eigen::Vector2d(metres[0].Number(), metres[1].Number());
 }
 
 BuildingMaterial ReadMaterial(const std::string& name, const JsonNode& node,
@@ -119,15 +121,13 @@ BuildingMaterial ReadMaterial(const std::string& name, const JsonNode& node,
   const auto hidden = node.Find("hidden");
   material.hidden = hidden && hidden->Boolean();
   if (material.hidden) return material;
-  ReadColor(node, &material.surface);
-  material.surface.diffuse_weight = ShareOr(node, "diffuse_weight", 1);
-  material.surface.specular = SpecularOf(node);
-  material.surface.roughness = ShareOr(node, "roughness", 0);
-  material.surface.transmission = ShareOr(node, "transmission", 0);
   if (const auto texture = node.Find("texture")) {
-    FileBeside(*texture);
-    material.surface.texture = texture->Text();
+    ReadTexture(node, *texture, &material.surface);
+  } else {
+    ReadColor(node, &material.surface);
   }
+  material.surface.diffuse_weight = ShareOr(node, "diffuse_weight", 1);
+  ReadOptics(node, &material.surface);
   return material;
 }
 

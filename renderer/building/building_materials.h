@@ -23,8 +23,9 @@ struct BuildingMaterial {
 //   diffuse_rgb [r, g, b] (albedo, linear Rec. 709, 0..1), diffuse_srgb [r, g, b] (0..255, as RAL
 //   and NCS colours are given for screens), diffuse_lab [L, a, b] with lab_white D65 or D50,
 //   reflectance [[nm, value], ...] or reflectance_file (CSV: wavelength,value);
-// and may say diffuse_weight, specular (none, fresnel, mirror), specular_weight, ior, roughness,
-// transmission, texture (an image beside materials.json), hidden; or use NAME of section "library".
+// and may say diffuse_weight, texture (an image beside materials.json, which goes before its
+// colour), texture_size_m [width, height] (of one repeat: projected in metres), hidden, and what
+// mirrors and lets light through (material_optics.h); or use NAME of section "library".
 class BuildingMaterials {
  public:
   // Throws InputError: unreadable, weights or albedo outside 0..1, an unknown kind of specular,

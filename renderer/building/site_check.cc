@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <string_view>
 
 #include "calibration/files/csv_file.h"
 #include "calibration/files/wording.h"
@@ -52,11 +53,13 @@ AlignedBox3d Scaled(const AlignedBox3d& box, double factor) {
 
 // The factor that puts the building onto the site, or else brings its size to the likely one
 // nearest to a tenth of the site.
-std::optional<Factor> FactorOff(const AlignedBox3d& building, const AlignedBox3d& site) {
+std::optional<Factor> FactorOff(const AlignedBox3d& building, const AlignedBox3d& site,
+                                bool names_unit) {
   const double size = building.diagonal().norm();
   std::optional<Factor> best;
   double best_misfit = 0;
   for (const Factor& factor : kFactors) {
+    if (!names_unit && !std::string_view(factor.meaning).ends_with("taken as metres")) continue;
     const AlignedBox3d box = Scaled(building, 1 / factor.value);
     if (!IsLikely(size / factor.value, site)) continue;
     const bool lands = !site.isEmpty() && IsFar(building, site) && !IsFar(box, site);
@@ -86,7 +89,8 @@ AlignedBox3d SiteBox(const SitePaths& site) {
   return box;
 }
 
-std::vector<std::string> SuspicionsOf(const AlignedBox3d& building, const AlignedBox3d& site) {
+std::vector<std::string> SuspicionsOf(const AlignedBox3d& building, const AlignedBox3d& site,
+                                      bool names_unit) {
   std::vector<std::string> suspicions;
   if (building.isEmpty()) return suspicions;
   const double size = building.diagonal().norm();
@@ -102,7 +106,7 @@ std::vector<std::string> SuspicionsOf(const AlignedBox3d& building, const Aligne
         (site.isEmpty() ? "" : Number(", the site %.4g m", site.diagonal().norm())));
   }
   if (suspicions.empty()) return suspicions;
-  const std::optional<Factor> factor = FactorOff(building, site);
+  const std::optional<Factor> factor = FactorOff(building, site, names_unit);
   const bool lands = factor && far && !IsFar(Scaled(building, 1 / factor->value), site);
   if (factor && (lands || !IsLikely(size, site))) {
     suspicions.push_back(Number("its unit looks wrong by a factor of %.5g: ", factor->value) +

@@ -162,6 +162,16 @@ class InsertCheck {
   std::map<const DxfBlock*, Extent> extents_;
 };
 
+// An INSERT of a block that is not there costs only itself.
+void DropLostInserts(const DxfDrawing& drawing, DxfBlock* holder) {
+  std::erase_if(holder->inserts, [&](const DxfInsert& insert) {
+    if (drawing.blocks.contains(NameKey(insert.block))) return false;
+    ++holder->skipped[{"INSERT",
+                       "of block \"" + insert.block + "\", which the drawing does not define"}];
+    return true;
+  });
+}
+
 }  // namespace
 
 const DxfBlock& InsertedBlock(const DxfDrawing& drawing, const DxfInsert& insert) {
@@ -181,6 +191,8 @@ DxfDrawing ReadDxfDrawing(const std::filesystem::path& path, double most_pieces)
   while (const DxfRecord* record = reader.Next()) {
     if (record->kind() == "SECTION") section.Read(*record);
   }
+  DropLostInserts(drawing, &drawing.model_space);
+  for (auto& [name, block] : drawing.blocks) DropLostInserts(drawing, &block);
   InsertCheck(drawing, most_pieces).AllInserted(drawing.model_space);
   return drawing;
 }

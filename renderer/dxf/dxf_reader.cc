@@ -14,7 +14,8 @@ constexpr size_t kBufferSize = 1 << 20;
 constexpr size_t kLongestLine = 1 << 20;
 constexpr std::string_view kBinarySentinel("AutoCAD Binary DXF\r\n\x1a\0", 22);
 constexpr int kLowestCode = -5;
-constexpr int kHighestCode = 1071;
+constexpr int kHighestCode = 1071;       // of a binary drawing, where another shows damage
+constexpr int kHighestTextCode = 32767;  // programs add private ones
 constexpr int kComment = 999;
 
 std::string_view Trimmed(std::string_view text) {
@@ -29,7 +30,7 @@ std::optional<int> GroupCode(std::string_view line) {
   int code = 0;
   const auto [end, status] = std::from_chars(line.data(), line.data() + line.size(), code);
   const bool valid = status == std::errc() && end == line.data() + line.size() &&
-                     code >= kLowestCode && code <= kHighestCode;
+                     code >= kLowestCode && code <= kHighestTextCode;
   return valid ? std::optional(code) : std::nullopt;
 }
 

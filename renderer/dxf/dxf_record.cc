@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 #include <charconv>
 #include <cmath>
+#include <cstdint>
 
 #include "calibration/files/wording.h"
 #include "renderer/dxf/dxf_name.h"
@@ -73,13 +74,15 @@ Eigen::Vector3d DxfRecord::Point(int code) const {
   return *point;
 }
 
+// Programs also write "7.0", and colours of 32 bits without a sign.
 int DxfRecord::IntegerOf(const DxfTag& tag) const {
-  const std::optional<int> value = Parsed<int>(tag.value);
-  if (!value) {
+  constexpr double kLowest = -2147483648.0, kHighest = 4294967295.0;
+  const std::optional<double> value = Parsed<double>(tag.value);
+  if (!value || !(*value >= kLowest && *value <= kHighest) || std::trunc(*value) != *value) {
     throw ErrorAt(
         tag, Quoted(tag.value) + ", expected an integer for group " + std::to_string(tag.code));
   }
-  return *value;
+  return static_cast<int>(static_cast<uint32_t>(static_cast<int64_t>(*value)));
 }
 
 double DxfRecord::NumberOf(const DxfTag& tag) const {

@@ -13,6 +13,7 @@
 #include <cmath>
 #include <fstream>
 #include <limits>
+#include <set>
 #include <string_view>
 #include <utility>
 
@@ -22,10 +23,9 @@
 #include "calibration/files/xml_file.h"
 #include "calibration/photo/photograph.h"
 #include "renderer/formats/cut_short.h"
-#include "renderer/formats/ifc_syntax.h"
+#include "renderer/formats/file_reference.h"
 #include "renderer/formats/isolated.h"
 #include "renderer/formats/ply_syntax.h"
-#include "renderer/formats/stl_syntax.h"
 #include "renderer/mesh/face_triangles.h"
 
 namespace insitu {
@@ -35,6 +35,7 @@ namespace fs = std::filesystem;
 using Eigen::Affine3d;
 using Eigen::Vector3d;
 
+constexpr char kColorsOnly[] = "its faces are shown, these colours are not";
 constexpr double kLargestCoordinate = 1e12;  // [m]
 
 Affine3d ToEigen(const aiMatrix4x4& m) {
@@ -47,8 +48,7 @@ Affine3d ToEigen(const aiMatrix4x4& m) {
 // These formats have y up, by their definition or by Assimp's doing.
 Affine3d ZUpFrom(ModelFormat format) {
   Affine3d z_up = Affine3d::Identity();
-  if (format == ModelFormat::kGltf || format == ModelFormat::kCollada ||
-      format == ModelFormat::kIfc) {
+  if (format == ModelFormat::kGltf || format == ModelFormat::kCollada) {
     z_up.linear() << 1, 0, 0, 0, 0, -1, 0, 1, 0;
   }
   return z_up;
@@ -63,16 +63,6 @@ Vector3d LinearColor(ModelFormat format, const aiColor4D& color) {
   }
   return rgb;
 }
-
-// "IfcWindow_EG-Fenster-6_1srAI$R4T8ihLXSNHmUSET" -> "IfcWindow_EG-Fenster-6": a global id is 22
-// characters long.
-std::string WithoutGlobalId(const std::string& name) {
-  constexpr size_t kIdLength = 22;
-  if (name.size() < kIdLength + 2 || name[name.size() - kIdLength - 1] != '_') return name;
-  return name.substr(0, name.size() - kIdLength - 1);
-}
-
-std::string IfcClass(const std::string& name) { return name.substr(0, name.find('_')); }
 
 class SceneReader {
  public:
@@ -99,34 +89,23 @@ class SceneReader {
     if (depth > kDeepest) throw InputError(path_, "nodes within nodes, more than 1000 deep");
     const Affine3d world_from_node = world_from_parent * ToEigen(node.mTransformation);
     const std::string name = node.mName.C_Str();
-    const bool is_element =
-        format_ == ModelFormat::kIfc && name.starts_with("Ifc") && name != "IfcMappedItem";
-    const bool is_named = !name.empty() && name.front() != '$' && name != "IfcMappedItem" &&
-                          name.find('<') == std::string::npos;
-    const std::string own_layer = !is_named                      ? layer
-                                  : format_ == ModelFormat::kIfc ? WithoutGlobalId(name)
-                                                                 : name;
-    const size_t before = model_.mesh.triangles.size();
+    const bool is_named =
+        !name.empty() && name.front() != '$' && name.find('<') == std::string::npos;
+    const std::string& own_layer = is_named ? name : layer;
     for (unsigned i = 0; i < node.mNumMeshes; ++i) {
       AddMesh(*scene_.mMeshes[node.mMeshes[i]], world_from_node, own_layer);
     }
-    const std::string deeper = is_element ? own_layer : is_named ? own_layer : layer;
     for (unsigned i = 0; i < node.mNumChildren; ++i) {
-      AddNode(*node.mChildren[i], world_from_node, deeper, depth + 1);
+      AddNode(*node.mChildren[i], world_from_node, own_layer, depth + 1);
     }
-    if (is_element) CountElement(IfcClass(name), model_.mesh.triangles.size() > before);
-  }
-
-  void CountElement(const std::string& kind, bool has_surface) {
-    ++model_.entities[kind];
-    if (has_surface) return;
-    const bool is_void = kind == "IfcOpeningElement" || kind == "IfcSpace";
-    ++model_.skipped[{
-        kind, is_void ? "a void by its kind, no surface" : "has no shape that Assimp reads"}];
   }
 
   void AddMesh(const aiMesh& mesh, const Affine3d& world_from_node, const std::string& layer) {
-    if (format_ != ModelFormat::kIfc) ++model_.entities["mesh"];
+    ++model_.entities["mesh"];
+    if (mesh.HasVertexColors(0)) ++model_.skipped[{"mesh with colours by vertex", kColorsOnly}];
+    if (mesh.HasTextureCoords(1)) {
+      ++model_.skipped[{"second set of texture coordinates", "only the first is read"}];
+    }
     const int first = static_cast<int>(model_.mesh.vertices.size());
     for (unsigned i = 0; i < mesh.mNumVertices; ++i) {
       const aiVector3D& v = mesh.mVertices[i];
@@ -152,7 +131,7 @@ class SceneReader {
     if (face.mNumIndices > kMostCorners) {
       throw InputError(path_, "a face has over 10000 corners");
     }
-    if (format_ != ModelFormat::kIfc) ++model_.entities["face"];
+    ++model_.entities["face"];
     std::vector<int> corners;
     for (unsigned i = 0; i < face.mNumIndices; ++i) {
       if (face.mIndices[i] >= mesh.mNumVertices) {
@@ -211,7 +190,11 @@ class SceneReader {
       names.rgb = LinearColor(format_, color);
     }
     float opacity = 1;
-    if (material.Get(AI_MATKEY_OPACITY, opacity) == AI_SUCCESS && opacity >= 0 && opacity < 1) {
+    const bool is_opaque = format_ == ModelFormat::kGltf &&
+                           material.Get("$mat.gltf.alphaMode", 0, 0, text) == AI_SUCCESS &&
+                           std::string_view(text.C_Str()) == "OPAQUE";  // whatever alpha says
+    if (!is_opaque && material.Get(AI_MATKEY_OPACITY, opacity) == AI_SUCCESS && opacity >= 0 &&
+        opacity < 1) {
       names.opacity = opacity;
     }
     if (material.GetTexture(aiTextureType_DIFFUSE, 0, &text) == AI_SUCCESS) {
@@ -256,10 +239,8 @@ bool IsGlb(const fs::path& path) {
 }
 
 const char* EndingFor(ModelFormat format, const fs::path& path) {
-  if (format == ModelFormat::kIfc) return ".ifc";
   if (format == ModelFormat::kCollada) return ".dae";
   if (format == ModelFormat::kPly) return ".ply";
-  if (format == ModelFormat::kStl) return ".stl";
   return IsGlb(path) ? ".glb" : ".gltf";
 }
 
@@ -268,19 +249,27 @@ class RenamingIo : public Assimp::DefaultIOSystem {
  public:
   RenamingIo(std::string shown, std::string real)
       : shown_(std::move(shown)), real_(std::move(real)) {}
-  bool Exists(const char* name) const override { return DefaultIOSystem::Exists(Real(name)); }
+  bool Exists(const char* name) const override {
+    return DefaultIOSystem::Exists(Real(name).c_str());
+  }
   Assimp::IOStream* Open(const char* name, const char* mode) override {
-    return DefaultIOSystem::Open(Real(name), mode);
+    return DefaultIOSystem::Open(Real(name).c_str(), mode);
   }
 
  private:
-  const char* Real(const char* name) const { return name == shown_ ? real_.c_str() : name; }
+  // Files that the model names are found as FindReference finds them.
+  std::string Real(const char* name) const {
+    if (name == shown_) return real_;
+    std::error_code none;
+    if (fs::is_regular_file(name, none)) return name;
+    const auto found = FindReference(real_, name);
+    return found ? found->string() : name;
+  }
   std::string shown_, real_;
 };
 
 Model ReadHere(const fs::path& path, ModelFormat format) {
   Assimp::Importer importer;
-  importer.SetPropertyBool(AI_CONFIG_IMPORT_IFC_SKIP_SPACE_REPRESENTATIONS, true);
   importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_USE_COLLADA_NAMES, true);
   std::string shown = path.string();
   const std::string ending = EndingFor(format, path);
@@ -295,24 +284,67 @@ Model ReadHere(const fs::path& path, ModelFormat format) {
 
 const char* NameOf(ModelFormat format) {
   switch (format) {
-    case ModelFormat::kIfc:
-      return "IFC2X3";
     case ModelFormat::kGltf:
       return "glTF";
     case ModelFormat::kCollada:
       return "COLLADA";
-    case ModelFormat::kPly:
-      return "PLY";
     default:
-      return "STL";
+      return "PLY";
   }
 }
 
-// Three hundred times what FZK-Haus takes a byte: a small file that takes longer never ends.
+// A small file that takes longer never ends.
 int SecondsFor(const fs::path& path) {
   constexpr double kLeast = 8, kPerByte = 30e-6, kMost = 1e6;
   return static_cast<int>(
       std::min(kMost, kLeast + kPerByte * static_cast<double>(fs::file_size(path))));
+}
+
+Json::Value GltfJson(const fs::path& path) {
+  if (!IsGlb(path)) return ReadJson(path);
+  uint32_t head[5] = {};  // "glTF", version, length; length and kind of the JSON chunk
+  std::ifstream file(path, std::ios::binary);
+  file.read(reinterpret_cast<char*>(head), sizeof(head));
+  const uint64_t rest = fs::file_size(path) - std::min<uint64_t>(fs::file_size(path), sizeof(head));
+  std::string text(std::min<uint64_t>(head[3], rest), '\0');
+  file.read(text.data(), std::ssize(text));
+  return ParseJson(path, text);
+}
+
+std::vector<std::string> ExtensionNames(const Json::Value& json, const char* list) {
+  std::vector<std::string> names;
+  if (!json.isObject() || !json[list].isArray()) return names;
+  for (const Json::Value& name : json[list]) {
+    if (name.isString()) names.push_back(name.asString());
+  }
+  return names;
+}
+
+// What Assimp reads, or what changes nothing that is shown.
+bool IsUnderstood(const std::string& extension) {
+  static const std::set<std::string> kUnderstood = {
+      "KHR_materials_unlit", "KHR_materials_pbrSpecularGlossiness", "KHR_materials_sheen",
+      "KHR_materials_clearcoat"};
+  return kUnderstood.contains(extension);
+}
+
+// The specification demands that a required extension that is not understood refuses the file.
+std::vector<std::string> CheckGltfExtensions(const fs::path& path) {
+  const Json::Value json = GltfJson(path);
+  for (const std::string& name : ExtensionNames(json, "extensionsRequired")) {
+    if (IsUnderstood(name)) continue;
+    throw InputError(path, "requires the glTF extension " + name.substr(0, 60) +
+                               ", which is not read: export it without (no compression, no "
+                               "quantisation, no instancing), or as OBJ, IFC or DXF");
+  }
+  std::vector<std::string> warnings;
+  for (const std::string& name : ExtensionNames(json, "extensionsUsed")) {
+    if (IsUnderstood(name)) continue;
+    warnings.push_back(InputError(path, "uses the glTF extension " + name.substr(0, 60) +
+                                            ", which is not read: what it says is left out")
+                           .what());
+  }
+  return warnings;
 }
 
 void CheckGlb(const fs::path& path) {
@@ -326,12 +358,6 @@ void CheckGlb(const fs::path& path) {
 
 // Faults that Assimp passes over in silence, or tells no line of.
 void CheckSyntax(const fs::path& path, ModelFormat format) {
-  if (format == ModelFormat::kIfc) {
-    CheckIfcSchema(path);
-    RequireEnding(path, "END-ISO-10303-21");
-    CheckIfcStatements(path);
-  }
-  if (format == ModelFormat::kStl) CheckStl(path);
   if (format == ModelFormat::kPly) CheckPly(path);
   if (format == ModelFormat::kGltf && IsGlb(path)) CheckGlb(path);
 }
@@ -351,6 +377,8 @@ int64_t FacesOf(const Model& model) {
 
 Model ReadWithAssimp(const fs::path& path, ModelFormat format, int seconds) {
   CheckSyntax(path, format);
+  std::vector<std::string> lost;
+  if (format == ModelFormat::kGltf) lost = CheckGltfExtensions(path);
   const IsolationLimits limits{.seconds = std::min(seconds, SecondsFor(path))};
   IsolatedModel isolated = ReadIsolated([&] { return ReadHere(path, format); }, limits);
   if (!isolated.model) {
@@ -362,8 +390,9 @@ Model ReadWithAssimp(const fs::path& path, ModelFormat format, int seconds) {
   }
   if (format == ModelFormat::kPly) RequirePlyFaces(path, FacesOf(*isolated.model));
   isolated.model->format = NameOf(format);
-  // IFC, glTF and COLLADA name their unit or define it; Assimp has turned it into metres.
-  const bool has_unit = format != ModelFormat::kPly && format != ModelFormat::kStl;
+  isolated.model->warnings.insert(isolated.model->warnings.end(), lost.begin(), lost.end());
+  // glTF and COLLADA name their unit or define it; Assimp has turned it into metres.
+  const bool has_unit = format != ModelFormat::kPly;
   if (has_unit) isolated.model->metres_per_unit = 1;
   return *std::move(isolated.model);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// IFC, glTF, COLLADA, PLY and STL, by Assimp.
+// glTF, COLLADA and PLY, by Assimp.
 #pragma once
 
 #include <filesystem>
@@ -12,8 +12,9 @@ namespace insitu {
 // Node names become layers, materials keep their names, colours and textures. Assimp runs in a
 // process of its own, so that no file can break or stall the program. Assimp's coordinates are of
 // single precision: a warning says how much that is if it exceeds 1 mm.
-// Throws InputError: what Assimp says of the file; a file that breaks it or takes it longer than
-// `seconds` or over 3 GB; an IFC of another schema than IFC2X3; a file that was cut.
+// A glTF extension that is used and not read is a warning.
+// Throws InputError: one that is required and not read, by name; what Assimp says of the file; a
+// file that breaks it or takes it longer than `seconds` or over 3 GB; a file that was cut.
 Model ReadWithAssimp(const std::filesystem::path& path, ModelFormat format, int seconds);
 
 }  // namespace insitu

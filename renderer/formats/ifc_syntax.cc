@@ -23,7 +23,8 @@ std::string SchemaIn(const std::filesystem::path& path, const std::string& head,
   const size_t open = head.find('\'', at);
   const size_t close = open == std::string::npos ? open : head.find('\'', open + 1);
   if (close == std::string::npos) {
-    throw InputError(path, LineAt(head, at), "FILE_SCHEMA names no schema, expected IFC2X3");
+    throw InputError(path, LineAt(head, at),
+                     "FILE_SCHEMA names no schema, expected IFC2X3 or IFC4");
   }
   std::string schema = head.substr(open + 1, close - open - 1);
   for (char& c : schema) {
@@ -100,13 +101,13 @@ void CheckIfcSchema(const std::filesystem::path& path) {
   head.resize(static_cast<size_t>(file.gcount()));
   const size_t at = head.find("FILE_SCHEMA");
   if (at == std::string::npos) {
-    throw InputError(path, "has no FILE_SCHEMA, expected an IFC file of schema IFC2X3");
+    throw InputError(path, "has no FILE_SCHEMA, expected an IFC file of schema IFC2X3 or IFC4");
   }
   const std::string schema = SchemaIn(path, head, at);
-  if (schema.starts_with("IFC2X3")) return;
+  if (schema.starts_with("IFC2X3") || schema.starts_with("IFC4")) return;
   throw InputError(path, LineAt(head, at),
                    "is of schema " + schema +
-                       ", expected IFC2X3: export it as IFC 2x3 (coordination view), glTF or DXF");
+                       ", expected IFC2X3, IFC4 or IFC4X3: export it as one of these, glTF or DXF");
 }
 
 void CheckIfcStatements(const std::filesystem::path& path) {

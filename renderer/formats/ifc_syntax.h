@@ -6,12 +6,12 @@
 
 namespace insitu {
 
-// Throws InputError at the line: a schema other than IFC2X3 (which Assimp does not read), no
+// Throws InputError at the line: a schema other than IFC2X3, IFC4 and its successors, no
 // FILE_SCHEMA.
 void CheckIfcSchema(const std::filesystem::path& path);
 
 // Throws InputError at its line: a statement of a DATA section that is no "#12=IFCWALL(...)".
-// Assimp passes over such statements in silence, or breaks.
+// A reader passes over such statements in silence, or breaks.
 void CheckIfcStatements(const std::filesystem::path& path);
 
 }  // namespace insitu

@@ -8,7 +8,7 @@
 #include <string_view>
 
 #include "calibration/files/error.h"
-#include "renderer/formats/stl_syntax.h"
+#include "renderer/formats/stl_model.h"
 
 namespace insitu {
 namespace {
@@ -67,20 +67,56 @@ std::string LowerEnding(const fs::path& path) {
   return ending;
 }
 
-std::string NameOfUnread(std::string_view head) {
-  if (head.starts_with("AC10")) return "a DWG drawing";
-  if (head.starts_with("\xFF\xFE\xFF\x0ESketchUp") ||
-      head.starts_with(std::string_view("\xFF\xFE\xFF\x0E"
-                                        "S\0k\0",
-                                        8))) {
-    return "a SketchUp model";
+// What a file of a format that is not read is, and what to do about it.
+std::string NameOfUnread(std::string_view head, const std::string& ending) {
+  struct Unread {
+    std::string_view ending, magic, advice;
+  };
+  static constexpr Unread kUnread[] = {
+      {".dwg", "AC10", "a DWG drawing: save it as DXF (AutoCAD: Save As; or the ODA converter)"},
+      {".skp", "\xFF\xFE\xFF\x0E", "a SketchUp model: File > Export > 3D Model > DAE or glTF"},
+      {".3dm", "3D Geometry File Format",
+       "a Rhino model: File > Export Selected > OBJ, DXF or glTF"},
+      {".rvt", "\xD0\xCF\x11\xE0", "a Revit or other OLE file: in Revit File > Export > IFC"},
+      {".fbx", "Kaydara FBX", "an FBX model: export glTF or OBJ (Blender: File > Export)"},
+      {".3ds", "MM", "a 3DS model: open it in Blender, File > Export > glTF or OBJ"},
+      {".kmz", "", "a KMZ archive: unpack it as zip, and take the .dae within"},
+      {".zae", "", "a zipped COLLADA: unpack it as zip, and take the .dae and images within"},
+      {".ifczip", "", "a zipped IFC: unpack it, and take the .ifc within"},
+      {".usdz", "", "a USD model: open it in Blender, File > Export > glTF"},
+      {".usda", "#usda", "a USD model: open it in Blender, File > Export > glTF"},
+      {".usdc", "PXR-USDC", "a USD model: open it in Blender, File > Export > glTF"},
+      {".usd", "", "a USD model: open it in Blender, File > Export > glTF"},
+      {".wrl", "#VRML", "a VRML model: open it in Blender or MeshLab, export OBJ or glTF"},
+      {".x3d", "", "an X3D model: open it in Blender or MeshLab, export OBJ or glTF"},
+      {".pln", "", "an ArchiCAD project: File > Save As > IFC"},
+      {".pla", "", "an ArchiCAD archive: File > Save As > IFC"},
+      {".rfa", "", "a Revit family: load it into a project, File > Export > IFC"},
+      {".las", "LASF", "a point cloud without surfaces: ask for the model itself"},
+      {".laz", "", "a point cloud without surfaces: ask for the model itself"},
+      {".blend", "BLENDER", "a Blender file: File > Export > glTF or OBJ"},
+      {".max", "", "a 3ds Max scene: File > Export > OBJ or glTF"},
+      {".c4d", "", "a Cinema 4D scene: File > Export > OBJ or glTF"},
+      {".vwx", "", "a Vectorworks file: File > Export > IFC or DXF"},
+      {".ifcxml", "", "IFC as XML: export it as .ifc (STEP)"},
+      {".gml", "", "a CityGML model: convert it to OBJ or glTF"},
+      {".step", "", "a STEP model: open it in FreeCAD, File > Export > OBJ or glTF"},
+      {".stp", "", "a STEP model: open it in FreeCAD, File > Export > OBJ or glTF"},
+      {".dwf", "", "a DWF plot without surfaces: ask for DXF or IFC"},
+      {".pdf", "%PDF", "a PDF document: ask the architect for IFC, DXF or glTF"},
+      {".zip", "PK\x03\x04", "a zip archive: unpack it into building/"},
+      {".7z", "7z\xBC\xAF", "an archive: unpack it into building/"},
+      {".rar", "Rar!", "an archive: unpack it into building/"}};
+  for (const Unread& unread : kUnread) {
+    if (ending == unread.ending) return std::string(unread.advice);
   }
-  if (head.starts_with("3D Geometry File Format")) return "a Rhino model";
-  if (head.starts_with("Kaydara FBX")) return "an FBX model";
-  if (head.starts_with("MM") || head.starts_with("M-")) return "a 3DS model";
-  if (head.starts_with("\xD0\xCF\x11\xE0")) return "a Revit or other OLE file";
-  if (head.starts_with("PK")) return "a zip archive";
-  return "no model that is read";
+  for (const Unread& unread : kUnread) {
+    if (!unread.magic.empty() && head.starts_with(unread.magic)) return std::string(unread.advice);
+  }
+  if (head.starts_with("\xFF\xFE") || head.starts_with("\xFE\xFF")) {
+    return "text in UTF-16: save it as UTF-8";
+  }
+  return "";
 }
 
 }  // namespace
@@ -97,16 +133,20 @@ std::optional<ModelFormat> DetectModelFormat(const fs::path& path) {
   if (head.starts_with("ply\n") || head.starts_with("ply\r")) return ModelFormat::kPly;
   if (IsDxf(head)) return ModelFormat::kDxf;
   if (BinaryStlSize(path) == fs::file_size(path)) return ModelFormat::kStl;
-  if (text.starts_with("solid") && head.find("facet") != head.npos) return ModelFormat::kStl;
+  const std::string keys = NameKey(std::string(text.substr(0, 2000)));
+  if (keys.starts_with("SOLID") && keys.find("FACET") != keys.npos) return ModelFormat::kStl;
   if (IsObj(head)) return ModelFormat::kObj;
   return std::nullopt;
 }
 
 bool IsNamedLikeAModel(const fs::path& path) {
-  static const std::set<std::string> kEndings = {
-      ".dxf", ".ifc", ".obj", ".gltf", ".glb", ".dae",    ".ply",    ".stl", ".dwg",  ".skp",
-      ".3dm", ".3ds", ".rvt", ".rfa",  ".fbx", ".ifczip", ".ifcxml", ".dxb", ".blend"};
+  static const std::set<std::string> kEndings = {".dxf", ".ifc", ".obj", ".gltf",
+                                                 ".glb", ".dae", ".ply", ".stl"};
   return kEndings.contains(LowerEnding(path));
+}
+
+std::string AdviceOnUnread(const fs::path& path) {
+  return NameOfUnread(HeadOf(path), LowerEnding(path));
 }
 
 ModelFormat RequireModelFormat(const fs::path& path) {
@@ -114,8 +154,10 @@ ModelFormat RequireModelFormat(const fs::path& path) {
   // For their readers' messages.
   if (LowerEnding(path) == ".dxf") return ModelFormat::kDxf;
   if (LowerEnding(path) == ".stl") return ModelFormat::kStl;
-  throw InputError(path, "is " + NameOfUnread(HeadOf(path)) +
-                             ", expected DXF, IFC 2x3, OBJ, glTF, COLLADA, PLY or STL");
+  std::string advice = NameOfUnread(HeadOf(path), "");
+  if (advice.empty()) advice = NameOfUnread("", LowerEnding(path));
+  if (advice.empty()) advice = "no model that is read";
+  throw InputError(path, "is " + advice + "; read are DXF, IFC, OBJ, glTF, COLLADA, PLY and STL");
 }
 
 }  // namespace insitu

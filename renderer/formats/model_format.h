@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <optional>
+#include <string>
 
 namespace insitu {
 
@@ -13,8 +14,12 @@ enum class ModelFormat { kDxf, kIfc, kGltf, kCollada, kObj, kPly, kStl };
 // InputError: unreadable.
 std::optional<ModelFormat> DetectModelFormat(const std::filesystem::path& path);
 
-// Whether a name ends as models do (.dxf, .ifc, .dwg, .skp, ...), read or not.
+// Whether a name ends as models that are read do (.dxf, .ifc, ...).
 bool IsNamedLikeAModel(const std::filesystem::path& path);
+
+// What a file of a known format that is not read is, and how to make one that is: "a DWG drawing:
+// save it as DXF"; empty: unknown. Throws InputError: unreadable.
+std::string AdviceOnUnread(const std::filesystem::path& path);
 
 // The format whose reader is to be asked. Throws InputError: unreadable, a format that is not read
 // (DWG, SketchUp, Rhino, ... are named).

@@ -35,19 +35,42 @@ int Rank(const fs::path& path) {
   return 7;
 }
 
+// The name of a model in a folder; empty: none.
+std::string ModelIn(const fs::path& folder) {
+  std::error_code none;
+  std::string first;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, none)) {
+    const std::string name = entry.path().filename().string();
+    if (!IsNamedLikeAModel(entry.path()) || !entry.is_regular_file()) continue;
+    if (first.empty() || name < first) first = name;
+  }
+  return first;
+}
+
 }  // namespace
 
 ModelList ListModels(const SitePaths& site) {
   std::map<std::string, std::vector<fs::path>> files_of_name;
   std::error_code missing;
+  ModelList list;
   for (const fs::directory_entry& entry : fs::directory_iterator(site.building(), missing)) {
     const fs::path& path = entry.path();
+    if (entry.is_directory()) {
+      const std::string model = ModelIn(path);
+      if (!model.empty()) {
+        list.warnings.push_back(
+            InputError(path, "not read: the folder holds " + model + ": move it into building/")
+                .what());
+      }
+      continue;
+    }
     if (!entry.is_regular_file() || path.filename().string().starts_with('.')) continue;
     if (IsNamedLikeAModel(path) || DetectModelFormat(path)) {
       files_of_name[path.stem().string()].push_back(path);
+    } else if (const std::string advice = AdviceOnUnread(path); !advice.empty()) {
+      list.warnings.push_back(InputError(path, "not read: it is " + advice).what());
     }
   }
-  ModelList list;
   for (auto& [name, files] : files_of_name) {
     std::ranges::sort(files, {}, [](const fs::path& path) { return std::pair(Rank(path), path); });
     list.files.push_back(files.front());
@@ -58,8 +81,10 @@ ModelList ListModels(const SitePaths& site) {
     }
   }
   if (list.files.empty()) {
+    std::string found;
+    for (const std::string& warning : list.warnings) found += "\n  " + warning;
     throw InputError(site.building(),
-                     "no model, expected a DXF, IFC, OBJ, glTF, COLLADA, PLY or STL file");
+                     "no model, expected a DXF, IFC, OBJ, glTF, COLLADA, PLY or STL file" + found);
   }
   std::ranges::sort(list.files);
   return list;

@@ -12,11 +12,11 @@ namespace insitu {
 
 struct ModelList {
   std::vector<std::filesystem::path> files;  // in the order of their names
-  std::vector<std::string> warnings;         // files that are the same model in another format
+  std::vector<std::string> warnings;         // what lies there and is not read
 };
 
-// By content; files that are neither models nor named like one are passed over.
-// Throws InputError: no model, a file that is named like a model but is of a format not read.
+// By content; models of formats that are not read, archives and models in folders are
+// warnings that say what to do. Throws InputError: no model.
 ModelList ListModels(const SitePaths& site);
 
 }  // namespace insitu

@@ -7,6 +7,7 @@
 
 #include "calibration/files/error.h"
 #include "calibration/files/whole_file.h"
+#include "renderer/formats/file_reference.h"
 
 namespace insitu {
 namespace {
@@ -31,14 +32,26 @@ std::string WrittenImage(const SitePaths& site, const fs::path& file, const std:
   return path.string();
 }
 
+// Empty, with a warning: no such file.
+std::string TextureBeside(const fs::path& file, const SurfaceNames& names, Model* model) {
+  if (const auto path = FindReference(file, names.texture)) return path->string();
+  const std::string warning =
+      names.texture_place + ": names the texture " + names.texture +
+      ", which is not there: left out of material \"" + names.material +
+      "\"; put the image beside the model, or list the material in materials.json";
+  if (std::ranges::find(model->warnings, warning) == model->warnings.end()) {
+    model->warnings.push_back(warning);
+  }
+  return "";
+}
+
 }  // namespace
 
 void LocateTextures(const SitePaths& site, const fs::path& file, Model* model) {
   for (SurfaceNames& names : model->mesh.surfaces) {
     if (names.texture.empty()) continue;
     if (!names.texture.starts_with('*')) {
-      std::ranges::replace(names.texture, '\\', '/');
-      names.texture = (file.parent_path() / names.texture).lexically_normal().string();
+      names.texture = TextureBeside(file, names, model);
       continue;
     }
     names.texture = WrittenImage(site, file, names.texture, *model);

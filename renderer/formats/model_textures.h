@@ -10,8 +10,8 @@
 namespace insitu {
 
 // Makes the surfaces' textures paths of files: beside the model those that it names; those that it
-// holds are written into work/building_textures/. One of a kind that is not read is left out with
-// a warning of the model.
+// holds are written into work/building_textures/. One that is not there or of a kind that is not
+// read is left out with a warning of the model.
 void LocateTextures(const SitePaths& site, const std::filesystem::path& file, Model* model);
 
 }  // namespace insitu

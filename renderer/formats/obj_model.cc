@@ -6,10 +6,13 @@
 #include <charconv>
 #include <cmath>
 #include <cstdint>
-#include <fstream>
+#include <limits>
 #include <map>
 
 #include "calibration/files/error.h"
+#include "renderer/dxf/dxf_name.h"
+#include "renderer/formats/file_reference.h"
+#include "renderer/formats/text_lines.h"
 #include "renderer/mesh/face_triangles.h"
 
 namespace insitu {
@@ -38,6 +41,17 @@ class Words {
     const size_t first = rest_.find_first_not_of(" \t\r");
     if (first == std::string_view::npos) return "";
     return std::string(rest_.substr(first, rest_.find_last_not_of(" \t\r") - first + 1));
+  }
+  // The rest as a name; bytes that are no UTF-8 are Windows-1252.
+  std::string Name() { return Utf8FromDxf(Rest()); }
+  // nullopt: no number, not finite, beyond any; the word is passed over.
+  std::optional<double> FindNumber() {
+    const auto word = Next();
+    double value = 0;
+    if (!word || !ParseAll(*word, &value) || !(std::abs(value) <= kLargestNumber)) {
+      return std::nullopt;
+    }
+    return value;
   }
   double Number() {
     const auto word = Next();
@@ -70,14 +84,13 @@ class Words {
 // Calls `use` with the words of each line; a backslash at its end continues it.
 template <typename Use>
 void ForEachLine(const fs::path& path, const Use& use) {
-  std::ifstream file(path, std::ios::binary);
-  if (!file) throw InputError(path, "cannot be read");
+  TextLines lines(path);
   std::string line, more;
-  for (int number = 1; std::getline(file, line); ++number) {
+  for (int number = 1; lines.Next(&line); ++number) {
     const int first = number;
-    while (line.ends_with('\\') || line.ends_with("\\\r")) {
-      line.erase(line.rfind('\\'));
-      if (!std::getline(file, more)) break;
+    while (line.ends_with('\\')) {
+      line.pop_back();
+      if (!lines.Next(&more)) break;
       line += " " + more;
       ++number;
     }
@@ -93,41 +106,79 @@ struct ObjMaterial {
   std::string texture, texture_place;
 };
 
-// The image comes last; options before it begin with a dash and are not told apart from names with
-// blanks any better in the wild.
-std::string TextureName(Words* words) {
-  std::string name = words->Rest();
-  if (!name.starts_with('-')) return name;
-  return name.substr(name.find_last_of(" \t") + 1);
+// The image comes last, after options; its name may hold blanks.
+std::string TextureName(Words words) {
+  for (auto option = Words(words).Next(); option && option->starts_with('-');) {
+    words.Next();
+    const bool up_to_three = *option == "-o" || *option == "-s" || *option == "-t";
+    const int most = up_to_three ? 3 : *option == "-mm" ? 2 : 1;
+    double number = 0;
+    for (int i = 0; i < most; ++i) {
+      const auto value = Words(words).Next();
+      if (!value || (up_to_three && !Words::ParseAll(*value, &number))) break;
+      words.Next();
+    }
+    option = Words(words).Next();
+  }
+  return words.Name();
 }
 
-std::map<std::string, ObjMaterial> ReadMaterials(const fs::path& path) {
-  std::map<std::string, ObjMaterial> materials;
-  ObjMaterial* current = nullptr;
-  ForEachLine(path, [&](std::string_view keyword, Words& words, int line) {
-    if (keyword == "newmtl") {
-      current = &materials[words.Rest()];
-    } else if (!current) {
-      return;
-    } else if (keyword == "Kd") {
-      const auto first = Words(words).Next();
-      double probe = 0;
-      if (first && Words::ParseAll(*first, &probe)) {  // else "spectral" or "xyz"
-        current->rgb = words.Point().cwiseMax(0).cwiseMin(1);
-      }
-    } else if (keyword == "d") {
-      const auto first = Words(words).Next();
-      if (first && *first == "-halo") words.Next();
-      current->opacity = std::clamp(words.Number(), 0.0, 1.0);
-    } else if (keyword == "Tr") {
-      current->opacity = 1 - std::clamp(words.Number(), 0.0, 1.0);
-    } else if (keyword == "map_Kd") {
-      current->texture = TextureName(&words);
-      current->texture_place = path.string() + ":" + std::to_string(line);
-    }
-  });
-  return materials;
+// "Kd r" means r r r; nullopt: "spectral" or "xyz", or no number.
+std::optional<Vector3d> ColorOf(Words words) {
+  const std::optional<double> r = words.FindNumber();
+  if (!r) return std::nullopt;
+  const std::optional<double> g = words.FindNumber(), b = words.FindNumber();
+  const Vector3d color(*r, g.value_or(*r), b.value_or(g.value_or(*r)));
+  return color.cwiseMax(0).cwiseMin(1);
 }
+
+// One material file. "d" goes before "Tr": programs write both alike, and d is the defined one.
+class MaterialsReader {
+ public:
+  MaterialsReader(const fs::path& path, SkippedEntities* skipped)
+      : path_(path), skipped_(skipped) {}
+
+  std::map<std::string, ObjMaterial> Read() {
+    ForEachLine(path_, [this](std::string_view keyword, Words& words, int line) {
+      if (keyword == "newmtl") {
+        current_ = &materials_[words.Name()];
+        has_dissolve_ = false;
+      } else if (current_) {
+        ReadLine(keyword, words, line);
+      }
+    });
+    return std::move(materials_);
+  }
+
+ private:
+  void ReadLine(std::string_view keyword, Words& words, int line) {
+    if (keyword == "Kd") {
+      current_->rgb = ColorOf(words);
+      if (!current_->rgb) Skip("Kd", "a colour that is no number: shown in mid grey");
+    } else if (keyword == "d" || keyword == "Tr") {
+      ReadOpacity(keyword == "d", words);
+    } else if (keyword == "map_Kd") {
+      current_->texture = TextureName(words);
+      current_->texture_place = path_.string() + ":" + std::to_string(line);
+    }
+  }
+  void ReadOpacity(bool is_dissolve, Words words) {
+    const auto first = Words(words).Next();
+    if (first && *first == "-halo") words.Next();
+    const std::optional<double> value = words.FindNumber();
+    if (!value) return Skip(is_dissolve ? "d" : "Tr", "no number: taken as opaque");
+    if (!is_dissolve && has_dissolve_) return;
+    has_dissolve_ |= is_dissolve;
+    current_->opacity = std::clamp(is_dissolve ? *value : 1 - *value, 0.0, 1.0);
+  }
+  void Skip(const char* kind, const char* reason) { ++(*skipped_)[{kind, reason}]; }
+
+  fs::path path_;
+  SkippedEntities* skipped_;
+  std::map<std::string, ObjMaterial> materials_;
+  ObjMaterial* current_ = nullptr;
+  bool has_dissolve_ = false;
+};
 
 class ObjReader {
  public:
@@ -138,6 +189,7 @@ class ObjReader {
   Model Read() {
     ForEachLine(path_,
                 [this](std::string_view keyword, Words& words, int) { ReadLine(keyword, words); });
+    if (has_vertex_colors_) model_.skipped[{"colour by vertex", "not shown"}] = 1;
     if (uvs_.empty()) model_.mesh.corner_uvs.clear();
     if (normals_.empty()) model_.mesh.corner_normals.clear();
     DropUnused(&model_.mesh);
@@ -149,22 +201,21 @@ class ObjReader {
     ModelMesh& mesh = model_.mesh;
     if (keyword == "v") {
       mesh.vertices.push_back(words.Point());
+      has_vertex_colors_ |= words.Next() && words.Next() && words.Next();  // not x y z w
     } else if (keyword == "vt") {
-      const double u = words.Number();
-      const auto v = words.Next();
-      double value = 0;
-      if (v && !Words::ParseAll(*v, &value)) throw words.Error("a texture coordinate is no number");
-      uvs_.emplace_back(static_cast<float>(u), static_cast<float>(value));
+      const std::optional<double> u = words.FindNumber(), v = words.FindNumber();
+      if (!u) ++model_.skipped[{"vt", "no number: taken as 0"}];
+      uvs_.emplace_back(static_cast<float>(u.value_or(0)), static_cast<float>(v.value_or(0)));
     } else if (keyword == "vn") {
-      normals_.push_back(words.Point().cast<float>().normalized());
+      AddNormal(words);
     } else if (keyword == "f") {
       AddFace(words);
     } else if (keyword == "o" || keyword == "g" || keyword == "usemtl") {
-      (keyword == "o" ? object_ : keyword == "g" ? group_ : material_) = words.Rest();
+      (keyword == "o" ? object_ : keyword == "g" ? group_ : material_) = words.Name();
       if (keyword == "o") group_.clear();
       surface_.reset();
     } else if (keyword == "mtllib") {
-      ReadLibrary(words.Rest());
+      ReadLibraries(words.Name());
     } else if (keyword == "s" || keyword == "vp") {
       return;  // smoothing is told by vn; parameter space is of curves
     } else {
@@ -180,18 +231,38 @@ class ObjReader {
                                     : "no polygon: free-form and other statements are not read"}];
   }
 
+  // A normal that is none is passed over; its faces have their own.
+  void AddNormal(Words& words) {
+    constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+    const double x = words.FindNumber().value_or(kNone), y = words.FindNumber().value_or(kNone);
+    const Vector3d normal(x, y, words.FindNumber().value_or(kNone));
+    const bool valid = normal.allFinite() && normal.norm() > 0;
+    if (!valid) ++model_.skipped[{"vn", "no direction: its faces have their own normal"}];
+    normals_.push_back(valid ? Eigen::Vector3f(normal.normalized().cast<float>())
+                             : Eigen::Vector3f(Eigen::Vector3f::Zero()));
+  }
+
+  // One name, with blanks or without, or several.
+  void ReadLibraries(const std::string& names) {
+    if (FindReference(path_, names)) return ReadLibrary(names);
+    Words words(path_, 0, names);
+    while (const auto name = words.Next()) {
+      if (!FindReference(path_, std::string(*name))) return ReadLibrary(names);
+      ReadLibrary(std::string(*name));
+    }
+  }
+
   void ReadLibrary(const std::string& name) {
-    std::string portable = name;
-    std::ranges::replace(portable, '\\', '/');
-    const fs::path file = path_.parent_path() / portable;
-    std::error_code none;
-    if (!fs::is_regular_file(file, none)) {
+    const std::optional<fs::path> file = FindReference(path_, name);
+    if (!file) {
       model_.warnings.push_back(
           InputError(path_, "its material file " + name + " is not there: its colours are unknown")
               .what());
       return;
     }
-    for (auto& [material, values] : ReadMaterials(file)) materials_[material] = values;
+    for (auto& [material, values] : MaterialsReader(*file, &model_.skipped).Read()) {
+      materials_[material] = values;
+    }
     surface_.reset();
   }
 
@@ -231,8 +302,14 @@ class ObjReader {
 
   void AddFace(Words& words) {
     std::vector<Corner> corners;
-    while (const auto word = words.Next()) corners.push_back(CornerOf(words, *word));
-    if (corners.size() < 3) throw words.Error("a face has at least 3 corners");
+    for (auto word = words.Next(); word && !word->starts_with('#'); word = words.Next()) {
+      corners.push_back(CornerOf(words, *word));
+    }
+    if (corners.size() < 3) {
+      ++model_.entities["f"];
+      ++model_.skipped[{"f", "a face of fewer than 3 corners"}];
+      return;
+    }
     if (corners.size() > kMostCorners) throw words.Error("a face has over 10000 corners");
     ++model_.entities["f"];
     std::vector<int> vertices;
@@ -254,7 +331,6 @@ class ObjReader {
     mesh.surface_of_triangle.push_back(*surface_);
     if (uvs_.empty() && normals_.empty()) return;
     mesh.corner_uvs.resize(3 * mesh.triangles.size() - 3, Eigen::Vector2f(0, 0));
-    mesh.corner_normals.reserve(3 * mesh.triangles.size());
     FillNormals(mesh.triangles.size() - 1);
     for (const int vertex : triangle) {
       const auto corner = std::ranges::find(corners, vertex, &Corner::vertex);
@@ -299,6 +375,7 @@ class ObjReader {
   std::map<std::string, ObjMaterial> materials_;
   std::string object_, group_, material_;
   std::optional<int> surface_;
+  bool has_vertex_colors_ = false;
 };
 
 }  // namespace

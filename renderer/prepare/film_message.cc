@@ -2,6 +2,7 @@
 #include "renderer/prepare/film_message.h"
 
 #include <filesystem>
+#include <set>
 #include <utility>
 #include <vector>
 
@@ -34,6 +35,9 @@ bool HasOtherFolders(const fs::path& film) {
 Eigen::Vector2d Millimetres(const Json::Value& row) {
   return {row["x_mm"].asDouble(), row["y_mm"].asDouble()};
 }
+
+// Switched off: in the file a comment, which no program reads.
+bool IsMarkOff(const Json::Value& row) { return row["state"] == "off"; }
 
 Json::Value NumberOrNull(const std::optional<double>& number) {
   return number ? Json::Value(*number) : Json::Value();
@@ -71,6 +75,7 @@ class Message {
     }
     is_listed_ = !certified_.empty();
     for (const Json::Value& row : tables_["fiducials"]) {
+      if (IsMarkOff(row)) continue;
       certified_.emplace(row["mark"].asString(), Millimetres(row));
     }
     const int needed = transformation_ == FilmTransformation::kAffine ? 3 : 4;
@@ -86,13 +91,17 @@ class Message {
       for (const auto& [photo, size] : sizes_) marks_[photo];
     }
     for (const Json::Value& row : tables_["fiducials"]) {
-      const std::string mark = row["mark"].asString();
-      if (is_listed_ && Millimetres(row) != certified_.at(mark)) {
-        Fault("mark " + mark + " of " + row["photo"].asString() +
-              " has other millimetres than the certificate");
+      const std::string mark = row["mark"].asString(), photo = row["photo"].asString();
+      std::vector<Fiducial>& marks = marks_[photo];  // known as a scan, be all its marks off
+      if (IsMarkOff(row)) {
+        off_[photo].insert(mark);
+        continue;
       }
-      marks_[row["photo"].asString()].push_back(
-          {mark, Millimetres(row), {row["x"].asDouble(), row["y"].asDouble()}});
+      if (is_listed_ && Millimetres(row) != certified_.at(mark)) {
+        Fault(Formatted("mark %s of %s has other millimetres than the certificate", mark.c_str(),
+                        photo.c_str()));
+      }
+      marks.push_back({mark, Millimetres(row), {row["x"].asDouble(), row["y"].asDouble()}});
     }
   }
 
@@ -125,7 +134,7 @@ class Message {
     told["placed"] = static_cast<int>(marks.size());
     told["usable"] = review.is_usable;
     told["kind"] = transformation_ == FilmTransformation::kAffine ? "affine" : "projective";
-    told["unplaced"] = Unplaced(marks);
+    told["unplaced"] = Unplaced(photo, marks);
     told["suspicions"] = told["marks"] = Json::Value(Json::arrayValue);
     for (const std::string& text : review.suspicions) told["suspicions"].append(text);
     told["predicted"] = Json::Value(Json::objectValue);
@@ -135,10 +144,13 @@ class Message {
     TellMap(review, told);
   }
 
-  Json::Value Unplaced(const std::vector<Fiducial>& marks) const {
+  Json::Value Unplaced(const std::string& photo, const std::vector<Fiducial>& marks) const {
     Json::Value names(Json::arrayValue);
     CertifiedFiducials left = certified_;
     for (const Fiducial& mark : marks) left.erase(mark.mark);
+    if (const auto off = off_.find(photo); off != off_.end()) {
+      for (const std::string& mark : off->second) left.erase(mark);
+    }
     for (const auto& [mark, image_mm] : left) names.append(mark);
     return names;
   }
@@ -174,9 +186,10 @@ class Message {
   const std::map<std::string, Eigen::Vector2i>& sizes_;
   const fs::path folder_;
   FilmTransformation transformation_ = FilmTransformation::kAffine;
-  CertifiedFiducials certified_;  // of the certificate, else as placed
-  bool is_listed_ = false;        // the certificate lists them
-  MarksOfPhotos marks_;
+  CertifiedFiducials certified_;                      // of the certificate, else as placed
+  bool is_listed_ = false;                            // the certificate lists them
+  MarksOfPhotos marks_;                               // those that are on
+  std::map<std::string, std::set<std::string>> off_;  // by photo
   Json::Value message_;
 };
 

@@ -20,7 +20,7 @@ bool IsOfFilm(const std::string& table);
 // turn_deg (null: no map), marks: [{mark, vx, vy, vx_mm, vy_mm, r, w, off_px}] worst first,
 // predicted: {MARK: [x, y]}, suspicions: [text]}}}; null where the site has no film. `tables` as
 // SiteEdit has them, `sizes` of the photographs [px]. Photos are those with marks, of a site
-// without other cameras all.
+// without other cameras all; marks switched off count as neither placed nor unplaced.
 Json::Value FilmMessage(const SitePaths& site, const Json::Value& tables,
                         const std::map<std::string, Eigen::Vector2i>& sizes);
 

@@ -70,6 +70,15 @@ class List {
     return left_out["kind"] == "photo" &&
            input_.adjusted["photos"][left_out["name"].asString()]["needs_lens"].asBool();
   }
+  // Whether nothing can be placed yet for want of a lens: what points lack shows after that.
+  bool IsLensAwaited() const {
+    bool is_awaited = false;
+    for (const Json::Value& photo : input_.adjusted["photos"]) {
+      if (photo["oriented"].asBool()) return false;
+      is_awaited = is_awaited || photo["needs_lens"].asBool();
+    }
+    return is_awaited;
+  }
   bool Has(const std::filesystem::path& path) const { return std::filesystem::exists(path); }
 
   void Files() {
@@ -229,6 +238,7 @@ class List {
   }
 
   void Points() {
+    if (IsLensAwaited()) return;
     Json::ArrayIndex more = 0, told = 0;
     for (const Json::Value& left : input_.adjusted["left_out"]) {
       if (left["kind"] == "photo") continue;

@@ -120,14 +120,16 @@ Paths Building(const MontageRequest& request) {
 
 Paths RenderInputs(const MontageRequest& request) {
   const SitePaths& site = request.site;
-  Paths inputs = {site.environment(), site.input_image("").parent_path(), site.photos()};
+  Paths inputs = {site.environment(), site.input_image("").parent_path(), site.photos(),
+                  site.survey() / "foreground"};
+  if (request.with_building) inputs.push_back(site.building());  // textures
   return inputs += Building(request);
 }
 
 Paths Montages(const MontageRequest& request) {
   Paths montages;
   for (const fs::path& photo : ListPhotographs(request.site)) {
-    for (const char* ending : {".exr", ".png", ".jpg", ".uncertainty.csv"}) {
+    for (const char* ending : {".exr", ".png", ".jpg", ".layers.exr", ".uncertainty.csv"}) {
       montages.push_back(request.site.montages() / (photo.stem().string() + ending));
     }
   }

@@ -2,8 +2,12 @@
 #include "renderer/trace/interreflected_light.h"
 
 #include <algorithm>
+#include <cmath>
+#include <map>
 
+#include "radiometry/light/fresnel.h"
 #include "renderer/trace/light_split.h"
+#include "renderer/trace/through_glass.h"
 
 namespace insitu {
 namespace {
@@ -64,17 +68,100 @@ std::vector<Eigen::Vector3d> NaturalNormals(const MontageScene& scene) {
 
 std::function<Spectrum(const SurfacePoint&)> LampsOf(const MontageScene& scene) {
   if (scene.lamps.empty()) return {};
-  return [&scene](const SurfacePoint& point) { return LampIrradiance(scene, point); };
+  const LightDirections middle{.sun = scene.natural.light.sun_direction,
+                               .facet = Eigen::Vector2d::Zero()};
+  return
+      [&scene, middle](const SurfacePoint& point) { return LampIrradiance(scene, point, middle); };
+}
+
+OpaqueFaces OpaqueFacesOf(const MontageScene& scene) {
+  OpaqueFaces faces;
+  if (!scene.split_faces) return faces;
+  for (int triangle : scene.split_faces->opaque.triangles) {
+    faces.normals.push_back(scene.artificial_normals[triangle]);
+    faces.material_of_triangle.push_back(scene.material_of_triangle[triangle]);
+  }
+  return faces;
+}
+
+// Materials of glass, numbered as they come.
+std::vector<int> KindsOfPanes(const MontageScene& scene) {
+  std::vector<int> kinds;
+  if (!scene.split_faces) return kinds;
+  std::map<int, int> kind_of_material;
+  for (int triangle : scene.split_faces->clear.triangles) {
+    const int next = static_cast<int>(kind_of_material.size());
+    kinds.push_back(
+        kind_of_material.try_emplace(scene.material_of_triangle[triangle], next).first->second);
+  }
+  return kinds;
+}
+
+// The mean way through a convex body is 4 V / S (Cauchy).
+double MeanWay(const MontageScene& scene, int material) {
+  double volume = 0, area = 0;
+  for (int triangle : scene.split_faces->clear.triangles) {
+    if (scene.material_of_triangle[triangle] != material) continue;
+    Eigen::Matrix3d corners;
+    for (int i = 0; i < 3; ++i) {
+      corners.col(i) = scene.artificial_mesh.vertices[scene.artificial_mesh.triangles[triangle][i]]
+                           .cast<double>();
+    }
+    volume += corners.determinant() / 6;
+    area += (corners.col(1) - corners.col(0)).cross(corners.col(2) - corners.col(0)).norm() / 2;
+  }
+  return area > 0 ? 4 * std::abs(volume) / area : 0;
+}
+
+// Of a pane, or of one face of a body and half the way through it.
+Spectrum MeanTransmittance(const MontageScene& scene, int material) {
+  constexpr int kSteps = 32;  // of the squared cosine
+  const SpectralGlass& glass = *scene.artificial_materials[material].glass;
+  Spectrum sum = Spectrum::Zero();
+  for (int i = 0; i < kSteps; ++i) {
+    const double cosine = std::sqrt((i + 0.5) / kSteps);
+    sum += glass.is_solid
+               ? Spectrum::Constant(1 - FresnelReflectance(cosine, glass.index)).eval()
+               : ThinSheet(cosine, glass.index, glass.absorption, glass.thickness).transmittance;
+  }
+  sum *= glass.weight / kSteps;
+  if (glass.is_solid) sum *= (-glass.absorption * (MeanWay(scene, material) / 2)).exp();
+  return sum;
+}
+
+std::optional<ClearFaces> ClearFacesOf(const MontageScene& scene, const std::vector<int>& kinds) {
+  if (!scene.split_faces) return std::nullopt;
+  const FaceSubset& faces = scene.split_faces->clear;
+  ClearFaces clear{faces.mesh, faces.rays, kinds, {}, [&scene](const Ray& ray) {
+                     return TransmittanceAlong(scene, ray);
+                   }};
+  for (size_t i = 0; i < kinds.size(); ++i) {
+    if (kinds[i] < std::ssize(clear.mean_transmittance)) continue;
+    clear.mean_transmittance.push_back(
+        MeanTransmittance(scene, scene.material_of_triangle[faces.triangles[i]]));
+  }
+  return clear;
+}
+
+PlannedFaces PlannedOf(const MontageScene& scene, const OpaqueFaces& opaque,
+                       const std::vector<Spectrum>& brdfs, const ClearFaces* clear) {
+  if (!clear) {
+    return {scene.artificial_mesh, scene.artificial_rays, scene.artificial_normals,
+            scene.material_of_triangle, brdfs};
+  }
+  const FaceSubset& faces = scene.split_faces->opaque;
+  return {faces.mesh, faces.rays, opaque.normals, opaque.material_of_triangle, brdfs, clear};
 }
 
 }  // namespace
 
 InterreflectedLight::InterreflectedLight(const MontageScene& scene, std::optional<int> bounces)
     : artificial_brdfs(DiffuseBrdfs(scene)),
-      transport{scene.Photographed(),
-                scene.natural_mesh,
-                {scene.artificial_mesh, scene.artificial_rays, scene.artificial_normals,
-                 scene.material_of_triangle, artificial_brdfs},
+      opaque(OpaqueFacesOf(scene)),
+      kind_of_pane(KindsOfPanes(scene)),
+      clear(ClearFacesOf(scene, kind_of_pane)),
+      transport{scene.Photographed(), scene.natural_mesh,
+                PlannedOf(scene, opaque, artificial_brdfs, clear ? &*clear : nullptr),
                 LampsOf(scene)},
       interreflection(transport, scene.natural.light, GridAbout(FocusOf(scene)),
                       {.bounces = bounces}),

@@ -2,15 +2,26 @@
 // Light among the surfaces of a scene, ready to be looked up.
 #pragma once
 
+#include <optional>
+
 #include "renderer/trace/irradiance_map.h"
 #include "renderer/trace/montage_scene.h"
 
 namespace insitu {
 
+// Of a building with glass, its other faces.
+struct OpaqueFaces {
+  std::vector<Eigen::Vector3d> normals;
+  std::vector<int> material_of_triangle;
+};
+
 struct InterreflectedLight {
   InterreflectedLight(const MontageScene& scene, std::optional<int> bounces);
 
   std::vector<Spectrum> artificial_brdfs;  // of each material, its diffuse share
+  OpaqueFaces opaque;
+  std::vector<int> kind_of_pane;  // of each triangle of glass
+  std::optional<ClearFaces> clear;
   TransportScene transport;
   Interreflection interreflection;
   IrradianceMap on_site, on_building;

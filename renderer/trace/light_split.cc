@@ -8,6 +8,7 @@
 #include <span>
 
 #include "renderer/trace/profile.h"
+#include "renderer/trace/through_glass.h"
 
 namespace insitu {
 namespace {
@@ -89,16 +90,23 @@ FacetSet FacetsBehindBuilding(const MontageScene& scene, const SurfacePoint& sur
       scene, surface, directions,
       [&](int i) { return scene.building_box.MayMeet(start, scene.inverse_facet_directions[i]); },
       [&](const FacetPacket& packet) {
-        const unsigned blocked = BlockedOf(scene.artificial_rays, origin, packet.Span());
+        const unsigned blocked = BlockedOf(scene.OpaqueRays(), origin, packet.Span());
         for (int i = 0; i < packet.size; ++i) hidden[packet.facets[i]] = blocked >> i & 1;
       });
   return hidden;
 }
 
+// A point of a luminous sphere of unit radius, as seen along `to_lamp`: on its disc.
+Eigen::Vector3d PointOnLamp(const Eigen::Vector3d& to_lamp, const Eigen::Vector2d& uniform) {
+  const Eigen::Vector3d u = to_lamp.unitOrthogonal(), v = to_lamp.cross(u);
+  const double radius = std::sqrt(uniform.x()), angle = 2 * std::numbers::pi * uniform.y();
+  return radius * (std::cos(angle) * u + std::sin(angle) * v);
+}
+
 }  // namespace
 
 LightDirections ChooseLightDirections(const MontageScene& scene, const Eigen::Vector2d& disc,
-                                      int ray) {
+                                      int ray, const Eigen::Vector2d& facet, uint64_t seed) {
   const Eigen::Vector3d d_s = scene.natural.light.sun_direction;
   const Eigen::Vector3d u = d_s.unitOrthogonal();
   const Eigen::Vector3d v = d_s.cross(u);
@@ -108,34 +116,34 @@ LightDirections ChooseLightDirections(const MontageScene& scene, const Eigen::Ve
       (d_s + radius * (std::cos(angle) * u + std::sin(angle) * v)).normalized();
   // Fewer than 16 facets a ray would be too coarse to take turns.
   const int stride = scene.facet_directions.size() >= 64 ? 4 : 1;
-  return {sun, ray % stride, stride};
+  return {sun, ray % stride, stride, facet, seed};
 }
 
 SplitSun SplitSunlight(const MontageScene& scene, const SurfacePoint& surface,
                        const LightDirections& directions, bool natural_needed) {
   SplitSun sun;
   const Eigen::Vector3d origin = surface.position + kSurveyClearance * surface.normal;
+  const Ray to_sun = {origin, directions.sun};
   const double cosine = SunCosine(scene, surface, directions);
   if (cosine <= 0) return sun;
-  const bool is_blocked = MayMeetBuilding(scene, origin, directions.sun) &&
-                          IsBlocked(scene.artificial_rays, {origin, directions.sun});
+  Spectrum through = Spectrum::Ones();
+  if (MayMeetBuilding(scene, origin, directions.sun)) through = TransmittanceAlong(scene, to_sun);
+  const bool is_blocked = (through < 1).any();
   if (!is_blocked && !natural_needed) return sun;
-  if (IsBlocked(scene.natural_rays, {origin, directions.sun})) return sun;
+  if (IsBlocked(scene.natural_rays, to_sun)) return sun;
   sun.natural = cosine * scene.natural.light.sun_solid_angle;
-  if (is_blocked) sun.blocked = sun.natural;
+  sun.is_blocked = is_blocked;
+  if (is_blocked) sun.blocked = sun.natural * (1 - through);
   return sun;
 }
 
-double SunOnBuilding(const MontageScene& scene, const SurfacePoint& surface,
-                     const LightDirections& directions) {
+Spectrum SunOnBuilding(const MontageScene& scene, const SurfacePoint& surface,
+                       const LightDirections& directions) {
   const double cosine = SunCosine(scene, surface, directions);
   const Eigen::Vector3d origin = surface.position + kBuildingClearance * surface.normal;
   const Ray to_sun = {origin, directions.sun};
-  if (cosine <= 0 || IsBlocked(scene.artificial_rays, to_sun) ||
-      IsBlocked(scene.natural_rays, to_sun)) {
-    return 0;
-  }
-  return cosine * scene.natural.light.sun_solid_angle;
+  if (cosine <= 0 || IsBlocked(scene.natural_rays, to_sun)) return Spectrum::Zero();
+  return cosine * scene.natural.light.sun_solid_angle * TransmittanceAlong(scene, to_sun);
 }
 
 SplitLight SplitDaylight(const MontageScene& scene, const SurfacePoint& surface,
@@ -145,8 +153,8 @@ SplitLight SplitDaylight(const MontageScene& scene, const SurfacePoint& surface,
   const FacetSet hidden = FacetsBehindBuilding(scene, surface, origin, directions);
   const SplitSun sun = SplitSunlight(scene, surface, directions, natural_needed || hidden.any());
   light.natural.sun = sun.natural;
-  light.blocked.sun = sun.blocked;
-  if (!natural_needed && sun.blocked == 0 && hidden.none()) return {};
+  light.blocked.sun = sun.blocked.head(scene.natural.spectra.bins().count).mean();
+  if (!natural_needed && !sun.is_blocked && hidden.none()) return {};
   light.natural.ambient = std::numbers::pi;
   double visible = 0, blocked = 0;
   ForFacets(
@@ -169,7 +177,8 @@ LightGeometry DaylightOnBuilding(const MontageScene& scene, const SurfacePoint& 
   LightGeometry light;
   light.ambient = std::numbers::pi;
   const Eigen::Vector3d origin = surface.position + kBuildingClearance * surface.normal;
-  light.sun = SunOnBuilding(scene, surface, directions);
+  light.sun =
+      SunOnBuilding(scene, surface, directions).head(scene.natural.spectra.bins().count).mean();
   const FacetSet hidden = FacetsBehindBuilding(scene, surface, origin, directions);
   double visible = 0;
   ForFacets(
@@ -184,19 +193,30 @@ LightGeometry DaylightOnBuilding(const MontageScene& scene, const SurfacePoint& 
   return light;
 }
 
-Spectrum LampIrradiance(const MontageScene& scene, const SurfacePoint& surface) {
+LampLight LampLightAt(const MontageScene& scene, const LampSpectrum& lamp,
+                      const Eigen::Vector3d& point, const LightDirections& directions) {
+  Eigen::Vector3d path = lamp.position - point;
+  if (lamp.radius > 0) path += lamp.radius * PointOnLamp(path.normalized(), directions.facet);
+  const double distance = path.norm();
+  LampLight light{path / distance};
+  const double share = lamp.distribution ? lamp.distribution->At(-light.direction) : 1;
+  if (share <= 0) return light;
+  const Ray ray = {point, light.direction, 0, distance};
+  if (IsBlocked(scene.natural_rays, ray)) return light;
+  light.normal_irradiance =
+      lamp.intensity * TransmittanceAlong(scene, ray) * (share / (distance * distance));
+  return light;
+}
+
+Spectrum LampIrradiance(const MontageScene& scene, const SurfacePoint& surface,
+                        const LightDirections& directions) {
   Spectrum irradiance = Spectrum::Zero();
   const Eigen::Vector3d origin = surface.position + kSurveyClearance * surface.normal;
   for (const LampSpectrum& lamp : scene.lamps) {
-    const Eigen::Vector3d path = lamp.position - origin;
-    const double distance = path.norm();
-    const double cosine = surface.normal.dot(path) / distance;
-    if (cosine <= 0) continue;
-    const double share = lamp.distribution ? lamp.distribution->At(-path / distance) : 1;
-    if (share <= 0) continue;
-    const Ray ray = {origin, path / distance, 0, distance};
-    if (IsBlocked(scene.artificial_rays, ray) || IsBlocked(scene.natural_rays, ray)) continue;
-    irradiance += lamp.intensity * (share * cosine / (distance * distance));
+    if (surface.normal.dot(lamp.position - origin) <= 0) continue;
+    const LampLight light = LampLightAt(scene, lamp, origin, directions);
+    const double cosine = surface.normal.dot(light.direction);
+    if (cosine > 0) irradiance += cosine * light.normal_irradiance;
   }
   return irradiance;
 }

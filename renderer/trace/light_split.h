@@ -11,15 +11,23 @@ namespace insitu {
 
 // The light directions of one camera ray: a point of the sun's disc and every `stride`-th sky facet
 // from `first`. Four rays a pixel with stride 4 together use every facet once.
+// What else goes with the ray: the facet of its first mirror, by the seed all further choices, and
+// whether it may still meet sun and lamps themselves: not behind a rough mirror, where they are
+// counted apart.
 struct LightDirections {
   Eigen::Vector3d sun;  // unit; any point of the disc
   int first = 0;
   int stride = 1;
+  Eigen::Vector2d facet = Eigen::Vector2d::Constant(0.5);  // [0, 1)^2
+  uint64_t seed = 0;
+  bool sees_lights = true;
 };
 
-// `disc` is uniform in [0, 1)^2; `ray` counts the rays of a pixel.
+// `disc` and `facet` are uniform in [0, 1)^2; `ray` counts the rays of a pixel.
 LightDirections ChooseLightDirections(const MontageScene& scene, const Eigen::Vector2d& disc,
-                                      int ray);
+                                      int ray,
+                                      const Eigen::Vector2d& facet = Eigen::Vector2d::Constant(0.5),
+                                      uint64_t seed = 0);
 
 // Light at a point of the existing site. `natural` is what reached it before; `blocked` the part of
 // that which the building cuts off, from the same directions, so that 0 <= blocked <= natural.
@@ -33,20 +41,32 @@ SplitLight SplitDaylight(const MontageScene& scene, const SurfacePoint& surface,
 
 // The sun's part alone.
 struct SplitSun {
-  double natural = 0, blocked = 0;  // n.d_s Omega_s [sr]
+  double natural = 0;                   // n.d_s Omega_s [sr]
+  Spectrum blocked = Spectrum::Zero();  // the part of it [sr] that does not come through
+  bool is_blocked = false;              // at least in part
 };
 SplitSun SplitSunlight(const MontageScene& scene, const SurfacePoint& surface,
                        const LightDirections& directions, bool natural_needed);
-// What of it reaches a point of the building: n.d_s Omega_s [sr].
-double SunOnBuilding(const MontageScene& scene, const SurfacePoint& surface,
-                     const LightDirections& directions);
+// What of it reaches a point of the building: n.d_s Omega_s [sr], times what glass lets through.
+Spectrum SunOnBuilding(const MontageScene& scene, const SurfacePoint& surface,
+                       const LightDirections& directions);
 
 // Light at a point of the building: what neither the site nor the building itself blocks.
 LightGeometry DaylightOnBuilding(const MontageScene& scene, const SurfacePoint& surface,
                                  const LightDirections& directions);
 
+// Light of a lamp at a point: from a point of its luminous sphere that the camera ray chooses, and
+// how much of it arrives across its direction, what stands between taken into account.
+struct LampLight {
+  Eigen::Vector3d direction;  // unit, towards the lamp
+  Spectrum normal_irradiance = Spectrum::Zero();
+};
+LampLight LampLightAt(const MontageScene& scene, const LampSpectrum& lamp,
+                      const Eigen::Vector3d& point, const LightDirections& directions);
+
 // Irradiance of the lamps, what stands between taken into account.
-Spectrum LampIrradiance(const MontageScene& scene, const SurfacePoint& surface);
+Spectrum LampIrradiance(const MontageScene& scene, const SurfacePoint& surface,
+                        const LightDirections& directions);
 
 // Light rays start this far off the building's faces, which are exact [m].
 constexpr double kBuildingClearance = 0.001;

@@ -49,14 +49,56 @@ InfluenceBox BoxAround(const TriangleMesh& mesh) {
 SpectralMaterial NaturalSurface(const NaturalEnvironment& natural, const Polygon& polygon) {
   const auto found = natural.materials.find(polygon.material);
   if (found == natural.materials.end()) return {};
-  return {found->second.diffuse_weight, Spectrum::Zero(), found->second.specular};
+  return {.diffuse_weight = found->second.diffuse_weight, .specular = found->second.specular};
+}
+
+// Absorption by wavelength from three channels: what a layer lets through that is as thick as the
+// pane, or of a body as absorbs about half.
+SpectralGlass GlassOf(const SpectralBasis& spectra, const Glass& glass) {
+  SpectralGlass result{.weight = glass.weight,
+                       .is_solid = glass.is_solid,
+                       .index = glass.index,
+                       .thickness = glass.thickness};
+  const double mean = glass.absorption_rgb.mean();
+  if (mean == 0) return result;
+  const double layer = glass.is_solid || glass.thickness == 0 ? 0.5 / mean : glass.thickness;
+  const Eigen::Vector3d left = (-layer * glass.absorption_rgb.array()).exp();
+  const Spectrum through = spectra.ReflectanceFromRgb(left).max(1e-6).min(1);
+  result.absorption = -through.log() / layer;
+  return result;
 }
 
 SpectralMaterial ArtificialSurface(const SpectralBasis& spectra, const SurfaceMaterial& material) {
   const Spectrum albedo = material.reflectance.empty()
                               ? spectra.ReflectanceFromRgb(material.diffuse_rgb)
                               : Sampled(material.reflectance, spectra.bins());
-  return {material.diffuse_weight, albedo / std::numbers::pi, material.specular};
+  SpectralMaterial surface{.diffuse_weight = material.diffuse_weight,
+                           .brdf = albedo / std::numbers::pi,
+                           .specular = material.specular,
+                           .mirror_color = spectra.ReflectanceFromRgb(material.specular_rgb)};
+  if (material.metal) {
+    surface.metal = SpectralMetal{Sampled(material.metal->index, spectra.bins()),
+                                  Sampled(material.metal->extinction, spectra.bins())};
+  }
+  if (material.glass) surface.glass = GlassOf(spectra, *material.glass);
+  return surface;
+}
+
+FaceSubset SubsetOf(const TriangleMesh& mesh, std::vector<int> triangles) {
+  TriangleMesh part{mesh.vertices, {}};
+  for (int triangle : triangles) part.triangles.push_back(mesh.triangles[triangle]);
+  RayScene rays(part);
+  return {std::move(part), std::move(rays), std::move(triangles)};
+}
+
+std::optional<SplitFaces> SplitByGlass(const MontageScene& scene) {
+  std::vector<int> opaque, clear;
+  for (int t = 0; t < std::ssize(scene.material_of_triangle); ++t) {
+    (scene.MaterialOfTriangle(t).glass ? clear : opaque).push_back(t);
+  }
+  if (clear.empty()) return std::nullopt;
+  return SplitFaces{SubsetOf(scene.artificial_mesh, std::move(opaque)),
+                    SubsetOf(scene.artificial_mesh, std::move(clear))};
 }
 
 // The lamp's own spectrum has its shape, its intensity the luminance.
@@ -66,6 +108,19 @@ Spectrum LampIntensity(const SpectralBasis& spectra, const PointLight& lamp) {
   const Spectrum shape = Sampled(lamp.spectrum, spectra.bins());
   const double luminance = Tristimulus(from_rgb, spectra.bins()).y();
   return shape * (luminance / Tristimulus(shape, spectra.bins()).y());
+}
+
+// One that is off is not there.
+void AddLamp(const PointLight& lamp, MontageScene* scene) {
+  const Spectrum intensity = LampIntensity(scene->natural.spectra, lamp);
+  if ((intensity <= 0).all()) return;
+  const Eigen::Vector3d position = lamp.position - scene->natural.scene.origin;
+  const double area = lamp.edge_u.cross(lamp.edge_v).norm();
+  scene->lamps.push_back(
+      {position, intensity, lamp.distribution, lamp.radius, lamp.is_visible && area == 0});
+  if (area == 0 || !lamp.is_visible) return;
+  scene->panels.push_back(
+      {position - (lamp.edge_u + lamp.edge_v) / 2, lamp.edge_u, lamp.edge_v, intensity / area});
 }
 
 }  // namespace
@@ -90,8 +145,10 @@ MontageScene MakeMontageScene(NaturalEnvironment natural, const ArtificialEnviro
                      .artificial_normals = TriangleNormals(artificial),
                      .material_of_triangle = artificial.material_of_triangle,
                      .artificial_materials = {},
+                     .split_faces = {},
                      .building_box = box,
                      .lamps = {},
+                     .panels = {},
                      .facets = {},
                      .facet_directions = {},
                      .inverse_facet_directions = {},
@@ -108,9 +165,9 @@ MontageScene MakeMontageScene(NaturalEnvironment natural, const ArtificialEnviro
   for (const SurfaceMaterial& material : artificial.materials) {
     scene.artificial_materials.push_back(ArtificialSurface(site.spectra, material));
   }
+  scene.split_faces = SplitByGlass(scene);
   for (const PointLight& lamp : artificial.lights) {
-    scene.lamps.push_back(
-        {lamp.position - origin, LampIntensity(site.spectra, lamp), lamp.distribution});
+    AddLamp(lamp, &scene);
   }
   scene.facets = MakeSkyFacets(site.light.zenith_direction, site.light.polar_facets);
   INSITU_CHECK(scene.facets.directions.size() <= kMostFacets);

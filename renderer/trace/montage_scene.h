@@ -18,16 +18,39 @@
 namespace insitu {
 
 // A surface as the illumination model sees it.
+struct SpectralMetal {
+  Spectrum index, extinction;  // n - i k
+};
+
+struct SpectralGlass {
+  double weight = 1;  // share of what is not mirrored that goes through
+  bool is_solid = false;
+  double index = 1.5;
+  double thickness = 0;                    // of a pane [m]
+  Spectrum absorption = Spectrum::Zero();  // [1/m]
+};
+
 struct SpectralMaterial {
   double diffuse_weight = 1;
   Spectrum brdf = Spectrum::Zero();  // rho [1/sr]; zero for natural surfaces: it is in the photo
-  std::optional<Specular> specular;
+  std::optional<Specular> specular = {};
+  Spectrum mirror_color = Spectrum::Ones();  // of a bare mirror
+  std::optional<SpectralMetal> metal = {};   // goes before it
+  std::optional<SpectralGlass> glass = {};   // nullopt: opaque
 };
 
 struct LampSpectrum {
   Eigen::Vector3d position;  // [m], local
   Spectrum intensity;        // radiance unit times m^2
   std::optional<LightDistribution> distribution = {};
+  double radius = 0;        // of its luminous sphere [m]
+  bool is_visible = false;  // that sphere itself
+};
+
+// The luminous side of an area light, u x v pointing to where it shines.
+struct LuminousPanel {
+  Eigen::Vector3d corner, u, v;  // [m], local
+  Spectrum radiance;
 };
 
 // An axis-aligned box about the planned building; a light ray that misses it is not blocked by it.
@@ -46,9 +69,22 @@ struct InfluenceBox {
   }
 };
 
+// Some of the building's faces as a scene of their own.
+struct FaceSubset {
+  TriangleMesh mesh;
+  RayScene rays;
+  std::vector<int> triangles;  // index among all
+};
+
+// A building with glass: what blocks light, and what lets it through.
+struct SplitFaces {
+  FaceSubset opaque, clear;
+};
+
 constexpr int kMostFacets = 4 * kMostPolarFacets * kMostPolarFacets;
 
 struct InterreflectedLight;
+class SurfaceTextures;
 
 struct MontageScene {
   NaturalEnvironment natural;
@@ -63,8 +99,10 @@ struct MontageScene {
   std::vector<Eigen::Vector3d> artificial_normals;  // of each triangle, unit
   std::vector<int> material_of_triangle;
   std::vector<SpectralMaterial> artificial_materials;
+  std::optional<SplitFaces> split_faces;  // nullopt: nothing is of glass
   InfluenceBox building_box;
   std::vector<LampSpectrum> lamps;
+  std::vector<LuminousPanel> panels;
 
   SkyFacets facets;
   std::vector<Eigen::Vector3f> facet_directions;         // the same, for packets
@@ -79,6 +117,15 @@ struct MontageScene {
   // Light among surfaces; null: the paper's uniform ambient light [Durisch92, Eq. (4)]. It refers
   // to this scene, which must not be moved once it has it.
   std::shared_ptr<const InterreflectedLight> interreflected;
+
+  std::shared_ptr<const SurfaceTextures> textures = {};  // of the building; null: none
+
+  const SpectralMaterial& MaterialOfTriangle(int triangle) const {
+    return artificial_materials[material_of_triangle[triangle]];
+  }
+  const RayScene& OpaqueRays() const {
+    return split_faces ? split_faces->opaque.rays : artificial_rays;
+  }
 
   PhotographedSite Photographed() const {
     return {natural.scene, natural_rays, polygon_of_triangle, images, natural.air, natural.spectra};

@@ -52,6 +52,16 @@ ViewWork PrepareView(const MontageScene& scene, const PosedCamera& camera, const
           center};
 }
 
+// How much of a pixel something in front covers, 0..1.
+float FrontShare(const ViewWork& view, int x, int y) {
+  return view.options.foreground ? *view.options.foreground->share.At(x, y) : 0;
+}
+
+// What the photograph would show without it.
+Eigen::Vector3d Behind(const ViewWork& view, int x, int y) {
+  return view.options.foreground ? view.options.foreground->behind.Rgb(x, y) : view.photo.Rgb(x, y);
+}
+
 // The rays of one pixel, gathered.
 struct PixelSum {
   int rays = 0, building_rays = 0;
@@ -85,8 +95,9 @@ void AddRay(const ViewWork& view, const PixelSampler& sampler, int x, int y,
       sigma ? sampler.Spread(sum.rays, *sigma) : sampler.InPixel(sum.rays);
   PrimaryRay primary;
   primary.ray = SightOf(view, Eigen::Vector2d(x, y) + offset);
-  primary.apparent_rgb = view.photo.Rgb(x, y);
-  primary.light = ChooseLightDirections(view.scene, sampler.OnDisc(sum.rays), sum.rays);
+  primary.apparent_rgb = Behind(view, x, y);
+  primary.light = ChooseLightDirections(view.scene, sampler.OnDisc(sum.rays), sum.rays,
+                                        sampler.OnFacet(sum.rays), sampler.Seed(sum.rays));
   const RayOutcome outcome = TracePrimary(view.scene, primary);
   ++sum.rays;
   if (outcome.hits_building) {
@@ -152,25 +163,47 @@ bool IsWithinReach(const Eigen::Vector3d& before, const Eigen::Vector3d& after, 
   return true;
 }
 
+void SetLayers(float front, bool is_computed, float* layers) {
+  layers[0] = is_computed ? 0 : 1 - front;
+  layers[1] = is_computed ? 1 - front : 0;
+  layers[2] = front;
+}
+
 struct Counts {
   std::atomic<long> building = 0, changed = 0, rays = 0;
 };
 
-void RenderTile(const ViewWork& view, const Tile& tile, Raster& result, Counts& counts) {
+// What the rays make of a pixel; nullopt: the photograph's stays.
+std::optional<Eigen::Vector3d> ComputedPixel(const ViewWork& view, const PixelSum& sum,
+                                             bool has_outline, int x, int y) {
+  if (!sum.IsChanged()) return std::nullopt;
+  const Eigen::Vector3d photo = view.photo.Rgb(x, y), behind = Behind(view, x, y);
+  Eigen::Vector3d mean = sum.Mean(behind);
+  const double seen = 1 - FrontShare(view, x, y);
+  // m F + (1 - m) B of the photograph, with the new B.
+  const auto composed = [&] { return seen < 1 ? photo + seen * (mean - behind) : mean; };
+  const bool may_stay = sum.building_rays == 0 || has_outline;
+  if (may_stay && IsWithinReach(photo, composed(), view.options.reach)) return std::nullopt;
+  if (view.options.grain) mean += MissingGrain(*view.options.grain, sum, behind, mean, x, y);
+  // Only a photograph of colours beyond Rec. 709 has less than no light of a primary.
+  return composed().cwiseMax(photo.cwiseMin(0));
+}
+
+void RenderTile(const ViewWork& view, const Tile& tile, RenderResult& result, Counts& counts) {
   std::optional<Outline> outline;
   if (const auto& spread = view.options.point_spread) outline = OutlineIn(view, *spread, tile);
   for (int y = tile.top; y < tile.bottom; ++y) {
     for (int x = tile.left; x < tile.right; ++x) {
+      const float front = FrontShare(view, x, y);
+      SetLayers(front, false, result.layers.At(x, y));
+      if (front >= 1) continue;
       const PixelSum sum = SamplePixel(view, x, y, outline && outline->IsNear(x, y));
       counts.rays += sum.rays;
-      if (!sum.IsChanged()) continue;  // the photograph's pixel stays
-      const Eigen::Vector3d photo = view.photo.Rgb(x, y);
-      Eigen::Vector3d mean = sum.Mean(photo);
-      const bool may_stay = sum.building_rays == 0 || outline;
-      if (may_stay && IsWithinReach(photo, mean, view.options.reach)) continue;
-      if (view.options.grain) mean += MissingGrain(*view.options.grain, sum, photo, mean, x, y);
+      const auto computed = ComputedPixel(view, sum, outline.has_value(), x, y);
+      if (!computed) continue;
       ++(sum.building_rays > 0 ? counts.building : counts.changed);
-      result.SetRgb(x, y, mean.cwiseMax(0));
+      result.linear.SetRgb(x, y, *computed);
+      SetLayers(front, true, result.layers.At(x, y));
     }
   }
 }
@@ -196,17 +229,20 @@ RenderResult RenderMontage(const MontageScene& scene, const PosedCamera& camera,
                            const std::function<void()>& tile_done) {
   options.Check();
   INSITU_CHECK(photo.width == camera.camera.width() && photo.height == camera.camera.height());
+  INSITU_CHECK(!options.foreground || (options.foreground->share.width == photo.width &&
+                                       options.foreground->share.height == photo.height));
   const int cores = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
                                   options.threads > 0 ? options.threads : cores);
   const ViewWork view = PrepareView(scene, camera, photo, options);
   RenderResult result;
   result.linear = photo;
+  result.layers = Raster(photo.width, photo.height);
   Counts counts;
   tbb::parallel_for(0, TileCount(photo), [&](int index) {
     _MM_SET_FLUSH_ZERO_MODE(_MM_FLUSH_ZERO_ON);
     _MM_SET_DENORMALS_ZERO_MODE(_MM_DENORMALS_ZERO_ON);
-    RenderTile(view, TileAt(photo, index), result.linear, counts);
+    RenderTile(view, TileAt(photo, index), result, counts);
     if (tile_done) tile_done();
   });
   result.building_pixels = counts.building;

@@ -3,8 +3,10 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <optional>
 
+#include "calibration/photo/foreground.h"
 #include "calibration/photo/raster.h"
 #include "radiometry/light/image_quality.h"
 #include "renderer/trace/montage_scene.h"
@@ -22,12 +24,14 @@ struct RenderOptions {
   std::optional<PointSpread> point_spread = {};
   int outline_rays = 32;  // with a point spread: a pixel that the outline may spread into, at most
   std::optional<Grain> grain = {};  // noise that computed pixels get; nullopt: none
+  std::shared_ptr<const Foreground> foreground = {};  // of this photograph; null: nothing in front
 
   void Check() const;  // throws CheckError that names the field that is wrong
 };
 
 struct RenderResult {
   Raster linear;
+  Raster layers;  // shares of each pixel: of the photograph, computed, and in front by the matte
   long building_pixels = 0;  // some ray hits the building
   long changed_pixels = 0;   // other pixels that differ from the photograph
   double mean_rays = 0;      // a pixel
@@ -35,7 +39,8 @@ struct RenderResult {
 
 // `camera` and `photo` are one view: a photograph with its lens, or an input image with the
 // pinhole. Pixels that the building does not influence are those of `photo`, bit for bit. The
-// result does not depend on the number of threads. `tile_done`, if given, is called from any
+// result does not depend on the number of threads. Where something stands in front the photograph
+// stays, and changes by what changes behind it. `tile_done`, if given, is called from any
 // thread.
 RenderResult RenderMontage(const MontageScene& scene, const PosedCamera& camera,
                            const Raster& photo, const RenderOptions& options = {},

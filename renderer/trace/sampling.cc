@@ -30,6 +30,9 @@ PixelSampler::PixelSampler(int x, int y) {
   pixel_shift_.y() = next();
   disc_shift_.x() = next();
   disc_shift_.y() = next();
+  facet_shift_.x() = next();
+  facet_shift_.y() = next();
+  seed_ = SplitMix64(state);
 }
 
 Eigen::Vector2d PixelSampler::InPixel(int ray) const {
@@ -49,6 +52,10 @@ Eigen::Vector2d PixelSampler::Spread(int ray, double sigma) const {
 }
 
 Eigen::Vector2d PixelSampler::OnDisc(int ray) const { return SpreadPoint(disc_shift_, ray); }
+
+Eigen::Vector2d PixelSampler::OnFacet(int ray) const { return SpreadPoint(facet_shift_, ray); }
+
+uint64_t PixelSampler::Seed(int ray) const { return SplitMix64(seed_ + ray); }
 
 void ColorStatistics::Add(const Eigen::Vector3d& linear_rgb) {
   Eigen::Array3d encoded;

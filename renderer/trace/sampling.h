@@ -19,10 +19,13 @@ class PixelSampler {
   // Offset [px] as the light of a point spreads over the film: a Gaussian of this sigma [px], cut
   // off at kSpreadReach sigma and so much wider that its variance stays.
   Eigen::Vector2d Spread(int ray, double sigma) const;
-  Eigen::Vector2d OnDisc(int ray) const;  // for the sun's disc, [0, 1)^2
+  Eigen::Vector2d OnDisc(int ray) const;   // for the sun's disc, [0, 1)^2
+  Eigen::Vector2d OnFacet(int ray) const;  // for the facet of a rough mirror, [0, 1)^2
+  uint64_t Seed(int ray) const;            // for all that is chosen after
 
  private:
-  Eigen::Vector2d pixel_shift_, disc_shift_;
+  Eigen::Vector2d pixel_shift_, disc_shift_, facet_shift_;
+  uint64_t seed_;
 };
 
 // Mean and spread of the colours that the rays of a pixel return, spread in sRGB units.

@@ -2,92 +2,67 @@
 #include "renderer/trace/trace.h"
 
 #include <cmath>
+#include <functional>
 #include <numbers>
 #include <optional>
 
 #include "radiometry/light/illumination.h"
+#include "renderer/trace/glass.h"
 #include "renderer/trace/interreflected_light.h"
-#include "renderer/trace/profile.h"
+#include "renderer/trace/mirror.h"
+#include "renderer/trace/surface_textures.h"
 
 namespace insitu {
 namespace {
 
-// The building's faces win over polygons that survey noise leaves just before them.
 constexpr double kPi = std::numbers::pi;
-constexpr double kCoincidence = 0.01;  // [m]
 
-struct SceneHit {
-  bool is_building = false;
-  int index = 0;  // triangle of the building, or polygon of the site
-  double distance = 0;
-  SurfacePoint surface;                 // normal on the side the ray comes from
-  std::optional<FacePlace> place = {};  // nullopt: on the ground beyond its polygon
-};
-
-SurfacePoint Facing(const Ray& ray, double distance, const Eigen::Vector3d& normal) {
-  const double side = ray.direction.dot(normal) <= 0 ? 1 : -1;
-  return {ray.origin + distance * ray.direction, side * normal};
+double CosineTo(const SurfacePoint& surface, const Eigen::Vector3d& to_viewer) {
+  return std::min(1.0, surface.normal.dot(to_viewer));
 }
 
-std::optional<SceneHit> FindHit(const MontageScene& scene, Ray ray, World world) {
-  const PhaseScope phase(Phase::kEmbree);
-  std::optional<SceneHit> found;
-  if (world == World::kWithBuilding) {
-    if (const auto hit = scene.artificial_rays.Nearest(ray)) {
-      const Eigen::Vector3d& normal = scene.artificial_normals[hit->triangle];
-      found = SceneHit{true, hit->triangle, hit->distance, Facing(ray, hit->distance, normal),
-                       FacePlace{hit->triangle, hit->uv, ray.direction.dot(normal) > 0}};
-      ray.far = hit->distance - kCoincidence;
-    }
-  }
-  if (const auto hit = scene.natural_rays.Nearest(ray)) {
-    const int polygon = scene.polygon_of_triangle[hit->triangle];
-    const Eigen::Vector3d& normal = scene.natural.scene.polygons[polygon].normal;
-    found = SceneHit{false, polygon, hit->distance, Facing(ray, hit->distance, normal),
-                     FacePlace{hit->triangle, hit->uv, ray.direction.dot(normal) > 0}};
-  }
-  return found;
-}
-
-// Where a ray that meets no object goes below the horizon: onto the plane of the ground, which is
-// taken to go on beyond its polygon. nullopt: above the horizon, or no ground to go on.
-std::optional<SceneHit> FindGround(const MontageScene& scene, const Ray& ray) {
-  if (!scene.ground || ray.direction.dot(scene.natural.light.zenith_direction) >= 0) {
-    return std::nullopt;
-  }
-  const Polygon& ground = scene.natural.scene.polygons[*scene.ground];
-  const Eigen::Vector3d foot = ground.vertices[0] - scene.natural.scene.origin;
-  const double distance = ground.normal.dot(foot - ray.origin) / ground.normal.dot(ray.direction);
-  if (!(distance > 0)) return std::nullopt;
-  return SceneHit{false, *scene.ground, distance, Facing(ray, distance, ground.normal)};
-}
-
-// Light of sky and surroundings where a ray meets a surface; nullopt: the paper's.
-std::optional<SmoothLight> LightAround(const MontageScene& scene, const SceneHit& hit) {
-  if (!scene.interreflected) return std::nullopt;
-  if (!hit.place) return SmoothLight{};  // too far to matter
-  const InterreflectedLight& light = *scene.interreflected;
-  return (hit.is_building ? light.on_building : light.on_site).At(*hit.place);
-}
-
-Ray Reflected(const SurfacePoint& surface, const Eigen::Vector3d& to_viewer, double clearance) {
-  const Eigen::Vector3d direction = 2 * surface.normal.dot(to_viewer) * surface.normal - to_viewer;
-  return {surface.position + clearance * surface.normal, direction.normalized()};
-}
-
-double MirrorShare(const SurfacePoint& surface, const SpectralMaterial& material,
-                   const Eigen::Vector3d& to_viewer) {
-  return MirrorWeight(material.specular, std::min(1.0, surface.normal.dot(to_viewer)));
+// The mirror image in a surface towards a viewer, sun and lamps in it included, as if it mirrored
+// all.
+Spectrum MirrorImage(const MontageScene& scene, const SurfacePoint& surface,
+                     const Roughness& roughness, const Eigen::Vector3d& to_viewer,
+                     const LightDirections& light, World world, int depth, double clearance) {
+  const MirroredRay mirrored =
+      ChooseMirrored(surface, roughness, to_viewer, clearance, FacetChoice(light, depth));
+  Spectrum image = LightsInRoughMirror(scene, surface, roughness, to_viewer, light,
+                                       world == World::kWithBuilding, clearance);
+  if (mirrored.weight <= 0) return image;
+  LightDirections further = light;
+  further.sees_lights = light.sees_lights && roughness.slope == 0;
+  image += mirrored.weight * TraceSecondary(scene, mirrored.ray, further, world, depth + 1);
+  return image;
 }
 
 // What a natural surface mirrors towards a viewer.
 Spectrum Mirrored(const MontageScene& scene, const SurfacePoint& surface,
                   const SpectralMaterial& material, const Eigen::Vector3d& to_viewer,
                   const LightDirections& light, World world, int depth) {
-  const double share = MirrorShare(surface, material, to_viewer);
-  if (share <= 0) return Spectrum::Zero();
-  const Ray ray = Reflected(surface, to_viewer, kSurveyClearance);
-  return share * TraceSecondary(scene, ray, light, world, depth + 1);
+  const Spectrum share = MirrorReflectance(material, CosineTo(surface, to_viewer));
+  if ((share <= 0).all()) return Spectrum::Zero();
+  return share * MirrorImage(scene, surface, material.specular->roughness, to_viewer, light, world,
+                             depth, kSurveyClearance);
+}
+
+// What of a natural surface's radiance towards a camera is mirrored, before the building stands. A
+// rough mirror counts as what it is on the mean, a smooth one: what is left, which is not below
+// zero, would grow with the scatter of single facets.
+Spectrum MirroredBefore(const MontageScene& scene, const SurfacePoint& surface,
+                        const SpectralMaterial& material, const Eigen::Vector3d& to_camera,
+                        const LightDirections& light, int depth) {
+  if (!material.specular || material.specular->roughness.slope == 0) {
+    return Mirrored(scene, surface, material, to_camera, light, World::kSiteOnly, depth);
+  }
+  LightDirections without_lights = light;
+  without_lights.sees_lights = false;
+  const Spectrum image = MirrorImage(scene, surface, {}, to_camera, without_lights,
+                                     World::kSiteOnly, depth, kSurveyClearance) +
+                         LightsInRoughMirror(scene, surface, material.specular->roughness,
+                                             to_camera, light, false, kSurveyClearance);
+  return MirrorReflectance(material, CosineTo(surface, to_camera)) * image;
 }
 
 // Case D on a primary ray: the change of the pixel. The photograph is the current one.
@@ -102,17 +77,29 @@ Eigen::Vector3d ChangeOfPixel(const MontageScene& scene, const PrimaryRay& prima
   Spectrum change = Spectrum::Zero();
   Spectrum mirrored_before = Spectrum::Zero();
   if (material.specular) {
-    mirrored_before =
-        Mirrored(scene, hit.surface, material, to_viewer, primary.light, World::kSiteOnly, 0);
+    mirrored_before = MirroredBefore(scene, hit.surface, material, to_viewer, primary.light, 0);
+    const auto mirrored = [&](World world) {
+      return Mirrored(scene, hit.surface, material, to_viewer, primary.light, world, 0);
+    };
+    const bool is_rough = material.specular->roughness.slope > 0;
     change =
-        Mirrored(scene, hit.surface, material, to_viewer, primary.light, World::kWithBuilding, 0) -
-        mirrored_before;
+        mirrored(World::kWithBuilding) - (is_rough ? mirrored(World::kSiteOnly) : mirrored_before);
   }
   change += DiffuseChange(scene, hit.surface, (L0 - mirrored_before).max(0),
                           material.diffuse_weight, primary.light, LightAround(scene, hit));
   if ((change == 0).all()) return Eigen::Vector3d::Zero();  // D2
   change = change.max(-L0) * TransmittanceOver(air, hit.distance);
   return spectra.RgbFromSpectrum(change);
+}
+
+// Apparent radiance at the camera of what a primary ray shows beyond a distance: the photograph's
+// pixel where the site comes next, unchanged but for what the building does there.
+Spectrum ApparentBeyond(const MontageScene& scene, PrimaryRay primary, double beyond) {
+  primary.ray.near = beyond + kBuildingClearance;
+  const RayOutcome outcome = TracePrimary(scene, primary);
+  const SpectralBasis& spectra = scene.natural.spectra;
+  if (outcome.hits_building) return spectra.SpectrumFromRgb(outcome.rgb);
+  return spectra.SpectrumFromRgb(primary.apparent_rgb + outcome.rgb);
 }
 
 Spectrum SunBefore(const MontageScene& scene, const SurfacePoint& surface,
@@ -127,8 +114,8 @@ Spectrum SiteColor(const MontageScene& scene, const SceneHit& hit, const Eigen::
   const std::optional<SmoothLight> around = LightAround(scene, hit);
   Spectrum diffuse;
   if (const auto seen = LookUpColor(scene.Photographed(), hit.index, hit.surface)) {
-    diffuse = (seen->true_color - Mirrored(scene, hit.surface, material, seen->to_camera, light,
-                                           World::kSiteOnly, depth))
+    diffuse = (seen->true_color -
+               MirroredBefore(scene, hit.surface, material, seen->to_camera, light, depth))
                   .max(0);
   } else if (around) {
     diffuse = ReflectedRadiance(1, scene.interreflected->interreflection.MeanBrdf(hit.index),
@@ -158,12 +145,36 @@ Spectrum ChangeInBalance(const Daylight& light, const SplitSun& sun, const Smoot
   return ReflectedRadiance(diffuse_weight, bounded, E_change).max(-true_color);
 }
 
-Spectrum ColorOf(const MontageScene& scene, const SceneHit& hit, const Eigen::Vector3d& to_viewer,
-                 const LightDirections& light, World world, int depth) {
-  if (!hit.is_building) return SiteColor(scene, hit, to_viewer, light, world, depth);
-  const int material = scene.material_of_triangle[hit.index];
-  return BuildingColor(scene, hit.surface, scene.artificial_materials[material], to_viewer, light,
-                       depth, LightAround(scene, hit));
+// What a face of the building is made of where a ray meets it.
+SpectralMaterial MaterialAt(const MontageScene& scene, const SceneHit& hit,
+                            const Eigen::Vector3d& to_viewer) {
+  SpectralMaterial material = scene.MaterialOfTriangle(hit.index);
+  if (!scene.textures) return material;
+  if (const auto albedo = scene.textures->Albedo(*hit.place, hit.distance, -to_viewer)) {
+    material.brdf = scene.natural.spectra.ReflectanceFromRgb(*albedo) / kPi;
+  }
+  return material;
+}
+
+// The colour of a face of the building. `straight_on` is what is seen through it if it is a pane.
+Spectrum FaceColor(const MontageScene& scene, const SceneHit& hit, const Ray& ray,
+                   const LightDirections& light, int depth,
+                   const std::function<Spectrum()>& straight_on) {
+  const SpectralMaterial material = MaterialAt(scene, hit, -ray.direction);
+  if (!material.glass) {
+    return BuildingColor(scene, hit.surface, material, -ray.direction, light, depth,
+                         LightAround(scene, hit));
+  }
+  const auto trace = [&](const Ray& out) {
+    return TraceSecondary(scene, out, light, World::kWithBuilding, depth + 1);
+  };
+  const Spectrum glass = GlassColor(scene, hit, ray, light, depth, straight_on, trace);
+  if (material.glass->weight >= 1) return glass;
+  SpectralMaterial ground = material;  // what does not go through
+  ground.specular.reset();
+  return glass + (1 - material.glass->weight) * BuildingColor(scene, hit.surface, ground,
+                                                              -ray.direction, light, depth,
+                                                              LightAround(scene, hit));
 }
 
 }  // namespace
@@ -174,15 +185,15 @@ Spectrum BuildingColor(const MontageScene& scene, const SurfacePoint& surface,
                        const std::optional<SmoothLight>& around) {
   const Daylight& daylight = scene.natural.light;
   const Spectrum E =
-      LampIrradiance(scene, surface) +
+      LampIrradiance(scene, surface, light) +
       (around ? daylight.sun_radiance * SunOnBuilding(scene, surface, light) + around->before +
                     around->change
               : TotalIrradiance(daylight, DaylightOnBuilding(scene, surface, light)));
-  const double mirror = MirrorShare(surface, material, to_viewer);
+  const Spectrum mirror = MirrorReflectance(material, CosineTo(surface, to_viewer));
   Spectrum L = (1 - mirror) * ReflectedRadiance(material.diffuse_weight, material.brdf, E);
-  if (mirror > 0) {
-    const Ray ray = Reflected(surface, to_viewer, kBuildingClearance);
-    L += mirror * TraceSecondary(scene, ray, light, World::kWithBuilding, depth + 1);
+  if ((mirror > 0).any()) {
+    L += mirror * MirrorImage(scene, surface, material.specular->roughness, to_viewer, light,
+                              World::kWithBuilding, depth, kBuildingClearance);
   }
   return L;
 }
@@ -191,11 +202,11 @@ Spectrum DiffuseChange(const MontageScene& scene, const SurfacePoint& surface,
                        const Spectrum& true_color, double diffuse_weight,
                        const LightDirections& light, const std::optional<SmoothLight>& around) {
   const Spectrum E_lamps =
-      scene.lamps.empty() ? Spectrum::Zero().eval() : LampIrradiance(scene, surface);
+      scene.lamps.empty() ? Spectrum::Zero().eval() : LampIrradiance(scene, surface, light);
   const bool lit = (E_lamps > 0).any();
   if (around) {
     const SplitSun sun = SplitSunlight(scene, surface, light, lit || around->matters);
-    if (!lit && !around->matters && sun.blocked == 0) return Spectrum::Zero();  // D2
+    if (!lit && !around->matters && !sun.is_blocked) return Spectrum::Zero();  // D2
     return ChangeInBalance(scene.natural.light, sun, *around, E_lamps, true_color, diffuse_weight);
   }
   const SplitLight split = SplitDaylight(scene, surface, light, lit);
@@ -215,11 +226,29 @@ Spectrum TraceSecondary(const MontageScene& scene, const Ray& ray, const LightDi
   const Atmosphere& air = scene.natural.air;
   if (depth > kMaxMirrors) return air.horizon;
   auto hit = FindHit(scene, ray, world);
+  if (light.sees_lights && world == World::kWithBuilding) {
+    Ray to_lamp = ray;
+    if (hit) to_lamp.far = hit->distance;
+    if (const auto lamp = FindLamp(scene, to_lamp)) {
+      return ApparentColor(lamp->radiance, air, lamp->distance);
+    }
+  }
+  const bool escapes = !hit;
   // Case B. Departure: the paper leaves open what a ray below the horizon returns.
   if (!hit) hit = FindGround(scene, ray);
-  if (!hit) return air.horizon;
-  const Spectrum L0 = ColorOf(scene, *hit, -ray.direction, light, world, depth);
-  return ApparentColor(L0, air, hit->distance);
+  if (!hit) {
+    return escapes && light.sees_lights ? Spectrum(air.horizon + SunAlong(scene, ray.direction))
+                                        : air.horizon;
+  }
+  if (!hit->is_building) {
+    return ApparentColor(SiteColor(scene, *hit, -ray.direction, light, world, depth), air,
+                         hit->distance);
+  }
+  const auto straight_on = [&] {
+    const Ray rest = {hit->surface.position + kBuildingClearance * ray.direction, ray.direction};
+    return TraceSecondary(scene, rest, light, world, depth + 1);
+  };
+  return ApparentColor(FaceColor(scene, *hit, ray, light, depth, straight_on), air, hit->distance);
 }
 
 bool HitsBuilding(const MontageScene& scene, const Ray& ray) {
@@ -231,12 +260,20 @@ bool HitsBuilding(const MontageScene& scene, const Ray& ray) {
 
 RayOutcome TracePrimary(const MontageScene& scene, const PrimaryRay& primary) {
   const auto hit = FindHit(scene, primary.ray, World::kWithBuilding);
+  const Atmosphere& air = scene.natural.air;
+  Ray to_lamp = primary.ray;
+  if (hit) to_lamp.far = hit->distance;
+  if (const auto lamp = FindLamp(scene, to_lamp)) {
+    return {true, scene.natural.spectra.RgbFromSpectrum(
+                      ApparentColor(lamp->radiance, air, lamp->distance))};
+  }
   if (!hit) return {};  // case A
   if (!hit->is_building) return {false, ChangeOfPixel(scene, primary, *hit)};
-  const Spectrum L0 =
-      ColorOf(scene, *hit, -primary.ray.direction, primary.light, World::kWithBuilding, 0);
-  const Spectrum L = ApparentColor(L0, scene.natural.air, hit->distance);
-  return {true, scene.natural.spectra.RgbFromSpectrum(L)};
+  const auto straight_on = [&] {
+    return TrueColor(ApparentBeyond(scene, primary, hit->distance), air, hit->distance);
+  };
+  const Spectrum L0 = FaceColor(scene, *hit, primary.ray, primary.light, 0, straight_on);
+  return {true, scene.natural.spectra.RgbFromSpectrum(ApparentColor(L0, air, hit->distance))};
 }
 
 }  // namespace insitu

@@ -7,6 +7,7 @@
 
 #include "renderer/trace/light_split.h"
 #include "renderer/trace/montage_scene.h"
+#include "renderer/trace/scene_hit.h"
 
 namespace insitu {
 
@@ -30,11 +31,9 @@ bool HitsBuilding(const MontageScene& scene, const Ray& ray);
 // Cases A (no object: no change), C (the building) and D (the site: D1, D2, D3).
 RayOutcome TracePrimary(const MontageScene& scene, const PrimaryRay& primary);
 
-enum class World { kSiteOnly, kWithBuilding };
-
-// Apparent radiance along a secondary ray: cases B, C and D. `depth` counts the mirrors before it;
-// beyond kMaxMirrors the horizon colour is returned.
-constexpr int kMaxMirrors = 4;
+// Apparent radiance along a secondary ray: cases B, C and D. `depth` counts the mirrors and panes
+// before it; beyond kMaxMirrors the horizon colour is returned.
+constexpr int kMaxMirrors = 8;
 Spectrum TraceSecondary(const MontageScene& scene, const Ray& ray, const LightDirections& light,
                         World world, int depth);
 

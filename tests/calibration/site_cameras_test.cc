@@ -254,5 +254,30 @@ TEST_F(ScannedFilm, MarksOfAnotherPhoto) {
       std::string::npos);
 }
 
+TEST_F(SiteCameras, APanoramaIsRefused) {
+  const fs::path photo = AddPhoto("photos/a.jpg", 40, 20);
+  {
+    Exiv2::XmpProperties::registerNs("http://ns.google.com/photos/1.0/panorama/", "GPano");
+    const auto image = Exiv2::ImageFactory::open(photo.string());
+    image->readMetadata();
+    image->xmpData()["Xmp.GPano.ProjectionType"] = "equirectangular";
+    image->writeMetadata();
+  }
+  EXPECT_EQ(InputErrorOf([&] { Cameras(); }).find(photo.string() + ": is a panorama (GPano: equi"),
+            0u);
+}
+
+TEST_F(SiteCameras, TwoFocalLengthsUnderOneCameraFileAreTold) {
+  AddCamera("", 40, 20);
+  AddPhoto("photos/a.jpg", 40, 20, "", 30);
+  AddPhoto("photos/b.jpg", 40, 20, "", 50);
+  const auto findings = CalibrateSite(site_, {}).cameras.front().findings;
+  const auto told = std::find_if(findings.begin(), findings.end(), [](const Finding& each) {
+    return each.reason == "b.jpg was taken at 50.0 mm, a.jpg at 30.0 mm.";
+  });
+  ASSERT_NE(told, findings.end());
+  EXPECT_EQ(told->severity, Severity::kFail);
+}
+
 }  // namespace
 }  // namespace insitu

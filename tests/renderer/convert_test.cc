@@ -7,6 +7,7 @@
 #include <algorithm>
 
 #include "calibration/files/error.h"
+#include "calibration/photo/photograph.h"
 #include "tests/calibration/files/scratch_folder.h"
 #include "tests/renderer/dxf/dxf_text.h"
 #include "tests/renderer/formats/model_texts.h"
@@ -182,7 +183,8 @@ TEST_F(Convert, BadMaterials) {
   EXPECT_THAT(complaint("\"diffuse_weight\": 0.8", "\"diffuse_weight\": 1.8"),
               HasSubstr("is out of range, expected 0 to 1"));
   EXPECT_THAT(complaint("\"fresnel\"", "\"shiny\""), HasSubstr("materials.json:6: "));
-  EXPECT_THAT(complaint("\"fresnel\"", "\"shiny\""), HasSubstr("expected none, fresnel or mirror"));
+  EXPECT_THAT(complaint("\"fresnel\"", "\"shiny\""),
+              HasSubstr("expected \"none\", \"fresnel\", \"mirror\" or \"conductor\""));
   EXPECT_THAT(complaint("0.9", "-0.9"), HasSubstr("materials.json:7: "));
   EXPECT_THAT(complaint("1.5", "0.9"), HasSubstr("materials.json:8: "));
   EXPECT_THAT(complaint("1.5", "null"), HasSubstr("\"ior\" is missing"));
@@ -192,26 +194,30 @@ TEST_F(Convert, BadMaterials) {
 }
 
 // What today's renderer cannot show is kept, and said.
-TEST_F(Convert, RoughnessTransmissionAndTextureAreKept) {
+TEST_F(Convert, RoughGlassAndTextureAreKept) {
   Write("a.dxf", DrawingText(UnitSquare("WALL") + UnitSquare("GLASS")));
-  Write("brick.png", "not looked at");
+  WritePng(folder_.path() / "building/brick.png", Raster(2, 2), Encoding::kSrgb8);
   Write("materials.json", Replaced(Replaced(kMaterials, "0.0}", "0.2, \"transmission\": 0.9}"),
                                    "\"roughness\": null", "\"texture\": \"brick.png\""));
   const ArtificialEnvironment building = Converted().environment;
-  EXPECT_EQ(building.materials[1].roughness, 0.2);
-  EXPECT_EQ(building.materials[1].transmission, 0.9);
+  EXPECT_EQ(building.materials[1].specular->roughness.slope, 0.2);
+  EXPECT_EQ(building.materials[1].glass->weight, 0.9);
   EXPECT_EQ(building.materials[0].texture, "brick.png");
-  EXPECT_THAT(NotShown(building),
-              ElementsAre(HasSubstr("texture"), HasSubstr("rough"), HasSubstr("transmission")));
+  EXPECT_THAT(NotShown(building), ElementsAre(HasSubstr("texture"), HasSubstr("rough glass")));
 }
 
-TEST_F(Convert, MissingTextureIsRefusedUnlessTheMaterialIsListed) {
+TEST_F(Convert, ASizeThatNoBuildingHasIsRefused) {
+  Write("house.obj", "v 0 0 0\nv 1e-5 0 0\nv 0 1e-5 0\nf 1 2 3\n");
+  EXPECT_THAT(Complaint(), HasSubstr("expected 1 mm to 100 km"));
+}
+
+TEST_F(Convert, MissingTextureCostsOnlyItself) {
   Write("house.obj", kObj);
   Write("house.mtl", "newmtl BRICK\nKd 1 1 1\nmap_Kd brick.png\n");
-  EXPECT_THAT(Complaint(), HasSubstr("house.mtl:3: names the texture"));
-  EXPECT_THAT(Complaint(), HasSubstr("brick.png, which is not there"));
-  Write("materials.json", R"({"materials": {"BRICK": {"diffuse_rgb": [1, 0, 0]}}})");
-  EXPECT_EQ(Converted().environment.triangles.size(), 3u);
+  const Conversion conversion = Converted();
+  EXPECT_EQ(conversion.environment.triangles.size(), 3u);
+  EXPECT_THAT(conversion.warnings, Contains(AllOf(HasSubstr("house.mtl:3: names the texture"),
+                                                  HasSubstr("brick.png, which is not there"))));
 }
 
 // As GLB and glTF mostly come: a red image inside the file.

@@ -4,10 +4,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "calibration/files/error.h"
 #include "calibration/files/json_file.h"
 #include "calibration/files/whole_file.h"
 #include "radiometry/natural_environment.h"
+#include "renderer/foreground_matte.h"
 #include "tests/calibration/files/scratch_folder.h"
 #include "tests/renderer/trace/small_site.h"
 
@@ -89,6 +92,62 @@ TEST_F(RenderSiteTest, RefusesImagesOfAnotherSize) {
 TEST_F(RenderSiteTest, RefusesAPhotographThatTheEnvironmentLacks) {
   WriteExr(site_.photos() / "other.exr", small_.photo);
   EXPECT_THAT(Complaint(), HasSubstr("has no camera for photograph other"));
+}
+
+TEST_F(RenderSiteTest, LeavesWhatStandsInFrontInEitherFrame) {
+  Raster white(64, 48, 1);
+  white.data.assign(white.data.size(), 1);
+  for (const Encoding encoding : {Encoding::kSrgb8, Encoding::kSrgb16}) {
+    WritePng(site_.survey() / "foreground/photo.png", white, encoding);
+    for (const Frame frame : {Frame::kPhoto, Frame::kPinhole}) {
+      RenderSiteOptions options;
+      options.frame = frame;
+      const RenderResult result = RenderSite(site_, options)[0].result;
+      EXPECT_EQ(result.linear.data, small_.photo.data);
+      EXPECT_EQ(result.building_pixels + result.changed_pixels, 0);
+    }
+  }
+  const Raster layers = ReadPhotograph(site_.montages() / "photo.layers.exr").linear;
+  EXPECT_EQ(layers.Rgb(30, 20), Eigen::Vector3d(0, 0, 1));
+}
+
+TEST_F(RenderSiteTest, RefusesAMatteThatCannotBeOne) {
+  const auto matte = site_.survey() / "foreground/photo.png";
+  WritePng(matte, Raster(64, 40, 1), Encoding::kSrgb8);
+  EXPECT_THAT(Complaint(), HasSubstr("foreground/photo.png: is 64x40 px, expected 64x48 px"));
+  Raster red(64, 48);
+  red.SetRgb(5, 5, {1, 0, 0});
+  WritePng(matte, red, Encoding::kSrgb8);
+  EXPECT_THAT(Complaint(), HasSubstr("foreground/photo.png: is coloured, expected a grey picture"));
+}
+
+TEST_F(RenderSiteTest, TellsOfMattesThatBelongToNoPhotograph) {
+  EXPECT_TRUE(UnreadForegroundFiles(site_).empty());
+  WritePng(site_.survey() / "foreground/photo.png", Raster(64, 48, 1), Encoding::kSrgb8);
+  WritePng(site_.survey() / "foreground/foto.png", Raster(64, 48, 1), Encoding::kSrgb8);
+  const std::vector<std::string> unread = UnreadForegroundFiles(site_);
+  ASSERT_EQ(unread.size(), 1u);
+  EXPECT_THAT(unread[0], HasSubstr("foto.png: is not read"));
+  EXPECT_THAT(unread[0], HasSubstr("as in photo.png"));
+}
+
+// Stripes 2 m wide on a box 4 m wide.
+TEST_F(RenderSiteTest, ShowsTheTexturesOfTheBuilding) {
+  Raster stripes(64, 1);
+  for (int x = 0; x < 32; ++x) stripes.SetRgb(x, 0, {1, 1, 1});
+  WritePng(site_.building() / "stripes.png", stripes, Encoding::kSrgb8);
+  SurfaceMaterial material;
+  material.texture = "stripes.png";
+  material.texture_size = {4, 4};
+  WriteArtificialEnvironment(site_, Box(small_, {-2, 0, 0}, {2, 4, 6}, material));
+  const Raster picture = RenderSite(site_, {})[0].result.linear;
+  double least = 1, most = 0;
+  for (int x = 20; x < 44; ++x) {
+    least = std::min(least, picture.Rgb(x, 24).x());
+    most = std::max(most, picture.Rgb(x, 24).x());
+  }
+  EXPECT_LT(least, 0.2 * most);
+  EXPECT_FALSE(std::filesystem::is_empty(site_.root / "work/textures"));
 }
 
 }  // namespace

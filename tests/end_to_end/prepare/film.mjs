@@ -158,6 +158,15 @@ await person.settled();
 report("predictions are confirmed by Enter one by one", (await review("right")).sigma_px < 0.05, (await review("right")).sigma_px);
 const bytes = fs.readFileSync(`${site}/calibration/fiducials.csv`, "utf8");
 await person.point("1");
+await person.press("x");
+await person.settled();
+await until("one mark less counts", async () => (await review("right")).placed === 7);
+report("X switches a mark off: a comment in the file, said in the table", /^#off 1,/m.test(fs.readFileSync(`${site}/calibration/fiducials.csv`, "utf8")) &&
+  (await page.textContent("#film-marks tr[data-fiducial='1']")).includes("off"), await page.textContent("#film-marks tr[data-fiducial='1']"));
+await shot("switched_off");
+await person.press("x");
+await person.settled();
+report("and on again, to the byte", fs.readFileSync(`${site}/calibration/fiducials.csv`, "utf8") === bytes);
 await person.press("Delete");
 await person.settled();
 await person.press("Control+Z");

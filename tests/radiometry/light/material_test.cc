@@ -30,14 +30,18 @@ TEST(ReadNaturalMaterials, ReadsAllKinds) {
   const auto materials = ReadNaturalMaterials(SiteWithMaterials(R"({"materials": {
     "lawn": {"specular": "none", "specular_weight": 0.0, "ior": null, "roughness": null,
              "diffuse": "from photo"},
-    "water": {"specular": "fresnel", "specular_weight": 0.9, "ior": 1.33, "roughness": 0},
+    "water": {"specular": "fresnel", "specular_weight": 0.9, "ior": 1.33, "roughness": 0.05,
+              "distribution": "beckmann"},
     "steel": {"specular": "mirror", "specular_weight": 0.6, "diffuse_weight": 0.5}}})"));
   ASSERT_EQ(materials.size(), 3u);
   EXPECT_FALSE(materials.at("lawn").specular);
   EXPECT_EQ(materials.at("lawn").diffuse_weight, 1);
   EXPECT_EQ(materials.at("water").specular->weight, 0.9);
   EXPECT_EQ(materials.at("water").specular->index, 1.33);
+  EXPECT_EQ(materials.at("water").specular->roughness,
+            (Roughness{0.05, FacetDistribution::kBeckmann}));
   EXPECT_FALSE(materials.at("steel").specular->index);
+  EXPECT_EQ(materials.at("steel").specular->roughness, Roughness{});
   EXPECT_EQ(materials.at("steel").diffuse_weight, 0.5);
 }
 
@@ -54,18 +58,12 @@ TEST(ReadNaturalMaterials, FaultsNameFileAndLine) {
   };
   expect("\"specular\": \"shiny\"", 3, "expected \"none\", \"fresnel\" or \"mirror\"");
   expect("\"specular\": \"mirror\",\n\"specular_weight\": 1.5", 4, "expected 0 to 1");
-  expect("\"specular\": \"mirror\",\n\n\"roughness\": 0.2", 5, "expected 0 or null");
+  expect("\"specular\": \"mirror\",\n\n\"roughness\": 1.2", 5, "expected 0 to 1");
+  expect("\"specular\": \"mirror\",\n\"distribution\": \"phong\"", 4, "\"ggx\" or \"beckmann\"");
   expect("\"specular\": \"fresnel\"", 2, "\"ior\" is missing");
   expect("\"specular\": \"fresnel\",\n\"ior\": 0.9", 4, "expected above 1");
   expect("\"diffuse_weight\": 0", 3, "expected above 0");
   expect("\"diffuse\": \"grey\"", 3, "expected \"from photo\"");
-}
-
-TEST(MirrorWeight, FollowsFresnelOrStaysConstant) {
-  EXPECT_EQ(MirrorWeight(std::nullopt, 0.5), 0);
-  EXPECT_EQ(MirrorWeight(Specular{0.6, std::nullopt}, 0.1), 0.6);
-  EXPECT_NEAR(MirrorWeight(Specular{0.5, 1.5}, 1), 0.02, 1e-15);
-  EXPECT_NEAR(MirrorWeight(Specular{0.5, 1.5}, 0), 0.5, 1e-15);
 }
 
 }  // namespace

@@ -174,7 +174,7 @@ TEST_F(ShortJournal, KilledAtAnyMomentHoldsWhatWasConfirmed) {
     Kill();
   }
   std::printf("%d operations, 40 kills\n", confirmed);
-  EXPECT_GT(confirmed, 100);
+  EXPECT_GT(confirmed, 20);  // on a slow or busy machine, too
 }
 
 }  // namespace

@@ -15,14 +15,18 @@ using testing::HasSubstr;
 
 ArtificialEnvironment GlazedTriangle() {
   ArtificialEnvironment environment;
-  environment.materials = {{"WALL", {0.1, 1.0 / 3, 0.7}, 0.9, std::nullopt, {}, 0, 0, "wall.png"},
-                           {"GLASS", {0.03, 0.03, 0.03}, 1, Specular{0.8, 1.52}, {}, 0.1, 0.9, ""},
-                           {"MIRROR", {0, 0, 0}, 1, Specular{1, std::nullopt}, {}, 0, 0, ""}};
+  environment.materials = {
+      {"WALL", {0.1, 1.0 / 3, 0.7}, 0.9, std::nullopt, {}, "wall.png"},
+      {"GLASS", {0.03, 0.03, 0.03}, 1, Specular{0.8, 1.52, {0.1, FacetDistribution::kBeckmann}}},
+      {"MIRROR", {0, 0, 0}, 1, Specular{1, std::nullopt}}};
+  environment.materials[1].glass = Glass{0.9, true, 1.52, 0.004, {3, 2, 1}};
+  environment.materials[2].specular_rgb = {0.9, 0.7, 0.4};
+  environment.materials[2].metal = Metal{{{400, 1.5}, {700, 0.2}}, {{400, 1.9}, {700, 3.9}}};
   environment.vertices = {
       {2600000.1, 1200000.2, 400.3}, {2600001, 1200000, 1.0 / 3}, {0, -1, 1e-9}};
   environment.triangles = {{0, 1, 2}, {2, 1, 0}};
   environment.material_of_triangle = {2, 0};
-  environment.lights = {{"lamp", {1, 2, 3}, {0.5, 0, 1e-7}, {}, {}, 0}};
+  environment.lights = {{"lamp", {1, 2, 3}, {0.5, 0, 1e-7}}};
   return environment;
 }
 
@@ -71,6 +75,7 @@ TEST(ArtificialEnvironment, ReturnsFromItsFilesToTheLastBit) {
 TEST(ArtificialEnvironment, KeepsWhatTheRendererDoesNotShow) {
   const ScratchFolder folder;
   ArtificialEnvironment written = GlazedTriangle();
+  written.materials[0].texture_size = {1.5, 0.75};
   written.materials[2].reflectance = {{400, 0.1}, {700, 0.9}};
   written.corner_normals.assign(6, Eigen::Vector3f(0, 0.6f, 0.8f));
   written.corner_uvs = {{0, 0}, {1, 0}, {0, 1}, {0.5f, 0.25f}, {2, 2}, {-1, 3}};
@@ -78,11 +83,25 @@ TEST(ArtificialEnvironment, KeepsWhatTheRendererDoesNotShow) {
       LightDistribution{Eigen::Matrix3d::Identity(), {0, 30, 90}, {0, 90}, {1, 0.5, 0, 1, 0.4, 0}};
   written.lights[0].spectrum = {{380, 1}, {780, 2}};
   written.lights[0].candela = 120;
+  written.lights[0].radius = 0.09;
+  written.lights[0].edge_u = {1, 0, 0};
+  written.lights[0].edge_v = {0, 2, 0};
+  written.lights[0].is_visible = true;
   WriteArtificialEnvironment({folder.path()}, written);
   const ArtificialEnvironment read = ReadArtificialEnvironment({folder.path()});
   EXPECT_EQ(read.materials[0].texture, "wall.png");
-  EXPECT_EQ(read.materials[1].roughness, 0.1);
-  EXPECT_EQ(read.materials[1].transmission, 0.9);
+  EXPECT_EQ(read.materials[0].texture_size, Eigen::Vector2d(1.5, 0.75));
+  EXPECT_FALSE(read.materials[1].texture_size);
+  EXPECT_EQ(read.materials[1].specular->roughness, (Roughness{0.1, FacetDistribution::kBeckmann}));
+  ASSERT_TRUE(read.materials[1].glass);
+  EXPECT_EQ(read.materials[1].glass->weight, 0.9);
+  EXPECT_TRUE(read.materials[1].glass->is_solid);
+  EXPECT_EQ(read.materials[1].glass->index, 1.52);
+  EXPECT_EQ(read.materials[1].glass->thickness, 0.004);
+  EXPECT_EQ(read.materials[1].glass->absorption_rgb, Eigen::Vector3d(3, 2, 1));
+  EXPECT_EQ(read.materials[2].specular_rgb, Eigen::Vector3d(0.9, 0.7, 0.4));
+  ASSERT_TRUE(read.materials[2].metal);
+  EXPECT_EQ(read.materials[2].metal->extinction, written.materials[2].metal->extinction);
   EXPECT_EQ(read.materials[2].reflectance, written.materials[2].reflectance);
   EXPECT_EQ(read.corner_normals, written.corner_normals);
   EXPECT_EQ(read.corner_uvs, written.corner_uvs);
@@ -90,7 +109,11 @@ TEST(ArtificialEnvironment, KeepsWhatTheRendererDoesNotShow) {
   EXPECT_EQ(read.lights[0].distribution->values, written.lights[0].distribution->values);
   EXPECT_EQ(read.lights[0].spectrum, written.lights[0].spectrum);
   EXPECT_EQ(read.lights[0].candela, 120);
-  EXPECT_EQ(NotShown(read).size(), 3u);
+  EXPECT_EQ(read.lights[0].radius, 0.09);
+  EXPECT_EQ(read.lights[0].edge_u, Eigen::Vector3d(1, 0, 0));
+  EXPECT_EQ(read.lights[0].edge_v, Eigen::Vector3d(0, 2, 0));
+  EXPECT_TRUE(read.lights[0].is_visible);
+  EXPECT_EQ(NotShown(read).size(), 1u);  // that the glass is rough
 }
 
 TEST(ArtificialEnvironment, SameInputSameBytes) {
@@ -131,8 +154,8 @@ TEST(ArtificialEnvironment, BadInput) {
   Edit(site, "\"vertices\" : 3", "\"vertices\" : -3");
   EXPECT_THAT(Complaint(site), HasSubstr("is negative, expected a count"));
   WriteArtificialEnvironment(site, GlazedTriangle());
-  Edit(site, "\"version\" : 2", "\"version\" : 7");
-  EXPECT_THAT(Complaint(site), HasSubstr("is not a version this program reads, expected 2"));
+  Edit(site, "\"version\" : 3", "\"version\" : 7");
+  EXPECT_THAT(Complaint(site), HasSubstr("is not a version this program reads, expected 3"));
 }
 
 TEST(ArtificialEnvironment, IndicesOutOfRange) {

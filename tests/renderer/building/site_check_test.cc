@@ -28,6 +28,8 @@ TEST(SiteCheck, NamesTheFactorThatIsOff) {
               Contains(HasSubstr("from the site")));
   EXPECT_THAT(SuspicionsOf(Box(Vector3d::Zero(), 1000 * size), {}), Contains(HasSubstr("1000:")));
   EXPECT_THAT(SuspicionsOf(Box(Vector3d::Zero(), size), {}), IsEmpty());
+  EXPECT_THAT(SuspicionsOf(Box(Vector3d::Zero(), 1000 * size), {}, false),
+              Contains(HasSubstr("millimetres taken as metres")));
 }
 
 }  // namespace

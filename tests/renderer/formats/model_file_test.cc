@@ -63,11 +63,11 @@ TEST_F(ModelFile, ColladaComesInMetres) {
 }
 
 TEST_F(ModelFile, IfcOfAnotherSchemaOrCutShort) {
-  const std::string head = "ISO-10303-21;\nHEADER;\nFILE_SCHEMA(('IFC4'));\nENDSEC;\n";
+  const std::string head = "ISO-10303-21;\nHEADER;\nFILE_SCHEMA(('IFC2X2'));\nENDSEC;\n";
   EXPECT_THAT(Complaint("a.ifc", head + "END-ISO-10303-21;\n"),
-              HasSubstr("a.ifc:3: is of schema IFC4, expected IFC2X3"));
+              HasSubstr("a.ifc:3: is of schema IFC2X2, expected IFC2X3"));
   std::string old = head;
-  old.replace(old.find("IFC4"), 4, "IFC2X3");
+  old.replace(old.find("IFC2X2"), 6, "IFC2X3");
   EXPECT_THAT(Complaint("a.ifc", old), HasSubstr("a.ifc:4: the file ends here"));
   EXPECT_THAT(Complaint("a.ifc", "ISO-10303-21;\nENDSEC;\n"), HasSubstr("no FILE_SCHEMA"));
 }
@@ -91,8 +91,8 @@ TEST_F(ModelFile, FilesThatWereCut) {
   EXPECT_THAT(Complaint("a.ply", ply.substr(0, ply.size() - 8)),
               HasSubstr("a.ply: holds 7 vertices, faces and so on, expected 8"));
   EXPECT_THAT(Complaint("a.ply", ply.substr(0, 140)), HasSubstr("a.ply:8: its head ends here"));
-  EXPECT_THAT(Complaint("a.stl", stl.substr(0, stl.find("endsolid"))),
-              HasSubstr("a.stl:8: the file ends here, expected endsolid"));
+  EXPECT_THAT(Complaint("a.stl", stl.substr(0, stl.find("endfacet"))),
+              HasSubstr("a.stl:7: the file ends in a facet"));
   EXPECT_THAT(
       Complaint("a.stl", std::string(80, ' ') + std::string("\2\0\0\0", 4) + std::string(50, '\0')),
       HasSubstr("a.stl: is 134 bytes long, expected 184"));
@@ -100,6 +100,36 @@ TEST_F(ModelFile, FilesThatWereCut) {
               HasSubstr("a.glb: is 12 bytes long, expected 256"));
   EXPECT_THAT(Complaint("a.gltf", gltf.substr(0, 400)), HasSubstr("a.gltf:6: "));
   EXPECT_THAT(Complaint("a.dae", collada.substr(0, 700)), HasSubstr("a.dae:"));
+}
+
+// What other programs write and is no fault of the geometry.
+TEST_F(ModelFile, StlAsItIsWritten) {
+  const std::string stl = kStl;
+  EXPECT_NEAR(AreaOf(Read("a.stl", "\xEF\xBB\xBF\n" + NameKey(stl)).mesh), 0.5, 1e-7);
+  EXPECT_EQ(Read("a.stl", stl.substr(0, stl.find("endsolid"))).warnings.size(), 1u);
+  std::string nonsense = stl;
+  nonsense.replace(nonsense.find("0 0 -1"), 6, "-1.#IND -1.#IND -1.#IND");
+  EXPECT_NEAR(AreaOf(Read("a.stl", nonsense).mesh), 0.5, 1e-7);
+  const std::string corners(
+      "\0\0\0\0\0\0\0\0\0\0\0\0\0\0\x80\x3F\0\0\0\0\0\0\0\0"
+      "\0\0\0\0\0\0\x80\x3F\0\0\0\0",
+      36);
+  const std::string facet = std::string(12, '\0') + corners + std::string(2, '\0');
+  for (const char count : {'\0', '\1'}) {
+    const std::string binary = std::string(80, ' ') + count + std::string(3, '\0') + facet + "\r\n";
+    const Model model = Read("a.stl", binary);
+    EXPECT_NEAR(AreaOf(model.mesh), 0.5, 1e-7);
+    EXPECT_EQ(model.skipped.size(), 1u);  // the bytes behind
+  }
+}
+
+TEST_F(ModelFile, GltfExtensionsAreRefusedOrNamed) {
+  const auto with = [](const std::string& list) {
+    std::string gltf = kGltf;
+    return gltf.replace(gltf.find("\"scene\""), 0, "\"" + list + "\": [\"EXT_unknown\"], ");
+  };
+  EXPECT_THAT(Complaint("a.gltf", with("extensionsRequired")), HasSubstr("EXT_unknown"));
+  EXPECT_THAT(Read("a.gltf", with("extensionsUsed")).warnings, Contains(HasSubstr("EXT_unknown")));
 }
 
 TEST_F(ModelFile, DamagedFilesAreRefusedOrRead) {

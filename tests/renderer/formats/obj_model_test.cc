@@ -57,7 +57,7 @@ TEST_F(ObjModel, Faults) {
   EXPECT_THAT(complaint("f 1 2 4"), HasSubstr("a.obj:4: a face names vertex 4, expected 1 to 3"));
   EXPECT_THAT(complaint("f 1 2 -4"), HasSubstr("names vertex -4"));
   EXPECT_THAT(complaint("f 1 2 0"), HasSubstr("names vertex 0"));
-  EXPECT_THAT(complaint("f 1 2"), HasSubstr("at least 3 corners"));
+  EXPECT_EQ(complaint("f 1 2"), "");
   std::string long_face = "f";
   for (int i = 0; i < 5001; ++i) long_face += " 1 2";
   EXPECT_THAT(complaint(long_face), HasSubstr("a.obj:4: a face has over 10000 corners"));
@@ -66,6 +66,29 @@ TEST_F(ObjModel, Faults) {
   EXPECT_THAT(complaint("v 1e300 0 0"), HasSubstr("at most 1e12"));
   EXPECT_THAT(complaint("v nan 0 0"), HasSubstr("a.obj:4: \"nan\""));
   EXPECT_THAT(complaint("v 1 2"), HasSubstr("the line ends"));
+}
+
+// What costs only itself is counted, and the rest is read.
+TEST_F(ObjModel, OneBadLineCostsOnlyItself) {
+  folder_.Write("a.mtl", "newmtl Grey\nKd 0.6\nd 1\nTr 1\n");
+  const Model model = Read("a.obj",
+                           "mtllib a.mtl\nusemtl Grey\nv 0 0 0\nv 1 0 0\nv 0 1 0\n"
+                           "vt -nan(ind) 0\nvn nan nan nan\nf 1/1/1 2/1/1 3/1/1 # roof\nf 1 2\n");
+  ASSERT_EQ(model.mesh.triangles.size(), 1u);
+  EXPECT_EQ(model.mesh.corner_normals[0], Eigen::Vector3f(0, 0, 1));
+  EXPECT_EQ(model.mesh.surfaces[0].rgb, Vector3d(0.6, 0.6, 0.6));
+  EXPECT_EQ(model.mesh.surfaces[0].opacity, 1);
+  EXPECT_EQ(model.skipped.size(), 3u);
+}
+
+TEST_F(ObjModel, AnyEncodingAndLineEnd) {
+  folder_.Write("my a.mtl", "\xEF\xBB\xBFnewmtl gr\xFCn\rKd 0 1 0\r");
+  const Model model = Read("a.obj",
+                           "\xEF\xBB\xBFmtllib \"C:\\x\\My A.mtl\"\rusemtl gr\xFCn\r"
+                           "v 0 0 0\rv 1 0 0\rv 0 1 0\rf 1 2 3\r");
+  ASSERT_EQ(model.mesh.surfaces.size(), 1u);
+  EXPECT_EQ(model.mesh.surfaces[0].material, "gr\xC3\xBCn");
+  EXPECT_EQ(model.mesh.surfaces[0].rgb, Vector3d(0, 1, 0));
 }
 
 }  // namespace

@@ -94,6 +94,29 @@ TEST_F(FilmMessageTest, TheFilesAreReadByTheFilmReader) {
   EXPECT_EQ(ListCameraFolders(site_)[0].source, CameraSource::kFilm);
 }
 
+// A mark switched off stays in the file, as a comment that no program reads.
+TEST_F(FilmMessageTest, AMarkSwitchedOffIsLeftOutByMapAndReader) {
+  TypeCertificate();
+  for (const auto& [mark, x, y] : {std::tuple("1", -28, -28), {"2", 28, -28}, {"3", 28, 28}}) {
+    Place(mark, x, y);
+  }
+  Place("4", -28, 28, 50);
+  Json::Value before = edit_->Rows("fiducials")[3], after = before;
+  after["state"] = "off";
+  ASSERT_TRUE(Apply("off", "fiducials", before, after).is_done());
+  const Json::Value scan = Message()["photos"]["A"];
+  EXPECT_EQ(scan["placed"], 3);
+  EXPECT_TRUE(scan["unplaced"].empty());
+  EXPECT_TRUE(scan["suspicions"].empty());
+  ASSERT_TRUE(edit_->Save().is_saved());
+  const auto file = site_.boards() / "fiducials.csv";
+  EXPECT_THAT(Content("calibration/fiducials.csv"), HasSubstr("\n#off 4,-28,28,A,70,20"));
+  EXPECT_EQ(ReadFiducials(file).at("A").size(), 3U);
+  Reopen();
+  EXPECT_EQ(edit_->Rows("fiducials")[3]["state"], "off");
+  EXPECT_EQ(Message()["photos"]["A"]["placed"], 3);
+}
+
 // Files that are there keep every byte that no edit touches.
 TEST_F(FilmMessageTest, FilesThatAreThereKeepTheirManner) {
   const std::string film =

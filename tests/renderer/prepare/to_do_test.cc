@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <chrono>
 
 #include "reconstruction/editing/edited_tables.h"
@@ -75,6 +76,24 @@ TEST_F(ToDoTest, ALensComesBeforeAllElse) {
   EXPECT_EQ(ToDo(input_)[0]["run"], "exif-camera");
   folder_.Write("calibration/board.txt", "10 7 0.03");
   EXPECT_EQ(ToDo(input_)[0]["run"], "calibrate");
+}
+
+// Without a lens no point is determined: it is the lens that a person sees to, not point by point.
+TEST_F(ToDoTest, PointsAreAskedForOnceALensIsKnown) {
+  folder_.Write("calibration/board.txt", "10 7 0.03");
+  input_.adjusted =
+      RowOf(R"({"photos": {"A": {"needs_lens": true}}, "diagnoses": [], "failed": null,
+    "left_out": [{"kind": "photo", "name": "A", "reason": "its lens is not known yet"},
+                 {"kind": "point", "name": "roof", "reason": "no oriented photo sees it"}]})");
+  const auto asks_for_point = [&] {
+    const Json::Value items = ToDo(input_);
+    return std::any_of(items.begin(), items.end(),
+                       [](const Json::Value& item) { return item["where"]["point"] == "roof"; });
+  };
+  EXPECT_EQ(ToDo(input_)[0]["run"], "calibrate");
+  EXPECT_FALSE(asks_for_point());
+  input_.adjusted["photos"]["B"]["oriented"] = true;
+  EXPECT_TRUE(asks_for_point());
 }
 
 TEST_F(ToDoTest, WithoutACameraFilmMayBeMeant) {

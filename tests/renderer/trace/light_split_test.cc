@@ -11,6 +11,7 @@ namespace insitu {
 namespace {
 
 const SurfacePoint kLawnOrigin = {Eigen::Vector3d::Zero(), Eigen::Vector3d::UnitZ()};
+const LightDirections kMiddle = {.sun = Eigen::Vector3d::UnitZ()};
 
 LightDirections WholeSky(const MontageScene& scene) {
   return {scene.natural.light.sun_direction, 0, 1};
@@ -82,11 +83,12 @@ TEST(LampIrradiance, FollowsTheInverseSquareAndIsBlocked) {
   lamp.lights = {{"lamp", site.natural.scene.origin + Eigen::Vector3d(0, 0, 2 + kSurveyClearance),
                   Eigen::Vector3d::Constant(8)}};
   const MontageScene lit = site.With(lamp);
-  const Eigen::Vector3d E = lit.natural.spectra.RgbFromSpectrum(LampIrradiance(lit, kLawnOrigin));
+  const Eigen::Vector3d E =
+      lit.natural.spectra.RgbFromSpectrum(LampIrradiance(lit, kLawnOrigin, kMiddle));
   EXPECT_NEAR(E.x(), 2, 1e-9);  // 8 / 2^2
   ArtificialEnvironment shaded = Plate(site, {0, 0, 1}, 1, {});
   shaded.lights = lamp.lights;
-  EXPECT_TRUE((LampIrradiance(site.With(shaded), kLawnOrigin) == 0).all());
+  EXPECT_TRUE((LampIrradiance(site.With(shaded), kLawnOrigin, kMiddle) == 0).all());
 }
 
 // Below a lamp 2 m up, straight down 8 / 2^2, and nothing where its cone does not reach.
@@ -101,8 +103,9 @@ TEST(LampIrradiance, FollowsTheDistribution) {
   building.lights = {spot};
   const MontageScene scene = site.With(building);
   const SurfacePoint below{{0, 0, 0}, {0, 0, 1}}, aside{{3, 0, 0}, {0, 0, 1}};
-  EXPECT_NEAR(scene.natural.spectra.RgbFromSpectrum(LampIrradiance(scene, below)).x(), 1, 1e-9);
-  EXPECT_TRUE((LampIrradiance(scene, aside) == 0).all());
+  EXPECT_NEAR(scene.natural.spectra.RgbFromSpectrum(LampIrradiance(scene, below, kMiddle)).x(), 1,
+              1e-9);
+  EXPECT_TRUE((LampIrradiance(scene, aside, kMiddle) == 0).all());
 }
 
 }  // namespace

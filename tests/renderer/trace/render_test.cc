@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <memory>
+
 #include "renderer/trace/sampling.h"
 #include "tests/calibration/files/wrong_field.h"
 #include "tests/renderer/trace/small_site.h"
@@ -249,6 +252,41 @@ TEST(RenderOptions, NameTheFieldThatIsWrong) {
   const SmallSite site = MakeSmallSite();
   EXPECT_THROW(RenderMontage(site.With({}), site.camera(), site.photo, {.threads = -1}),
                CheckError);
+}
+
+// Leaves before the view: whole on the left, nothing on the right, a fraction between.
+float LeafShare(int x) { return std::clamp((40.0f - static_cast<float>(x)) / 16, 0.0f, 1.0f); }
+
+TEST(RenderMontage, WhatStandsInFrontStaysAndShowsWhatIsBehindItNow) {
+  SmallSite site = MakeSmallSite();
+  const MontageScene scene = site.With(Tower(site));
+  const RenderResult plain = RenderMontage(scene, site.camera(), site.photo);
+  const Eigen::Vector3d leaf(0.02, 0.06, 0.01);
+  Raster share(64, 48, 1);
+  for (int y = 0; y < 48; ++y) {
+    for (int x = 0; x < 64; ++x) {
+      const double m = *share.At(x, y) = LeafShare(x);
+      site.photo.SetRgb(x, y, m * leaf + (1 - m) * site.photo.Rgb(x, y));
+    }
+  }
+  RenderOptions options;
+  options.foreground = std::make_shared<const Foreground>(SeparateForeground(site.photo, share));
+  const RenderResult result = RenderMontage(scene, site.camera(), site.photo, options);
+  int mixed = 0;
+  for (int y = 0; y < 48; ++y) {
+    for (int x = 0; x < 64; ++x) {
+      const Eigen::Vector3d layers = result.layers.Rgb(x, y), now = result.linear.Rgb(x, y);
+      const double m = LeafShare(x);
+      EXPECT_EQ(layers.sum(), 1);
+      EXPECT_EQ(layers[2], m);
+      EXPECT_TRUE(layers[1] > 0 || now == site.photo.Rgb(x, y)) << x << " " << y;
+      EXPECT_TRUE(m < 1 || layers[1] == 0) << x << " " << y;
+      const Eigen::Vector3d truth = m * leaf + (1 - m) * plain.linear.Rgb(x, y);
+      EXPECT_LT((now - truth).norm(), 0.02) << x << " " << y;
+      mixed += m > 0 && layers[1] > 0;
+    }
+  }
+  EXPECT_GT(mixed, 50);
 }
 
 }  // namespace

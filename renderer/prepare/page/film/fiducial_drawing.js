@@ -16,6 +16,7 @@ import {shown} from "../words/numbers.js";
 import {t} from "../words/words.js";
 
 const kShape = "M-6 0A6 6 0 1 1 6 0A6 6 0 1 1 -6 0ZM0 -6V-11M0 6V11M-6 0H-11M6 0H11";
+const kOff = "M-8 -8L8 8M-8 8L8 -8";
 const kDot = "M-1.5 0H1.5M0 -1.5V1.5";
 
 /** @param {any} pane */
@@ -35,8 +36,10 @@ export function drawFiducials(pane) {
 function draw(photo, mark, at, k) {
   const about = reviewedMark(photo, mark),
     isPlaced = fiducial(photo, mark) !== undefined,
-    level = gradeOfFiducial(photo, mark);
+    isOff = fiducial(photo, mark)?.state === "off",
+    level = isOff ? "off" : gradeOfFiducial(photo, mark);
   const arrow = isPlaced && about && ui.arrows ? arrowPath(about.vx * ui.arrows * k, about.vy * ui.arrows * k) : "";
+  const shape = kShape + (isOff ? kOff : "");
   const name = `${mark}${level === "bad" ? " !" : ""}`;
   const classes = [
     "mark fiducial",
@@ -54,8 +57,8 @@ function draw(photo, mark, at, k) {
     },
     svg("path", {class: "arrow casing", d: arrow}),
     svg("path", {class: "arrow", d: arrow}),
-    svg("path", {class: "casing shape", d: kShape}),
-    svg("path", {class: "shape", d: kShape}),
+    svg("path", {class: "casing shape", d: shape}),
+    svg("path", {class: "shape", d: shape}),
     svg("path", {class: "dot", d: kDot}),
     svg("text", {x: 12, y: -8, text: name})
   );
@@ -64,6 +67,7 @@ function draw(photo, mark, at, k) {
 function label(photo, mark, about) {
   const parts = [t("fiducial"), mark];
   if (predictedFiducial(photo, mark)) parts.push(t("prediction"));
+  else if (fiducial(photo, mark)?.state === "off") parts.push(t("off"));
   else if (about) parts.push(about.w === null ? t("cannotCheck") : `w ${shown(about.w, 1)}`);
   return parts.join(", ");
 }

@@ -168,6 +168,17 @@ function remove() {
   edit(t("opDelete", {point: ui.fiducial, photo}), [{table: "fiducials", before: old, after: null}]);
 }
 
+function toggleOff() {
+  settle();
+  const photo = activePane()?.photo?.name,
+    old = ui.fiducial !== null && fiducial(photo, ui.fiducial);
+  if (!old) return say(t("noFiducialHere"));
+  if (isReadOnly("fiducials")) return say(t("readOnlyTable"));
+  edit(t("opSwitch", {point: ui.fiducial, photo}), [
+    {table: "fiducials", before: old, after: {...old, state: old.state === "off" ? "on" : "off"}}
+  ]);
+}
+
 /** The crosshair to the centre of the cross, dot or ring that it is near; Enter takes it. */
 async function refine(pane) {
   if (!pane?.photo) return;
@@ -205,6 +216,7 @@ export function addFilmHands() {
     confirm,
     nudge,
     remove,
+    toggleOff,
     step,
     suspect,
     refine,

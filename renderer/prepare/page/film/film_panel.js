@@ -2,9 +2,9 @@
 // The panel of scanned film: the map between the active scan and its film, its marks worst first.
 
 import {showCertificate} from "./certificate.js";
-import {certified, lacking, reviewOf} from "./certified.js";
+import {certified, fiducial, fiducialsOn, lacking, reviewOf} from "./certified.js";
 import {chooseFiducial} from "./fiducials.js";
-import {confirm, deleteMark} from "../points/marking.js";
+import {confirm, deleteMark, toggleOff} from "../points/marking.js";
 import {refine} from "../points/proposals.js";
 import {state} from "../site/state.js";
 import {activePane, grade, ui} from "../site/ui.js";
@@ -27,6 +27,7 @@ export function buildFilmPanel(root) {
       "div",
       {class: "buttons"},
       inPane("confirm", "Enter", () => confirm(activePane(), false), {class: "main"}),
+      inPane("switch", "X", () => toggleOff()),
       inPane("delete", "Del", deleteMark),
       inPane("refine", "F", () => refine(activePane())),
       button(t("certificate"), showCertificate, {id: "certificate"})
@@ -41,7 +42,8 @@ export function updateFilmPanel() {
   const root = byId("film-about"),
     photo = activePane()?.photo?.name ?? "";
   const review = reviewOf(photo);
-  const signature = JSON.stringify([photo, review, state.film?.missing, ui.fiducial, certified().size]);
+  const off = fiducialsOn(photo).filter(one => one.state === "off").length;
+  const signature = JSON.stringify([photo, review, state.film?.missing, ui.fiducial, certified().size, off]);
   if (!root || drawn === signature) return;
   drawn = signature;
   root.replaceChildren(...about(photo, review));
@@ -119,10 +121,12 @@ function placedLine(one) {
   );
 }
 
-/** Marks without residual: placed while there is no map, or not placed. */
+/** Marks without residual: placed while there is no map, switched off, or not placed. */
 function unplacedLines(photo, review) {
   const lacked = new Set(lacking(photo)),
     told = new Set((review?.marks ?? []).map(one => one.mark));
+  const stateOf = mark =>
+    lacked.has(mark) ? "notPlaced" : fiducial(photo, mark)?.state === "off" ? "off" : "placedOnly";
   return [...certified().keys()]
     .filter(mark => !told.has(mark))
     .map(mark =>
@@ -130,7 +134,7 @@ function unplacedLines(photo, review) {
         "tr",
         {class: mark === ui.fiducial ? "current" : "", data: {fiducial: mark}},
         nameCell(mark, ""),
-        node("td", {colspan: 4, class: "instead", text: t(lacked.has(mark) ? "notPlaced" : "placedOnly")})
+        node("td", {colspan: 4, class: "instead", text: t(stateOf(mark))})
       )
     );
 }

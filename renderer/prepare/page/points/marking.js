@@ -313,8 +313,11 @@ export function deleteMark() {
   if (other) other.remove();
   else changeMark(() => null, "opDelete");
 }
-export const toggleOff = (photo = activePhoto()) =>
+export function toggleOff(photo = activePhoto()) {
+  const other = hands();
+  if (other) return other.toggleOff();
   changeMark(old => ({...old, state: old.state === "off" ? "on" : "off"}), "opSwitch", photo);
+}
 /** Dubious: σ is three times as large; and back. */
 export const toggleDubious = () =>
   changeMark(

@@ -4,6 +4,18 @@
 
 import {kDiagnosisTexts} from "./diagnosis_texts.js";
 
+/** What can be left out, by its `kind`. @type {Record<string, string>} */
+export const kKinds = {
+  photo: "Foto",
+  point: "Punkt",
+  polygon: "Polygon",
+  sun: "Sonnenpaar",
+  zenith: "Lotpaar",
+  edge: "Kante",
+  constraint: "Bedingung",
+  observation: "Bildmessung"
+};
+
 /** @type {Record<string, string>} */
 export const kServerTexts = {
   ...kDiagnosisTexts,

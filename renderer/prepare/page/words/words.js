@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The page's language and its texts; {name} stands for a value.
 
-import {kServerTexts} from "./server_texts.js";
+import {kKinds, kServerTexts} from "./server_texts.js";
 import {kTexts} from "./texts.js";
 
 /** @type {[string, string][]} */
@@ -52,7 +52,7 @@ export function said(message, member = "text") {
   if (!german) return message?.[member] ?? "";
   const values = Object.entries(sentence.values ?? {}).map(([name, value]) => [
     name,
-    typeof value === "object" ? said(value) : value
+    typeof value === "object" ? said(value) : name === "kind" ? (kKinds[value] ?? value) : value
   ]);
   return filled(german, Object.fromEntries(values));
 }

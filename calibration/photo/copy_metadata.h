@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What a photograph states of itself, in the pictures made from it.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace insitu {
+
+// What a delivered picture states of itself, in XMP beside what the photograph states.
+struct MontageStatement {
+  std::string program;            // "insitu 0.1.0"
+  bool is_composite = false;      // something in it was computed
+  std::string computed;           // what
+  std::string photograph_sha256;  // of the files; empty: there is none
+  std::string model_sha256, survey_sha256;
+};
+
+// What is copied of it.
+struct CopiedMetadata {
+  bool with_profile = true;                     // else the target's own stays
+  bool with_orientation = true;                 // else the target is upright: 1
+  const MontageStatement* statement = nullptr;  // none: nothing is added
+};
+
+// EXIF (without the thumbnail, which shows the photograph before the montage), XMP, IPTC and ICC
+// from a JPEG, PNG or TIFF into another; none from what holds none, such as an EXR. What does not
+// fit into the target's format is left out and named in what is returned, a sentence each. Throws
+// InputError: no such file.
+std::vector<std::string> CopyMetadata(const std::filesystem::path& source,
+                                      const std::filesystem::path& target,
+                                      const CopiedMetadata& copied = {});
+
+}  // namespace insitu

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What of a planned material mirrors and lets light through, in building/materials.json.
+#pragma once
+
+#include "calibration/files/json_file.h"
+#include "renderer/building/artificial_environment.h"
+
+namespace insitu {
+
+// Of a material's entry, keys
+//   specular: none, fresnel (needs ior), mirror, conductor (needs complex_index [[nm, n, k], ...]),
+//   specular_weight 0..1, roughness 0..1, distribution: ggx or beckmann,
+//   specular_rgb [r, g, b]: reflectance of a coloured mirror, the same at all angles, 0..1,
+//   transmission 0..1: share of the light that is not mirrored and goes through; with
+//   thin true (the default): a pane of thickness_m drawn as one face, or
+//   solid true: the faces bound a body, at which light is refracted,
+//   absorption_per_m: [r, g, b] >= 0.
+// Sets specular, specular_rgb, metal and glass. Throws InputError: out of range, an unknown word,
+// an index of 1 or less, both thin and solid, a table that does not rise or covers less than the
+// visible range.
+void ReadOptics(const JsonNode& material, SurfaceMaterial* surface);
+
+}  // namespace insitu

@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Reads an IFC file with web-ifc: node ifc_model.js WEB_IFC_FOLDER MODEL.ifc OUT
+// Writes OUT.json (names, counts, warnings) and OUT.bin (vertices as float64 in metres, z up;
+// triangles as uint32: three vertices and a surface). Vertices are placed in double precision.
+'use strict';
+const fs = require('fs');
+const path = require('path');
+const [folder, file, out] = process.argv.slice(2);
+const {IfcAPI, ...ifc} = require(path.join(folder, 'web-ifc-api-node.js'));
+
+const typeCode = (name) => ifc[name.toUpperCase()];
+const valueOf = (attribute) => (attribute && attribute.value !== undefined ? attribute.value : attribute);
+
+class Reader {
+  constructor(api, model) {
+    Object.assign(this, {api, model, vertices: [], triangles: [], surfaces: [], indexOf: new Map()});
+    this.entities = {};
+    this.skipped = [];
+    this.warnings = [];
+    this.shown = new Set();
+  }
+
+  ids(type) {
+    const list = typeCode(type) === undefined ? null : this.api.GetLineIDsWithType(this.model, typeCode(type));
+    return list ? Array.from({length: list.size()}, (_, i) => list.get(i)) : [];
+  }
+  // A line that cannot be read costs only itself.
+  line(id) {
+    try {
+      return this.api.GetLine(this.model, id) || {};
+    } catch (error) {
+      return {};
+    }
+  }
+  lines(type) {
+    return this.ids(type).map((id) => this.line(id));
+  }
+  kindOf(id) {
+    const name = this.line(id).constructor.name;
+    return name.startsWith('Ifc') ? name.replace(/^(Ifc[A-Za-z]*)\d*$/, '$1') : 'IfcProduct';
+  }
+
+  readStyles() {
+    this.styleOf = new Map();
+    for (const item of this.lines('IfcStyledItem')) {
+      const name = (item.Styles || []).map((style) => this.styleName(style)).find(Boolean);
+      if (item.Item && name) this.styleOf.set(item.Item.value, name);
+    }
+    this.materialOf = new Map();
+    for (const relation of this.lines('IfcRelAssociatesMaterial')) {
+      const name = relation.RelatingMaterial && valueOf(this.line(relation.RelatingMaterial.value).Name);
+      for (const object of name ? relation.RelatedObjects || [] : []) this.materialOf.set(object.value, name);
+    }
+  }
+  styleName(reference) {
+    const style = reference && reference.value ? this.line(reference.value) : {};
+    return style.Styles && !style.Name ? style.Styles.map((s) => this.styleName(s)).find(Boolean) : valueOf(style.Name);
+  }
+
+  readMeshes() {
+    this.api.StreamAllMeshes(this.model, (mesh) => {
+      const kind = this.kindOf(mesh.expressID);
+      const name = valueOf(this.line(mesh.expressID).Name);
+      const before = this.triangles.length;
+      for (let i = 0; i < mesh.geometries.size(); ++i) {
+        this.addGeometry(mesh.expressID, name ? kind + '_' + name : kind, mesh.geometries.get(i));
+      }
+      if (this.triangles.length > before) this.entities[kind] = (this.entities[kind] || 0) + 1;
+    });
+  }
+  addGeometry(element, layer, placed) {
+    const geometry = this.api.GetGeometry(this.model, placed.geometryExpressID);
+    const data = this.api.GetVertexArray(geometry.GetVertexData(), geometry.GetVertexDataSize());
+    const indices = this.api.GetIndexArray(geometry.GetIndexData(), geometry.GetIndexDataSize());
+    const material = this.styleOf.get(placed.geometryExpressID) || this.materialOf.get(element) || '';
+    const {x, y, z, w} = placed.color;
+    // web-ifc gives white to what has no colour.
+    const isStyled = this.styleOf.has(placed.geometryExpressID) || x * y * z * w < 1;
+    const surface = this.surface({layer, material, srgb: isStyled ? [x, y, z] : null, opacity: w});
+    const first = this.vertices.length / 3;
+    const m = placed.flatTransformation;
+    for (let i = 0; i < data.length; i += 6) {
+      const at = (row) => m[row] * data[i] + m[row + 4] * data[i + 1] + m[row + 8] * data[i + 2] + m[row + 12];
+      this.vertices.push(at(0), -at(2), at(1));  // web-ifc turns models y up
+    }
+    for (let i = 0; i < indices.length; i += 3) {
+      this.triangles.push(first + indices[i], first + indices[i + 1], first + indices[i + 2], surface);
+    }
+    if (indices.length > 0) this.shown.add(element);
+    geometry.delete();
+  }
+  surface(names) {
+    const key = JSON.stringify(names);
+    if (!this.indexOf.has(key)) {
+      this.indexOf.set(key, this.surfaces.length);
+      this.surfaces.push(names);
+    }
+    return this.indexOf.get(key);
+  }
+
+  // Products that state a shape but have none in the result.
+  countLost() {
+    const lost = new Map();
+    for (const {typeID} of this.api.GetAllTypesOfModel(this.model)) {
+      const list = this.api.GetLineIDsWithType(this.model, typeID);
+      if (list.size() === 0) continue;
+      const first = this.line(list.get(0));
+      if (!('Representation' in first) || !('ObjectPlacement' in first)) continue;
+      for (let i = 0; i < list.size(); ++i) {
+        const id = list.get(i);
+        if (this.shown.has(id) || !this.line(id).Representation) continue;
+        const kind = this.kindOf(id);
+        lost.set(kind, (lost.get(kind) || 0) + 1);
+      }
+    }
+    for (const [kind, count] of lost) {
+      const isVoid = /^Ifc(Opening|Space|Voiding|Projection)/.test(kind);
+      if (!isVoid) this.entities[kind] = (this.entities[kind] || 0) + count;
+      this.skipped.push([kind, isVoid ? 'a void by its kind, no surface' : 'has no surface that web-ifc reads', count]);
+    }
+  }
+
+  // Where the file says the model stands: told, not applied, since placement.json decides.
+  readMapConversion() {
+    const values = [...this.lines('IfcMapConversion'), ...this.mapProperties()];
+    for (const map of values) {
+      const number = (name) => Number(valueOf(map[name]) || 0);
+      const turn = Math.atan2(number('XAxisOrdinate'), Number(valueOf(map.XAxisAbscissa) ?? 1)) * 180 / Math.PI;
+      const shift = ['Eastings', 'Northings', 'OrthogonalHeight'].map(number).join(', ');
+      const system = this.lines('IfcProjectedCRS').map((crs) => valueOf(crs.Name)).find(Boolean);
+      this.warnings.push('holds map coordinates' + (system ? ' (' + system + ')' : '') +
+        ' that are not applied: to use them write {"rotation_deg": ' + Number(turn.toFixed(9)) + ', "shift": [' +
+        shift + ']} into placement.json');
+    }
+  }
+  mapProperties() {
+    return this.lines('IfcPropertySet')
+      .filter((set) => /^e?pset_mapconversion$/i.test(String(valueOf(set.Name))))
+      .map((set) => Object.fromEntries((set.HasProperties || []).map((reference) => {
+        const property = this.line(reference.value);
+        return [valueOf(property.Name), valueOf(property.NominalValue)];
+      })));
+  }
+}
+
+async function main() {
+  const api = new IfcAPI();
+  api.SetWasmPath(folder + path.sep, true);
+  await api.Init();
+  api.SetLogLevel(6);
+  const model = api.OpenModel(new Uint8Array(fs.readFileSync(file)));
+  if (model < 0) throw new Error('web-ifc knows no schema of it');
+  const reader = new Reader(api, model);
+  reader.readStyles();
+  reader.readMeshes();
+  reader.countLost();
+  reader.readMapConversion();
+  fs.writeFileSync(out + '.bin', Buffer.from(new Float64Array(reader.vertices).buffer));
+  fs.appendFileSync(out + '.bin', Buffer.from(new Uint32Array(reader.triangles).buffer));
+  const {surfaces, entities, skipped, warnings} = reader;
+  const counts = {vertices: reader.vertices.length / 3, triangles: reader.triangles.length / 4};
+  fs.writeFileSync(out + '.json', JSON.stringify(
+    {schema: api.GetModelSchema(model), ...counts, surfaces, entities, skipped, warnings}));
+}
+
+main().catch((error) => {
+  console.error(String(error && error.message || error));
+  process.exit(1);
+});

@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "renderer/formats/stl_model.h"
+
+#include <charconv>
+#include <cmath>
+#include <cstring>
+#include <fstream>
+#include <sstream>
+#include <string>
+#include <string_view>
+
+#include "calibration/files/error.h"
+#include "calibration/files/whole_file.h"
+#include "calibration/files/wording.h"
+#include "renderer/formats/cut_short.h"
+#include "renderer/formats/text_lines.h"
+#include "renderer/mesh/face_triangles.h"
+
+namespace insitu {
+namespace {
+
+namespace fs = std::filesystem;
+using Eigen::Vector3d;
+
+constexpr size_t kStlHead = 80, kStlFacet = 50;
+constexpr double kLargestOfStl = 1e12;
+
+void AddStlFacet(const Vector3d corners[3], Model* model) {
+  ++model->entities["facet"];
+  if (IsDegenerate(corners[0], corners[1], corners[2])) {
+    ++model->degenerate_faces;
+    return;
+  }
+  const int first = static_cast<int>(model->mesh.vertices.size());
+  for (int i = 0; i < 3; ++i) model->mesh.vertices.push_back(corners[i]);
+  model->mesh.triangles.emplace_back(first, first + 1, first + 2);
+  model->mesh.surface_of_triangle.push_back(0);
+}
+
+// Facets until the file ends; a head that counts none counts wrong.
+void ReadBinaryStl(const fs::path& path, Model* model) {
+  const std::string bytes = ReadWhole(path);
+  uint32_t stated = 0;
+  std::memcpy(&stated, bytes.data() + kStlHead, sizeof(stated));
+  const size_t start = kStlHead + sizeof(stated);
+  const size_t held = (bytes.size() - start) / kStlFacet;
+  if (stated > 0) RequireLength(path, start + kStlFacet * uint64_t{stated});
+  const size_t facets = stated > 0 ? stated : held;
+  if (bytes.size() > start + facets * kStlFacet) {
+    ++model->skipped[{"bytes behind the last facet", "not looked at"}];
+  }
+  bool colored = bytes.find("COLOR=") < kStlHead;
+  for (size_t f = 0; f < facets; ++f) {
+    const char* facet = bytes.data() + start + f * kStlFacet;
+    float numbers[12];  // normal, three corners
+    std::memcpy(numbers, facet, sizeof(numbers));
+    uint16_t attribute = 0;
+    std::memcpy(&attribute, facet + sizeof(numbers), sizeof(attribute));
+    colored |= attribute != 0;
+    Vector3d corners[3];
+    for (int i = 0; i < 9; ++i) corners[i / 3][i % 3] = numbers[3 + i];
+    for (const Vector3d& corner : corners) {
+      if (corner.cwiseAbs().maxCoeff() <= kLargestOfStl) continue;
+      throw InputError(path, "facet " + std::to_string(f + 1) +
+                                 " has a corner that is not finite or beyond 1e12");
+    }
+    AddStlFacet(corners, model);
+  }
+  if (colored) ++model->skipped[{"colours of facets", "STL defines none: not shown"}];
+}
+
+class StlTextReader {
+ public:
+  StlTextReader(const fs::path& path, Model* model) : path_(path), lines_(path), model_(model) {}
+
+  void Read() {
+    std::string line;
+    while (lines_.Next(&line)) {
+      ++number_;
+      std::istringstream words(line);
+      std::string word;
+      if (words >> word) ReadLine(NameKey(word), &words);
+    }
+    if (in_facet_) throw InputError(path_, number_, "the file ends in a facet: it is cut short");
+    if (!ended_) {
+      model_->warnings.push_back(
+          InputError(path_, number_, "the file ends without endsolid: is it whole?").what());
+    }
+  }
+
+ private:
+  void ReadLine(const std::string& word, std::istringstream* words) {
+    if (word == "FACET") {
+      in_facet_ = true;
+      corners_ = 0;
+    } else if (word == "VERTEX") {
+      ReadCorner(words);
+    } else if (word == "ENDFACET") {
+      if (corners_ != 3) throw Error("a facet of " + std::to_string(corners_) + " corners");
+      AddStlFacet(facet_, model_);
+      in_facet_ = false;
+    } else if (word == "ENDSOLID" || word == "END") {
+      ended_ = true;
+    } else if (word == "SOLID") {
+      ended_ = false;
+    } else if (word != "OUTER" && word != "ENDLOOP") {
+      throw Error(Quoted(word) + ", expected a statement of STL");
+    }
+  }
+  void ReadCorner(std::istringstream* words) {
+    if (corners_ >= 3) throw Error("a facet of more than three corners");
+    for (double& coordinate : facet_[corners_]) {
+      std::string text;
+      *words >> text;
+      const char* first = text.data() + text.starts_with('+');
+      const char* last = text.data() + text.size();
+      const auto [end, status] = std::from_chars(first, last, coordinate);
+      if (status != std::errc() || end != last || !(std::abs(coordinate) <= kLargestOfStl)) {
+        throw Error(Quoted(text) + ", expected a coordinate of at most 1e12");
+      }
+    }
+    ++corners_;
+  }
+  InputError Error(const std::string& message) const { return {path_, number_, message}; }
+
+  fs::path path_;
+  TextLines lines_;
+  Model* model_;
+  int number_ = 0, corners_ = 0;
+  bool in_facet_ = false, ended_ = false;
+  Vector3d facet_[3];
+};
+
+// Binary files may begin with "solid" too, but hold zeros and no "facet" near their head.
+bool IsStlText(const fs::path& path) {
+  TextLines lines(path);
+  std::string line;
+  for (int i = 0; i < 10 && lines.Next(&line); ++i) {
+    if (line.find('\0') != line.npos) return false;
+    if (NameKey(line).find("FACET") != line.npos) return true;
+  }
+  return BinaryStlSize(path) == std::nullopt || NameKey(line).find("SOLID") != line.npos;
+}
+
+}  // namespace
+
+std::optional<uint64_t> BinaryStlSize(const fs::path& path) {
+  uint32_t facets = 0;
+  std::ifstream file(path, std::ios::binary);
+  file.seekg(kStlHead);
+  if (!file.read(reinterpret_cast<char*>(&facets), sizeof(facets))) return std::nullopt;
+  return kStlHead + sizeof(facets) + kStlFacet * uint64_t{facets};
+}
+
+Model ReadStl(const fs::path& path) {
+  Model model;
+  model.format = "STL";
+  SurfaceNames names;
+  names.layer = path.stem().string();
+  model.mesh.surfaces = {names};
+  if (BinaryStlSize(path) != fs::file_size(path) && IsStlText(path)) {
+    StlTextReader(path, &model).Read();
+  } else {
+    ReadBinaryStl(path, &model);
+  }
+  DropUnused(&model.mesh);
+  return model;
+}
+
+}  // namespace insitu

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "renderer/mesh/element_measures.h"
+
+#include <Eigen/Geometry>
+#include <cstdint>
+#include <unordered_map>
+#include <vector>
+
+namespace insitu {
+namespace {
+
+using Eigen::Vector3d;
+
+// Sums over the faces of one layer, about its first vertex: far coordinates lose nothing.
+struct MeasureSums {
+  std::optional<Vector3d> origin;
+  double area = 0, volume = 0;
+  std::unordered_map<uint64_t, int> edges;  // smaller vertex first -> passes one way less the other
+};
+
+void AddEdge(int from, int to, MeasureSums* sums) {
+  const bool upwards = from < to;
+  const auto low = static_cast<uint64_t>(upwards ? from : to);
+  const auto high = static_cast<uint64_t>(upwards ? to : from);
+  const uint64_t key = low << 32 | high;
+  const auto edge = sums->edges.try_emplace(key, 0).first;
+  edge->second += upwards ? 1 : -1;
+  if (edge->second == 0) sums->edges.erase(edge);
+}
+
+void AddTriangle(const ModelMesh& mesh, const Eigen::Vector3i& triangle, MeasureSums* sums) {
+  if (!sums->origin) sums->origin = mesh.vertices[triangle[0]];
+  const Vector3d a = mesh.vertices[triangle[0]] - *sums->origin;
+  const Vector3d b = mesh.vertices[triangle[1]] - *sums->origin;
+  const Vector3d c = mesh.vertices[triangle[2]] - *sums->origin;
+  sums->area += (b - a).cross(c - a).norm() / 2;
+  sums->volume += a.dot(b.cross(c)) / 6;
+  for (int i = 0; i < 3; ++i) AddEdge(triangle[i], triangle[(i + 1) % 3], sums);
+}
+
+}  // namespace
+
+std::map<std::string, ElementMeasures> MeasuresByLayer(const ModelMesh& mesh) {
+  std::map<std::string, MeasureSums> sums;
+  std::vector<MeasureSums*> sums_of_surface;
+  for (const SurfaceNames& names : mesh.surfaces) sums_of_surface.push_back(&sums[names.layer]);
+  for (size_t t = 0; t < mesh.triangles.size(); ++t) {
+    AddTriangle(mesh, mesh.triangles[t], sums_of_surface[mesh.surface_of_triangle[t]]);
+  }
+  std::map<std::string, ElementMeasures> elements;
+  for (const auto& [layer, sum] : sums) {
+    if (!sum.origin) continue;
+    ElementMeasures& element = elements[layer];
+    element.area = sum.area;
+    if (sum.edges.empty()) element.volume = sum.volume;
+  }
+  return elements;
+}
+
+ElementMeasures Sum(const std::map<std::string, ElementMeasures>& elements) {
+  ElementMeasures all;
+  all.volume = 0;
+  for (const auto& [name, element] : elements) {
+    all.area += element.area;
+    if (!element.volume) all.volume.reset();
+    if (all.volume) *all.volume += *element.volume;
+  }
+  return all;
+}
+
+}  // namespace insitu

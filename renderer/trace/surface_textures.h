@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Images on the building's faces, filtered to what a ray stands for.
+#pragma once
+
+#include <Eigen/Core>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "renderer/building/artificial_environment.h"
+#include "renderer/trace/irradiance_map.h"
+
+namespace insitu {
+
+class SurfaceTextures {
+ public:
+  // Textures are named relative to `folder`. Their images in linear light, with their coarser
+  // levels, are kept in `cache` under the hash of their files. `pixel_angle` [rad] is what a pixel
+  // spans. Throws InputError: an image that is missing or unreadable.
+  SurfaceTextures(const ArtificialEnvironment& environment, const std::filesystem::path& folder,
+                  const std::filesystem::path& cache, double pixel_angle);
+  ~SurfaceTextures();
+
+  // Albedo, linear RGB, of what a ray of unit `direction` sees of a face `distance` [m] on: the
+  // mean over the ray's share of the pixel. nullopt: the face has no texture, or no place on it.
+  std::optional<Eigen::Vector3d> Albedo(const FacePlace& place, double distance,
+                                        const Eigen::Vector3d& direction) const;
+
+ private:
+  struct Face;
+  struct Images;
+  double ray_angle_;                   // [rad]
+  std::vector<int> face_of_triangle_;  // -1: none
+  std::vector<Face> faces_;
+  std::unique_ptr<Images> images_;
+};
+
+}  // namespace insitu

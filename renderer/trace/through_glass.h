@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Light that comes through the planned building's glass, straight on.
+#pragma once
+
+#include "renderer/trace/montage_scene.h"
+
+namespace insitu {
+
+// The share of light along a ray, up to its far end, that the building lets through: 0 behind
+// something opaque, 1 where nothing stands. A pane counts with all reflections in it, a body of
+// glass with both its interfaces and the way inside, as if it were a slab: light that it bends
+// elsewhere is not followed.
+Spectrum TransmittanceAlong(const MontageScene& scene, const Ray& ray);
+
+}  // namespace insitu

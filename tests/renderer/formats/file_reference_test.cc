@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "renderer/formats/file_reference.h"
+
+#include <gtest/gtest.h>
+
+#include "renderer/formats/text_lines.h"
+#include "tests/calibration/files/scratch_folder.h"
+
+namespace insitu {
+namespace {
+
+TEST(FileReference, IsFoundAsOtherMachinesNameIt) {
+  const ScratchFolder folder;
+  const auto model = folder.Write("house.obj", "");
+  const auto image = std::filesystem::absolute(folder.Write("maps/brick wall.png", ""));
+  for (const char* name : {"maps/brick wall.png", "maps\\brick wall.png", "\"MAPS/Brick Wall.PNG\"",
+                           "C:\\Anna\\maps\\brick wall.png", "\\\\server\\maps\\brick wall.png",
+                           "file:///C:/Anna/maps/brick%20wall.png", "maps/brick%20wall.png"}) {
+    EXPECT_EQ(FindReference(model, name), image.lexically_normal()) << name;
+  }
+  EXPECT_EQ(FindReference(model, "other.png"), std::nullopt);
+  EXPECT_EQ(FindReference(model, ""), std::nullopt);
+}
+
+TEST(TextLines, Utf16OfEitherByteOrder) {
+  const std::string text("\xE4\0\x3D\xD8\x00\xDE", 6);
+  EXPECT_EQ(Utf8FromUtf16(text, true), "\xC3\xA4\xF0\x9F\x98\x80");
+  EXPECT_EQ(Utf8FromUtf16(std::string("\0\xE4", 2), false), "\xC3\xA4");
+}
+
+}  // namespace
+}  // namespace insitu

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "renderer/formats/ifc_model.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <cstdlib>
+#include <string>
+
+#include "calibration/files/error.h"
+#include "tests/calibration/files/scratch_folder.h"
+#include "tests/renderer/mesh/mesh_measures.h"
+
+namespace insitu {
+namespace {
+
+using testing::HasSubstr;
+
+// A box of 10 x 6 x 3 feet, whose wall is named in \X2\ code and has no owner history.
+constexpr char kBox[] = R"(ISO-10303-21;
+HEADER;
+FILE_DESCRIPTION((''),'2;1');
+FILE_NAME('a.ifc','',(''),(''),'','','');
+FILE_SCHEMA(('IFC2X3'));
+ENDSEC;
+DATA;
+#1=IFCCARTESIANPOINT((0.,0.,0.));
+#2=IFCAXIS2PLACEMENT3D(#1,$,$);
+#3=IFCGEOMETRICREPRESENTATIONCONTEXT($,'Model',3,1.E-5,#2,$);
+#4=IFCDIMENSIONALEXPONENTS(1,0,0,0,0,0,0);
+#5=IFCSIUNIT(*,.LENGTHUNIT.,$,.METRE.);
+#6=IFCMEASUREWITHUNIT(IFCRATIOMEASURE(0.3048),#5);
+#7=IFCCONVERSIONBASEDUNIT(#4,.LENGTHUNIT.,'FOOT',#6);
+#8=IFCUNITASSIGNMENT((#7));
+#9=IFCPROJECT('0YvctVUKr0kugbFTf53O9L',$,'p',$,$,$,$,(#3),#8);
+#10=IFCLOCALPLACEMENT($,#2);
+#11=IFCCARTESIANPOINT((5.,3.));
+#12=IFCAXIS2PLACEMENT2D(#11,$);
+#13=IFCRECTANGLEPROFILEDEF(.AREA.,$,#12,10.,6.);
+#14=IFCDIRECTION((0.,0.,1.));
+#15=IFCEXTRUDEDAREASOLID(#13,#2,#14,3.);
+#16=IFCSHAPEREPRESENTATION(#3,'Body','SweptSolid',(#15));
+#17=IFCPRODUCTDEFINITIONSHAPE($,$,(#16));
+#18=IFCWALL('1YvctVUKr0kugbFTf53O9L',$,'Au\X2\00DF\X0\enwand',$,$,#10,#17,$);
+ENDSEC;
+END-ISO-10303-21;
+)";
+
+TEST(IfcModel, UnitsNamesAndFacesAreTheFiles) {
+  if (!WebIfcFolder()) GTEST_SKIP() << "web-ifc is not there: scripts/setup fetches it";
+  const ScratchFolder folder;
+  const Model model = ReadIfc(folder.Write("a.ifc", kBox), 60);
+  constexpr double kFoot = 0.3048;
+  EXPECT_NEAR(AreaOf(model.mesh), 216 * kFoot * kFoot, 1e-5);
+  EXPECT_NEAR(VolumeOf(model.mesh), 180 * kFoot * kFoot * kFoot, 1e-5);
+  Eigen::AlignedBox3d box;
+  for (const auto& v : model.mesh.vertices) box.extend(v);
+  EXPECT_NEAR((box.max() - kFoot * Eigen::Vector3d(10, 6, 3)).norm(), 0, 1e-6);
+  ASSERT_EQ(model.mesh.surfaces.size(), 1u);
+  EXPECT_EQ(model.mesh.surfaces[0].layer,
+            "IfcWall_Au\xC3\x9F"
+            "enwand");
+  EXPECT_EQ(model.mesh.surfaces[0].rgb, std::nullopt);
+  EXPECT_EQ(model.format, "IFC2X3");
+}
+
+TEST(IfcModel, WithoutItsReaderIsRefusedWithAWord) {
+  const ScratchFolder folder;
+  setenv("INSITU_WEB_IFC", "/nowhere", 1);
+  std::string complaint;
+  try {
+    ReadIfc(folder.Write("a.ifc", kBox), 60);
+  } catch (const InputError& error) {
+    complaint = error.what();
+  }
+  unsetenv("INSITU_WEB_IFC");
+  EXPECT_THAT(complaint, HasSubstr("web-ifc is missing"));
+}
+
+}  // namespace
+}  // namespace insitu

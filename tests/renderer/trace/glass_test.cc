@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "renderer/trace/glass.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "radiometry/light/fresnel.h"
+#include "renderer/trace/interreflected_light.h"
+#include "renderer/trace/mirror.h"
+#include "renderer/trace/through_glass.h"
+#include "renderer/trace/trace.h"
+#include "tests/renderer/trace/small_site.h"
+
+namespace insitu {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr double kAbsorption = 20;  // [1/m], of all colours
+const SurfacePoint kLawnOrigin = {Vector3d::Zero(), Vector3d::UnitZ()};
+
+SurfaceMaterial Pane(double index, double absorption) {
+  SurfaceMaterial pane{"pane", Vector3d::Zero(), 0, Specular{1, index}};
+  pane.glass =
+      Glass{.index = index, .thickness = 0.01, .absorption_rgb = Vector3d::Constant(absorption)};
+  return pane;
+}
+
+SurfaceMaterial Body(double index, double absorption) {
+  SurfaceMaterial body = Pane(index, absorption);
+  body.glass->is_solid = true;
+  return body;
+}
+
+LightDirections Along(const Vector3d& sun) { return {sun, 0, 1}; }
+
+Vector3d Seen(const MontageScene& scene, const Vector3d& from, const Vector3d& to) {
+  const PrimaryRay primary = {{from, (to - from).normalized()},
+                              Vector3d::Constant(kLawnRadiance),
+                              Along(scene.natural.light.sun_direction)};
+  return TracePrimary(scene, primary).rgb;
+}
+
+double Red(const MontageScene& scene, const Spectrum& stimulus) {
+  return scene.natural.spectra.RgbFromSpectrum(stimulus).x();
+}
+
+// Everything around sends the lawn's photographed radiance; no sun.
+SmallSite Furnace() {
+  SmallSite site = MakeSmallSite();
+  site.natural.air.horizon =
+      site.natural.spectra.SpectrumFromRgb(Vector3d::Constant(kLawnRadiance));
+  site.natural.light.sun_radiance.setZero();
+  return site;
+}
+
+TEST(Pane, ThatDoesNothingShowsThePhotographItself) {
+  const SmallSite site = MakeSmallSite();
+  const MontageScene scene = site.With(Plate(site, {0, -5, 1.5}, 1, Pane(1 + 1e-9, 0)));
+  EXPECT_LT((Seen(scene, {0, -10, 3}, {0, 0, 0}) - Vector3d::Constant(kLawnRadiance)).norm(), 1e-6);
+}
+
+TEST(Pane, DimsThePhotographAndMirrorsTheSky) {
+  const SmallSite site = MakeSmallSite();
+  const MontageScene scene = site.With(Plate(site, {0, -5, 1.5}, 1, Pane(1.52, kAbsorption)));
+  const double cosine = 3 / std::sqrt(109.0);
+  const SheetOptics pane = ThinSheet(cosine, 1.52, Spectrum::Constant(kAbsorption), 0.01);
+  const double expected = pane.transmittance[0] * kLawnRadiance + pane.reflectance[0] * 0.5;
+  EXPECT_NEAR(Seen(scene, {0, -10, 3}, {0, 0, 0}).x(), expected, 1e-3);
+}
+
+TEST(Pane, ShadowIsPaleAndNotBlack) {
+  const SmallSite site = MakeSmallSite();
+  const MontageScene scene = site.With(Plate(site, {3, 0, 3}, 1, Pane(1.52, kAbsorption)));
+  const Spectrum through =
+      ThinSheet(std::numbers::sqrt2 / 2, 1.52, Spectrum::Constant(kAbsorption), 0.01).transmittance;
+  const SplitSun sun =
+      SplitSunlight(scene, kLawnOrigin, Along(scene.natural.light.sun_direction), true);
+  EXPECT_TRUE(sun.is_blocked);
+  EXPECT_NEAR(sun.blocked[3] / sun.natural, 1 - through[3], 1e-3);
+}
+
+TEST(Pane, LetsTheSkyThroughToWhatIsBehind) {
+  SmallSite site = MakeSmallSite();
+  site.natural.light.sun_radiance.setZero();
+  MontageScene scene = site.With(Plate(site, {0, 0, 0.5}, 60, Pane(1.52, 0)));
+  AddInterreflection(&scene, std::nullopt);
+  const GatheredLight light = scene.interreflected->interreflection.At(kLawnOrigin);
+  const double before = Red(scene, light.sky_before + light.surroundings_before);
+  double mean = 0;  // over the hemisphere
+  for (int i = 0; i < 100; ++i) {
+    mean +=
+        ThinSheet(std::sqrt((i + 0.5) / 100), 1.52, Spectrum::Zero(), 0.01).transmittance[0] / 100;
+  }
+  EXPECT_NEAR(Red(scene, light.change) / before, mean - 1, 0.02);
+}
+
+TEST(TransmittanceAlong, OfABodyIsBothFacesAndTheBentWay) {
+  const SmallSite site = MakeSmallSite();
+  const MontageScene scene = site.With(Box(site, {-5, -5, 1}, {5, 5, 1.25}, Body(1.5, 4)));
+  const Vector3d slanted = Vector3d(0.3, 0, 1).normalized();
+  const double F = FresnelReflectance(slanted.z(), 1.5);
+  const double way = 0.25 / RefractedCosine(slanted.z(), 1.5);
+  const Spectrum share = TransmittanceAlong(scene, {{0, 0, 0.1}, slanted});
+  EXPECT_NEAR(share[0], (1 - F) * (1 - F) * std::exp(-4 * way), 1e-3);
+  EXPECT_EQ(TransmittanceAlong(scene, {{0, 0, 0.1}, -Vector3d::UnitZ()})[0], 1);
+}
+
+TEST(Body, AbsorbsAlongTheBentWay) {
+  const SmallSite site = Furnace();
+  const MontageScene scene = site.With(Box(site, {-5, -5, 1}, {5, 5, 1.25}, Body(1.5, 4)));
+  const Vector3d eye(0, -4, 3), target(0, 0, 1.25);
+  const double cosine = (eye - target).normalized().z();
+  const double F = FresnelReflectance(cosine, 1.5);
+  const double a = std::exp(-4 * 0.25 / RefractedCosine(cosine, 1.5));
+  // As a thick pane: all reflections between its faces, those below a hundredth left out.
+  const double T = (1 - F) * (1 - F) * a / (1 - F * F * a * a), R = F + F * a * T;
+  EXPECT_NEAR(Seen(scene, eye, target).x() / kLawnRadiance, T + R, 0.01);
+}
+
+TEST(Body, WithoutAbsorptionDisappearsInAFurnace) {
+  const SmallSite site = Furnace();
+  const MontageScene scene = site.With(Box(site, {-1, -1, 0.5}, {1, 1, 2}, Body(1.5, 0)));
+  for (const double x : {-0.7, 0.1, 0.9}) {
+    EXPECT_NEAR(Seen(scene, {0.5, -10, 3}, {x, -1, 1}).x(), kLawnRadiance, 0.02 * kLawnRadiance);
+  }
+}
+
+TEST(RoughMirror, DisappearsInAFurnace) {
+  const SmallSite site = Furnace();
+  SurfaceMaterial metal{"metal", Vector3d::Zero(), 0,
+                        Specular{1, std::nullopt, {0.05, FacetDistribution::kBeckmann}}};
+  const MontageScene scene = site.With(Plate(site, {0, 0, 1}, 3, metal));
+  Vector3d sum = Vector3d::Zero();
+  constexpr int kSide = 24;
+  for (int i = 0; i < kSide * kSide; ++i) {
+    PrimaryRay primary = {{{0, -10, 6}, Vector3d(0, 10, -5).normalized()},
+                          Vector3d::Constant(kLawnRadiance),
+                          Along(Vector3d::UnitZ())};
+    primary.light.facet = {(i % kSide + 0.5) / kSide, (i / kSide + 0.5) / kSide};
+    sum += TracePrimary(scene, primary).rgb / (kSide * kSide);
+  }
+  EXPECT_NEAR(sum.x() / kLawnRadiance, 1, 0.01);
+}
+
+TEST(MirrorReflectance, IsFresnelsOrTheMetalsColor) {
+  SpectralMaterial material{.specular = Specular{0.5, 1.5}};
+  EXPECT_NEAR(MirrorReflectance(material, 1)[0], 0.02, 1e-15);
+  material = {.specular = Specular{0.5}, .mirror_color = Spectrum::Constant(0.6)};
+  EXPECT_NEAR(MirrorReflectance(material, 0.2)[0], 0.3, 1e-15);
+  material.metal = SpectralMetal{Spectrum::Constant(0.2), Spectrum::Constant(3.9)};
+  EXPECT_NEAR(MirrorReflectance(material, 1)[0],
+              0.5 * ((0.8 * 0.8 + 3.9 * 3.9) / (1.2 * 1.2 + 3.9 * 3.9)), 1e-12);
+  EXPECT_TRUE((MirrorReflectance({}, 1) == 0).all());
+}
+
+TEST(SunAlong, IsItsDiscAlone) {
+  const MontageScene scene = MakeSmallSite().With({});
+  const Vector3d sun = scene.natural.light.sun_direction;
+  EXPECT_GT(SunAlong(scene, sun)[0], 0);
+  EXPECT_TRUE((SunAlong(scene, (sun + Vector3d(0, 0.005, 0)).normalized()) == 0).all());
+  EXPECT_TRUE((SunAlong(scene, -sun) == 0).all());
+}
+
+TEST(FindLamp, MeetsSpheresAndTheLuminousSideOfPanels) {
+  const SmallSite site = MakeSmallSite();
+  ArtificialEnvironment lamps;
+  const Vector3d origin = site.natural.scene.origin;
+  lamps.lights.push_back({.name = "globe",
+                          .position = origin + Vector3d(0, 0, 3),
+                          .intensity_rgb = Vector3d::Constant(2),
+                          .radius = 0.1,
+                          .is_visible = true});
+  lamps.lights.push_back({.name = "panel",
+                          .position = origin + Vector3d(5, 0, 3),
+                          .intensity_rgb = Vector3d::Constant(2),
+                          .edge_u = Vector3d::UnitX(),
+                          .edge_v = -Vector3d::UnitY(),
+                          .is_visible = true});
+  const MontageScene scene = site.With(lamps);
+  const auto red = [&](const Vector3d& from, const Vector3d& direction) {
+    const auto lamp = FindLamp(scene, {from, direction});
+    return lamp ? Red(scene, lamp->radiance) : 0;
+  };
+  EXPECT_NEAR(red({0.05, 0, 0}, Vector3d::UnitZ()), 2 / (std::numbers::pi * 0.01), 1e-9);
+  EXPECT_EQ(red({0.11, 0, 0}, Vector3d::UnitZ()), 0);
+  EXPECT_NEAR(red({5.4, 0.4, 0}, Vector3d::UnitZ()), 2, 1e-9);  // it shines down
+  EXPECT_EQ(red({5.4, 0.4, 6}, -Vector3d::UnitZ()), 0);
+  EXPECT_EQ(red({5.6, 0.4, 0}, Vector3d::UnitZ()), 0);
+}
+
+}  // namespace
+}  // namespace insitu
