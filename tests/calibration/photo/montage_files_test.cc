@@ -74,7 +74,7 @@ class MontageFiles : public testing::Test {
     return std::get<std::vector<Code>>(ReadCodedPhotograph(At(name)).samples);
   }
 
-  static Exiv2::Image::AutoPtr Metadata(const fs::path& path) {
+  static auto Metadata(const fs::path& path) {
     auto image = Exiv2::ImageFactory::open(path.string());
     image->readMetadata();
     return image;

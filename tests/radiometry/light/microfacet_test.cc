@@ -86,7 +86,8 @@ TEST(VisibleFacet, DrawsWhatTheLobeSays) {
       constexpr int kSide = 256;
       double drawn = 0;
       for (int i = 0; i < kSide * kSide; ++i) {
-        const Vector2d uniform((i % kSide + 0.5) / kSide, (i / kSide + 0.5) / kSide);
+        const int column = i % kSide, row = i / kSide;
+        const Vector2d uniform((column + 0.5) / kSide, (row + 0.5) / kSide);
         const Vector3d m = VisibleFacet(rough, view, uniform);
         const Vector3d to_light = 2 * m.dot(view) * m - view;
         drawn += SmithMasking(rough, to_light.z()) * radiance(to_light) / (kSide * kSide);
@@ -103,7 +104,8 @@ TEST(MirrorLobe, WhiteFurnaceLosesOnlyWhatIsScatteredTwice) {
     constexpr int kSide = 128;
     const Roughness rough{0.05, FacetDistribution::kBeckmann};
     for (int i = 0; i < kSide * kSide; ++i) {
-      const Vector2d uniform((i % kSide + 0.5) / kSide, (i / kSide + 0.5) / kSide);
+      const int column = i % kSide, row = i / kSide;
+      const Vector2d uniform((column + 0.5) / kSide, (row + 0.5) / kSide);
       const Vector3d view = At(cosine, 0), m = VisibleFacet(rough, view, uniform);
       sum += SmithMasking(rough, (2 * m.dot(view) * m - view).z()) / (kSide * kSide);
     }

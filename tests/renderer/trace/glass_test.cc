@@ -139,7 +139,8 @@ TEST(RoughMirror, DisappearsInAFurnace) {
     PrimaryRay primary = {{{0, -10, 6}, Vector3d(0, 10, -5).normalized()},
                           Vector3d::Constant(kLawnRadiance),
                           Along(Vector3d::UnitZ())};
-    primary.light.facet = {(i % kSide + 0.5) / kSide, (i / kSide + 0.5) / kSide};
+    const int column = i % kSide, row = i / kSide;
+    primary.light.facet = {(column + 0.5) / kSide, (row + 0.5) / kSide};
     sum += TracePrimary(scene, primary).rgb / (kSide * kSide);
   }
   EXPECT_NEAR(sum.x() / kLawnRadiance, 1, 0.01);
