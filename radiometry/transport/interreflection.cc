@@ -141,7 +141,8 @@ std::vector<Interreflection::Meeting> Interreflection::Meet(
   return meetings;
 }
 
-// A ray that goes through more panes than are counted loses nothing in the others.
+// A ray that goes through more panes than are counted loses nothing in the others; kinds of glass
+// beyond the fifteenth count as the fifteenth.
 void Interreflection::MeetGlass(const Ray& ray, Meeting* meeting) const {
   constexpr int kBits = 4, kMostPanes = 16 / kBits, kMostKinds = (1 << kBits) - 1;
   const ClearFaces& clear = *scene_.planned.clear;

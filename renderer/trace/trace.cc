@@ -233,12 +233,10 @@ Spectrum TraceSecondary(const MontageScene& scene, const Ray& ray, const LightDi
       return ApparentColor(lamp->radiance, air, lamp->distance);
     }
   }
-  const bool escapes = !hit;
   // Case B. Departure: the paper leaves open what a ray below the horizon returns.
   if (!hit) hit = FindGround(scene, ray);
   if (!hit) {
-    return escapes && light.sees_lights ? Spectrum(air.horizon + SunAlong(scene, ray.direction))
-                                        : air.horizon;
+    return light.sees_lights ? Spectrum(air.horizon + SunAlong(scene, ray.direction)) : air.horizon;
   }
   if (!hit->is_building) {
     return ApparentColor(SiteColor(scene, *hit, -ray.direction, light, world, depth), air,
