@@ -108,7 +108,8 @@ class Refinement {
       }
     }
     jacobian.leftCols<3>() /= 2;  // Ceres' increment of a quaternion is half the angle
-    return (jacobian.transpose() * jacobian).inverse();
+    const Eigen::MatrixXd normal = jacobian.transpose() * jacobian;
+    return normal.ldlt().solve(Eigen::MatrixXd::Identity(6, 6));
   }
 
  private:
