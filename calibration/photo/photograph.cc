@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "calibration/files/error.h"
+#include "calibration/files/error_at.h"
 #include "calibration/files/whole_file.h"
 #include "calibration/photo/copy_metadata.h"
 #include "calibration/photo/stated_color.h"
@@ -39,7 +40,10 @@ std::unique_ptr<ImageInput> OpenAs(const fs::path& path, bool as_stored) {
   config.attribute("oiio:RawColor", as_stored ? 1 : 0);  // the codes as they stand in the file,
   config.attribute("oiio:UnassociatedAlpha", 1);         // not multiplied by alpha
   auto input = ImageInput::open(path.string(), &config);
-  if (!input) throw InputError(path, "not a readable image: " + FirstLine(OIIO::geterror()));
+  if (!input) {
+    throw ErrorAt({path}, Sentence("photoUnreadable", "not a readable image: {why}",
+                                   {{"why", FirstLine(OIIO::geterror())}}));
+  }
   return input;
 }
 
@@ -364,8 +368,10 @@ std::string SizeText(int width, int height) {
 void RequirePhotographSize(const fs::path& path, int width, int height) {
   const Eigen::Vector2i size = ReadPhotographSize(path);
   if (size == Eigen::Vector2i(width, height)) return;
-  throw InputError(path, "is " + SizeText(size.x(), size.y()) + ", expected " +
-                             SizeText(width, height) + " as its camera was calibrated");
+  throw ErrorAt(
+      {path},
+      Sentence("photoSize", "is {size}, expected {expected} as its camera was calibrated",
+               {{"size", SizeText(size.x(), size.y())}, {"expected", SizeText(width, height)}}));
 }
 
 bool IsClipped(const Photograph& photo, int x, int y) {

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <iterator>
 
-#include "calibration/files/error.h"
+#include "calibration/files/error_at.h"
 #include "calibration/files/text_table.h"
 
 namespace insitu {
@@ -110,18 +110,23 @@ void CsvSurveyText::ReadHeader(const Line& line, int number) {
   for (const std::string& column : table_.columns) {
     const auto count = std::count(columns_.begin(), columns_.end(), column);
     if (count == 1) continue;
-    throw InputError(path_, number,
-                     "column \"" + column + (count == 0 ? "\" is missing" : "\" stands twice") +
-                         ", expected the header " + JoinedColumns());
+    const Sentence::Values values = {{"column", column}, {"header", JoinedColumns()}};
+    throw ErrorAt(
+        {path_, number},
+        count == 0
+            ? Sentence("columnMissing",
+                       "column \"{column}\" is missing, expected the header {header}", values)
+            : Sentence("columnTwice",
+                       "column \"{column}\" stands twice, expected the header {header}", values));
   }
 }
 
 Json::Value CsvSurveyText::RowOfCells(const std::vector<std::string_view>& cells,
                                       int number) const {
   if (cells.size() != columns_.size()) {
-    throw InputError(
-        path_, number,
-        std::to_string(cells.size()) + " cells, expected " + std::to_string(columns_.size()));
+    throw ErrorAt({path_, number}, Sentence("cellCount", "{count} cells, expected {expected}",
+                                            {{"count", static_cast<int>(cells.size())},
+                                             {"expected", static_cast<int>(columns_.size())}}));
   }
   Json::Value row(Json::objectValue);
   for (size_t i = 0; i < cells.size(); ++i) {
@@ -130,9 +135,10 @@ Json::Value CsvSurveyText::RowOfCells(const std::vector<std::string_view>& cells
     if (Holds(table_.numbers, column)) {
       const auto value = ParseNumber(text);
       if (!value) {
-        std::string message = "\"" + text;
-        message += "\" in column \"" + column;
-        throw InputError(path_, number, message += "\", expected a finite number");
+        throw ErrorAt(
+            {path_, number},
+            Sentence("cellNumber", "\"{text}\" in column \"{column}\", expected a finite number",
+                     {{"text", text}, {"column", column}}));
       }
       row[column] = *value;
     } else if (!text.empty() && !column.empty() && !row.isMember(column)) {

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "calibration/files/error.h"
+#include "calibration/files/error_at.h"
 #include "calibration/files/text_table.h"
 #include "calibration/program/child_process.h"
 #include "calibration/program/program.h"
@@ -41,7 +41,10 @@ StageRuns::StageRuns(SitePaths site, std::function<void(Json::Value)> tell)
 int StageRuns::Start(const std::string& stage) {
   if (stage != kMontage) StageNamed(stage);
   const std::lock_guard lock(mutex_);
-  if (is_running_) throw InputError(stage, "another stage is running: stop it or wait for its end");
+  if (is_running_) {
+    throw ErrorAt({stage},
+                  Sentence("stageBusy", "another stage is running: stop it or wait for its end"));
+  }
   is_running_ = true;
   const int run = ++last_;
   thread_ =

@@ -32,6 +32,7 @@ fs.writeFileSync(`${survey}/polygons.json`, polygons.slice(0, polygons.length / 
 server = await start(site);
 const [cut] = (await tables(server)).read_only;
 report("a file that was cut is read-only, its line told", cut?.file === "survey/polygons.json" && cut.line > 1, `${cut?.file}:${cut?.line}: ${cut?.text}`);
+report("also in the terminal", server.complained().includes(`warning: survey/polygons.json:${cut.line}: `), server.complained());
 const locked = await server.ask("POST", "/api/op", insert("cut", "polygons", {name: "n", vertices: ["a", "b", "c"], material: "m"}));
 report("and not changed", locked.status === 400 && fs.readFileSync(`${survey}/polygons.json`, "utf8").length === Math.floor(polygons.length / 2), locked.body.error);
 fs.writeFileSync(`${survey}/polygons.json`, polygons);
@@ -42,7 +43,7 @@ await server.stop();
 fs.writeFileSync(`${site}/photos/broken.jpg`, "no photograph");
 server = await start(site);
 const broken = (await tables(server)).photos.find(photo => photo.name === "broken");
-report("a photo that cannot be decoded is named, the others go on", Boolean(broken?.fault), broken?.fault);
+report("a photo that cannot be decoded is named, the others go on", Boolean(broken?.fault) && server.complained().includes(`warning: ${broken.fault}`), broken?.fault);
 const tile = await server.ask("GET", "/api/tile?photo=0&level=0&x=0&y=0");
 report("its tile is refused", tile.status === 400, tile.body.error);
 await server.stop();

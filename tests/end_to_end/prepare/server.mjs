@@ -74,9 +74,12 @@ export function ask(port, method, path, body, headers = {}) {
 /** An operation that puts a row in. */
 export const insert = (id, table, row) => ({id, label: id, edits: [{table, before: null, after: row}]});
 
+/** [ms] after which what does not come is taken as never coming, on a machine that is busy with much else. */
+export const kPatience = 120000;
+
 /** Asks again until it is so; `instead`: what there was at the end, for the error. */
 export async function until(what, is, instead = async () => "") {
-  for (let i = 0; i < 600; ++i) {
+  for (const begun = performance.now(); performance.now() - begun < kPatience;) {
     const found = await is();
     if (found) return found;
     await new Promise(resolve => setTimeout(resolve, 50));

@@ -165,7 +165,7 @@ TEST_F(SiteEditTest, AFileThatDoesNotParseIsReadOnlyUntilMended) {
   EXPECT_EQ(edit_->read_only()[0].table, "polygons");
   EXPECT_EQ(edit_->read_only()[0].fault.file, "survey/polygons.json");
   EXPECT_EQ(edit_->read_only()[0].fault.line, 2);
-  EXPECT_THAT(edit_->read_only()[0].fault.text, HasSubstr("not valid JSON"));
+  EXPECT_THAT(edit_->read_only()[0].fault.text.text(), HasSubstr("not valid JSON"));
   const Json::Value polygon = RowOf(kPolygons)["polygons"][0];
   EXPECT_THAT(Apply("1", "polygons", none_, polygon).refused, HasSubstr("polygons.json:2:"));
   folder_.Write("survey/polygons.json", kPolygons);
@@ -233,7 +233,8 @@ TEST_F(SiteEditTest, AReadOnlyFileIsAFaultAndStaysToBeSaved) {
   const SaveReport report = edit_->Save();
   ASSERT_EQ(report.faults.size(), 1u);
   EXPECT_EQ(report.faults[0].file, "survey/observations.csv");
-  EXPECT_THAT(report.faults[0].text, HasSubstr("is read-only"));
+  EXPECT_THAT(report.faults[0].text.text(), HasSubstr("is read-only"));
+  EXPECT_EQ(report.faults[0].text.ToJson()["text_said"]["key"], "fileReadOnly");
   EXPECT_EQ(edit_->saved_revision(), 0);
   fs::permissions(file, fs::perms::owner_read | fs::perms::owner_write);
   EXPECT_TRUE(edit_->Save().is_saved());

@@ -57,7 +57,7 @@ export function runStage(stage) {
 async function begin(stage) {
   Object.assign(run, {stage, status: t("running"), progress: null, lines: []});
   showStages();
-  const answer = await ask("/api/run", {stage});
+  const answer = await ask("/api/run", {stage, label: t(`stage_${stage}`)});
   if (answer.error) run.status = answer.error;
   else if (answer.run === 0) run.status = t("done"); // no program runs for it
   draw();

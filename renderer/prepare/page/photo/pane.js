@@ -289,11 +289,11 @@ export class Pane {
     }
     this.chooser.value = this.photo?.name ?? "";
     const about = state.adjusted?.photos?.[this.photo?.name ?? ""],
-      fault = this.photo?.fault;
+      fault = said(this.photo, "fault");
     this.lines.textContent = t(`lines_${ui.lines}`);
     this.drawRelitNote();
     this.note.classList.toggle("fault", Boolean(fault));
-    this.note.title = fault ?? about?.why ?? "";
+    this.note.title = fault || said(about, "why");
     if (fault) return void (this.note.textContent = t("photoFault", {why: fault}));
     this.note.textContent = !this.photo
       ? ""

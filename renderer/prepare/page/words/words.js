@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The page's language and its texts; {name} stands for a value.
 
-import {kKinds, kServerTexts} from "./server_texts.js";
+import {kFormats, kKinds, kServerTexts} from "./server_texts.js";
 import {kTexts} from "./texts.js";
 
 /** @type {[string, string][]} */
@@ -35,6 +35,9 @@ export function t(key, values = {}) {
 
 /** Without the folders before the site's own. */
 export const nearPlace = text => text.replace(/\S*?(?=survey\/)/, "");
+
+/** As what a table was read, as the server names it. */
+export const formatText = format => (language === "de" && kFormats[format]) || format;
 
 const filled = (text, values) =>
   text.replace(/\{(\w+)\}/g, (whole, name) => (values[name] === undefined ? whole : String(values[name])));
