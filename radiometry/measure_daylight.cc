@@ -9,6 +9,7 @@
 #include "calibration/photo/photograph.h"
 #include "calibration/program/program.h"
 #include "calibration/site_cameras.h"
+#include "radiometry/daylight_warnings.h"
 #include "radiometry/measure/measure_image_quality.h"
 #include "radiometry/transport/interreflection.h"
 #include "reconstruction/geometry/ray_scene.h"
@@ -16,12 +17,10 @@
 namespace insitu {
 namespace {
 
-constexpr double kPoorCondition = 100;
 constexpr int kDirections = 4096;        // in which a sample's surroundings are looked at
 constexpr double kPieceAtSample = 0.15;  // [m], of what surrounds it
 constexpr int kRounds = 4;               // of light and unseen surroundings; each gains a digit
 constexpr double kUnseenSigma = 0.5;     // of what unseen surroundings are taken to send
-constexpr double kMuchUnseen = 0.2;      // of a sample's hemisphere
 
 // For a site as it stands.
 struct NothingPlanned {
@@ -33,8 +32,9 @@ struct NothingPlanned {
   PlannedFaces faces{mesh, rays, normals, materials, brdfs};
 };
 
+// With what their EXIF tells of their exposure.
 std::vector<Photograph> ReadPhotographs(const SitePaths& site, const SceneGeometry& scene,
-                                        Progress* progress) {
+                                        Progress* progress, std::vector<ExifExposure>* exposures) {
   const std::vector<std::filesystem::path> paths = ListPhotographs(site);
   std::vector<Photograph> photos;
   for (const PosedCamera& posed : scene.cameras) {
@@ -46,6 +46,7 @@ std::vector<Photograph> ReadPhotographs(const SitePaths& site, const SceneGeomet
     }
     RequirePhotographSize(*path, posed.camera.width(), posed.camera.height());
     photos.push_back(ReadPhotograph(*path));
+    exposures->push_back(ReadExifExposure(*path));
     progress->Step();
   }
   return photos;
@@ -99,22 +100,27 @@ Spectrum HorizonColor(const std::vector<PixelSample>& samples, const SpectralBas
   return spectra.SpectrumFromRgb(sum / static_cast<double>(samples.size()));
 }
 
-AtmosphereFit MeasureAir(const LightSamples& samples, const SpectralBasis& spectra,
-                         std::vector<Sentence>* warnings) {
-  const Spectrum horizon = HorizonColor(samples.horizon, spectra);
-  if (samples.haze.empty()) {
-    warnings->push_back(
-        Sentence("lightNoHaze", "samples.json has no haze samples: the air is taken as clear"));
-    AtmosphereFit clear;
-    clear.air.horizon = horizon;
-    return clear;
-  }
+std::vector<HazeSample> HazeSamples(const LightSamples& samples, const SpectralBasis& spectra) {
   std::vector<HazeSample> haze;
   for (const PixelSample& sample : samples.haze) {
     haze.push_back({spectra.SpectrumFromRgb(sample.rgb), SpectrumSigma(spectra, sample.rgb_sigma),
                     sample.distance});
   }
-  return FitAtmosphere(haze, horizon, spectra.bins());
+  return haze;
+}
+
+void MeasureAir(LightMeasurement* measured) {
+  NaturalEnvironment& environment = measured->environment;
+  const Spectrum horizon = HorizonColor(measured->samples.horizon, environment.spectra);
+  measured->haze = HazeSamples(measured->samples, environment.spectra);
+  if (measured->haze.empty()) {
+    measured->warnings.push_back(
+        Sentence("lightNoHaze", "samples.json has no haze samples: the air is taken as clear"));
+    measured->air_fit.air.horizon = horizon;
+  } else {
+    measured->air_fit = FitAtmosphere(measured->haze, horizon, environment.spectra.bins());
+  }
+  environment.air = measured->air_fit.air;
 }
 
 Daylight IlluminationGeometry(const SceneGeometry& scene, int polar_facets) {
@@ -185,26 +191,6 @@ std::vector<ImageQuality> MeasureQualities(const std::vector<Photograph>& photos
   return qualities;
 }
 
-void WarnOfWeakSamples(const LightMeasurement& measured, bool has_sun,
-                       const std::vector<DaylightSample>& samples,
-                       std::vector<Sentence>* warnings) {
-  const bool any_sun = std::any_of(samples.begin(), samples.end(),
-                                   [](const auto& sample) { return sample.geometry.sun > 0; });
-  if (!has_sun) {
-    warnings->push_back(
-        Sentence("lightOvercast", "no sun direction was measured: the sky is taken as overcast"));
-  }
-  if (has_sun && !any_sun) {
-    warnings->push_back(
-        Sentence("lightSunUnseen", "no daylight sample sees the sun: it stays dark"));
-  }
-  if (measured.daylight_fit.condition > kPoorCondition) {
-    warnings->push_back(Sentence("lightPoor",
-                                 "the daylight samples hardly tell sun, sky and ambient light "
-                                 "apart: choose some in sun, in open shade and in deep shade"));
-  }
-}
-
 std::vector<DaylightSample> DaylightSamples(const LightMeasurement& measured,
                                             const std::vector<LightGeometry>& geometries) {
   const NaturalEnvironment& environment = measured.environment;
@@ -238,33 +224,12 @@ void SetSurroundings(const Interreflection& interreflection,
   }
 }
 
-void WarnOfUnseen(const LightMeasurement& measured, const std::vector<double>& unseen,
-                  std::vector<Sentence>* warnings) {
-  const std::vector<PixelSample>& pixels = measured.samples.daylight;
-  std::string names;
-  for (size_t i = 0; i < unseen.size(); ++i) {
-    if (unseen[i] < kMuchUnseen) continue;
-    const PixelSample& pixel = pixels[i];
-    names += names.empty() ? "" : ", ";
-    names += measured.environment.scene.cameras[pixel.photo].photo;
-    names += " (" + std::to_string(std::lround(pixel.pixel.x())) + ", ";
-    names += std::to_string(std::lround(pixel.pixel.y())) + ")";
-  }
-  if (names.empty()) return;
-  warnings->push_back(Sentence("lightUnseen",
-                               "daylight samples that receive much light from surfaces no "
-                               "photograph shows, which weigh less: {samples}",
-                               {{"samples", names}}));
-}
-
 // Eq. (9) with photographed surroundings: what no photograph shows of them depends on the light,
 // so the two take turns.
-DaylightFit FitInSurroundings(const LightMeasurement& measured,
-                              const std::vector<Photograph>& photos,
-                              const std::vector<SurfacePoint>& points, const Spectrum& brdf,
-                              const LightOptions& options, std::vector<DaylightSample> samples,
-                              std::vector<Sentence>* warnings) {
-  const NaturalEnvironment& environment = measured.environment;
+void FitInSurroundings(const std::vector<Photograph>& photos,
+                       const std::vector<SurfacePoint>& points, const LightOptions& options,
+                       LightMeasurement* measured) {
+  const NaturalEnvironment& environment = measured->environment;
   const PolygonMesh polygons = MeshOfPolygons(environment.scene);
   const RayScene rays(polygons.mesh);
   const std::vector<LocalImage> images = LocalImages(environment.scene, photos);
@@ -282,20 +247,27 @@ DaylightFit FitInSurroundings(const LightMeasurement& measured,
   Interreflection interreflection(scene, light, grid,
                                   {.bounces = options.bounces, .point_directions = kDirections});
   const bool has_sun = environment.scene.sun.has_value();
-  DaylightFit fit;
-  const std::vector<DaylightSample> bare = samples;
-  std::vector<double> unseen;
+  DaylightFit& fit = measured->daylight_fit;
+  const std::vector<DaylightSample> bare = measured->daylight;
   for (int round = 0; round < kRounds; ++round) {
     interreflection.Solve(light);
-    samples = bare;
-    SetSurroundings(interreflection, points, brdf, &samples, &unseen);
-    fit = FitDaylight(samples, brdf, has_sun, environment.spectra.bins(),
+    measured->daylight = bare;
+    SetSurroundings(interreflection, points, measured->brdf, &measured->daylight,
+                    &measured->unseen);
+    fit = FitDaylight(measured->daylight, measured->brdf, has_sun, environment.spectra.bins(),
                       {options.average_over_wavelength});
     light.sun_radiance = fit.sun_radiance;
     light.sky_radiance = fit.sky_radiance + fit.ambient_radiance;
   }
-  WarnOfUnseen(measured, unseen, warnings);
-  return fit;
+}
+
+double BrightestOf(const std::vector<Photograph>& photos) {
+  float brightest = 0;
+  for (const Photograph& photo : photos) {
+    const std::vector<float>& values = photo.linear.data;
+    if (!values.empty()) brightest = std::max(brightest, *std::ranges::max_element(values));
+  }
+  return brightest;
 }
 
 void MeasureLightComponents(const std::vector<Photograph>& photos, const LightOptions& options,
@@ -306,19 +278,23 @@ void MeasureLightComponents(const std::vector<Photograph>& photos, const LightOp
   const std::vector<SurfacePoint> points =
       SurfacePoints(measured->samples.daylight, environment.scene);
   const RayScene rays(MeshOfPolygons(environment.scene).mesh);
-  const std::vector<DaylightSample> samples =
-      DaylightSamples(*measured, TraceLight(points, rays, light));
+  measured->daylight = DaylightSamples(*measured, TraceLight(points, rays, light));
   const bool has_sun = environment.scene.sun.has_value();
-  const Spectrum brdf = SampleBrdf(measured->samples, environment.spectra, &measured->warnings);
+  measured->brdf = SampleBrdf(measured->samples, environment.spectra, &measured->warnings);
   DaylightFit& fit = measured->daylight_fit;
-  fit = options.uniform_ambient ? FitDaylight(samples, brdf, has_sun, environment.spectra.bins(),
-                                              {options.average_over_wavelength})
-                                : FitInSurroundings(*measured, photos, points, brdf, options,
-                                                    samples, &measured->warnings);
+  if (options.uniform_ambient) {
+    fit = FitDaylight(measured->daylight, measured->brdf, has_sun, environment.spectra.bins(),
+                      {options.average_over_wavelength});
+  } else {
+    FitInSurroundings(photos, points, options, measured);
+  }
   light.sun_radiance = fit.sun_radiance;
   light.ambient_radiance = fit.ambient_radiance;
   light.sky_radiance = fit.sky_radiance;
-  WarnOfWeakSamples(*measured, has_sun, samples, &measured->warnings);
+  measured->brightest = BrightestOf(photos);
+  measured->is_simplified = options.uniform_ambient || options.bounces == 0;
+  const std::vector<Sentence> warnings = DaylightWarnings(*measured);
+  measured->warnings.insert(measured->warnings.end(), warnings.begin(), warnings.end());
 }
 
 LightMeasurement WithoutSamples(const SitePaths& site, SceneGeometry scene,
@@ -366,14 +342,15 @@ LightMeasurement MeasureDaylight(const SitePaths& site, const LightOptions& opti
   const int photographs = static_cast<int>(environment.scene.cameras.size());
   constexpr int kMeasurements = 3;  // samples, air, light, each about as long as a photograph
   Progress progress("haze and daylight", 2 * photographs + kMeasurements);
-  const std::vector<Photograph> photos = ReadPhotographs(site, environment.scene, &progress);
+  const std::vector<Photograph> photos =
+      ReadPhotographs(site, environment.scene, &progress, &measured.exposures);
   environment.input_images = ListInputImages(site, environment.scene);
   environment.qualities = MeasureQualities(photos, environment.scene, &progress);
   measured.samples = ReadSamples(site, environment.scene, photos);
+  measured.clipped = MeasureClippedShares(environment.scene, photos);
   progress.Step();
   measured.reflectance_known = measured.samples.daylight_reflectance.has_value();
-  measured.air_fit = MeasureAir(measured.samples, environment.spectra, &measured.warnings);
-  environment.air = measured.air_fit.air;
+  MeasureAir(&measured);
   progress.Step();
   MeasureLightComponents(photos, options, &measured);
   return measured;
@@ -387,8 +364,7 @@ LightMeasurement MeasureDaylightSoFar(const SitePaths& site, const SceneGeometry
   measured.samples = ReadSamples(site, scene, photos, {}, left_out);
   RequireEnough(site, &measured.samples, left_out);
   measured.reflectance_known = measured.samples.daylight_reflectance.has_value();
-  measured.air_fit = MeasureAir(measured.samples, measured.environment.spectra, &measured.warnings);
-  measured.environment.air = measured.air_fit.air;
+  MeasureAir(&measured);
   MeasureLightComponents(photos, options, &measured);
   return measured;
 }

@@ -182,6 +182,7 @@ void SetResiduals(const std::vector<DaylightSample>& samples, const Spectrum& br
   const std::vector<double> magnitudes = ResidualMagnitudes(samples, *fit, brdf, bins);
   fit->rms = Eigen::VectorXd::Map(magnitudes.data(), magnitudes.size()).norm() /
              std::sqrt(static_cast<double>(magnitudes.size()));
+  fit->over_sigma = magnitudes;
   for (const DaylightSample& sample : samples) {
     const Spectrum model = ModelRadiance(*fit, brdf, sample);
     const double measured = sample.true_color.head(bins.count).mean();

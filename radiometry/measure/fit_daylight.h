@@ -26,9 +26,10 @@ struct DaylightFitOptions {
 struct DaylightFit {
   Spectrum sun_radiance, ambient_radiance, sky_radiance;  // >= 0
   Spectrum sun_sigma, ambient_sigma, sky_sigma;
-  double condition = 0;           // of the scaled design matrix, 1 = best
-  double rms = 0;                 // of the residuals over their sigma
-  std::vector<double> residuals;  // one a sample: (measured - model) / measured, bins averaged
+  double condition = 0;            // of the scaled design matrix, 1 = best
+  double rms = 0;                  // of the residuals over their sigma
+  std::vector<double> residuals;   // one a sample: (measured - model) / measured, bins averaged
+  std::vector<double> over_sigma;  // one a sample: its RMS over the bins, in units of sigma
 };
 
 // Solves [Durisch92, Eq. (9)] per bin by non-negative weighted least squares for the radiances

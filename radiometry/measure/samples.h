@@ -38,12 +38,12 @@ struct LightSamples {
   std::optional<Eigen::Vector3d> daylight_reflectance;  // linear Rec. 709, 0..1
 };
 
-// Throws InputError at the sample's line: unknown photo or polygon, outside the frame, clipped,
-// a polygon sample whose sight misses its polygon or meets another one before it, a horizon sample
-// on a polygon, haze samples that are fewer than two, daylight samples fewer than three.
-// samples.json may lack "haze" (air stays clear) but not "horizon" or "daylight".
-// With `faults`, for samples that are still being chosen, the samples at fault are left out and
-// listed there instead, and there may be any number of the others.
+// Throws InputError that names every fault with its line: unknown photo or polygon, outside the
+// frame, clipped, a polygon sample whose sight misses its polygon or meets another one before it, a
+// horizon sample on a polygon, haze samples that are fewer than two, daylight samples fewer than
+// three. samples.json may lack "haze" (air stays clear) but not "horizon" or "daylight". With
+// `faults`, for samples that are still being chosen, the samples at fault are left out and listed
+// there instead, and there may be any number of the others.
 LightSamples ReadSamples(const SitePaths& site, const SceneGeometry& scene,
                          const std::vector<Photograph>& photos, const SampleOptions& options = {},
                          std::vector<Sentence>* faults = nullptr);

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "calibration/files/error.h"
+#include "calibration/program/report_paths.h"
 #include "calibration/site_cameras.h"
 #include "reconstruction/tie_points_site.h"
 
@@ -175,8 +176,11 @@ std::vector<MontageStage> MakeStages() {
        "haze and daylight, measured in the photographs",
        {"reconstruct", "undistort"},
        LightInputs,
-       one(&SitePaths::environment),
-       NoReports,
+       [](const MontageRequest& request) {
+         return Paths{request.site.environment(), LightReportPath(request.site),
+                      LightPagePath(request.site)};
+       },
+       [](const MontageRequest& request) { return Paths{LightReportPath(request.site)}; },
        Always},
       {"convert",
        "the planned building, from the architect's models",
