@@ -379,4 +379,4 @@ export function freeName(stem) {
  * Why a name cannot be in the files, or "".
  * @param {string} name
  */
-export const nameFault = name => (/^$|^\s|\s$|^#|,|["\n\r\t]/.test(name) ? "badName" : "");
+export const nameFault = name => (/^$|^\s|\s$|[\n\r\t]/.test(name) ? "badName" : "");
