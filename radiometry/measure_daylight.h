@@ -11,6 +11,7 @@
 #include "radiometry/measure/fit_atmosphere.h"
 #include "radiometry/measure/fit_daylight.h"
 #include "radiometry/measure/samples.h"
+#include "radiometry/measure_sky.h"
 #include "radiometry/natural_environment.h"
 
 namespace insitu {
@@ -31,6 +32,7 @@ struct LightMeasurement {
   LightSamples samples;
   AtmosphereFit air_fit;  // without haze samples: clear air, residuals empty
   DaylightFit daylight_fit;
+  SeenSky sky;                     // with uniform ambient light: none
   bool reflectance_known = false;  // false: rho = 1, the building's brightness is relative
   std::vector<Sentence> warnings;
 };
