@@ -10,6 +10,7 @@
 #include "radiometry/measure/fit_atmosphere.h"
 #include "radiometry/measure/fit_daylight.h"
 #include "radiometry/measure/samples.h"
+#include "radiometry/measure_sky.h"
 #include "radiometry/natural_environment.h"
 
 namespace insitu {
@@ -20,6 +21,7 @@ struct LightMeasurement {
   LightSamples samples;
   AtmosphereFit air_fit;  // without haze samples: clear air, residuals empty
   DaylightFit daylight_fit;
+  SeenSky sky;                       // with uniform ambient light: none
   bool reflectance_known = false;    // false: rho = 1, the building's brightness is relative
   std::vector<HazeSample> haze;      // as samples.haze
   Spectrum brdf = Spectrum::Zero();  // of the daylight samples' material [1/sr]

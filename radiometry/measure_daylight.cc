@@ -216,6 +216,7 @@ void SetSurroundings(const Interreflection& interreflection,
     DaylightSample& sample = (*samples)[i];
     sample.surroundings = around.surroundings_before;
     sample.geometry.sky = around.sky;
+    sample.relative_sky = around.relative_sky;
     unseen->push_back(around.unseen / std::numbers::pi);
     // What no photograph shows is known to about half of what it may send.
     const Spectrum guess = kUnseenSigma * brdf * around.surroundings_before *
@@ -270,11 +271,18 @@ double BrightestOf(const std::vector<Photograph>& photos) {
   return brightest;
 }
 
-void MeasureLightComponents(const std::vector<Photograph>& photos, const LightOptions& options,
-                            LightMeasurement* measured) {
+// From the samples.
+void MeasureAirAndLight(const SitePaths& site, const std::vector<Photograph>& photos,
+                        const LightOptions& options, LightMeasurement* measured) {
   NaturalEnvironment& environment = measured->environment;
+  measured->reflectance_known = measured->samples.daylight_reflectance.has_value();
+  MeasureAir(measured);
   Daylight& light = environment.light;
   light = IlluminationGeometry(environment.scene, options.polar_facets);
+  if (!options.uniform_ambient) {
+    measured->sky = MeasureSky(site, photos, measured->samples.horizon,
+                               options.average_over_wavelength, &environment);
+  }
   const std::vector<SurfacePoint> points =
       SurfacePoints(measured->samples.daylight, environment.scene);
   const RayScene rays(MeshOfPolygons(environment.scene).mesh);
@@ -295,6 +303,9 @@ void MeasureLightComponents(const std::vector<Photograph>& photos, const LightOp
   measured->is_simplified = options.uniform_ambient || options.bounces == 0;
   const std::vector<Sentence> warnings = DaylightWarnings(*measured);
   measured->warnings.insert(measured->warnings.end(), warnings.begin(), warnings.end());
+  if (measured->reflectance_known) {
+    WarnOfAnotherSky(environment, measured->sky, &measured->warnings);
+  }
 }
 
 LightMeasurement WithoutSamples(const SitePaths& site, SceneGeometry scene,
@@ -340,7 +351,7 @@ LightMeasurement MeasureDaylight(const SitePaths& site, const LightOptions& opti
   LightMeasurement measured = WithoutSamples(site, ReadSceneGeometry(site), options);
   NaturalEnvironment& environment = measured.environment;
   const int photographs = static_cast<int>(environment.scene.cameras.size());
-  constexpr int kMeasurements = 3;  // samples, air, light, each about as long as a photograph
+  constexpr int kMeasurements = 2;  // samples, light, each about as long as a photograph
   Progress progress("haze and daylight", 2 * photographs + kMeasurements);
   const std::vector<Photograph> photos =
       ReadPhotographs(site, environment.scene, &progress, &measured.exposures);
@@ -349,10 +360,7 @@ LightMeasurement MeasureDaylight(const SitePaths& site, const LightOptions& opti
   measured.samples = ReadSamples(site, environment.scene, photos);
   measured.clipped = MeasureClippedShares(environment.scene, photos);
   progress.Step();
-  measured.reflectance_known = measured.samples.daylight_reflectance.has_value();
-  MeasureAir(&measured);
-  progress.Step();
-  MeasureLightComponents(photos, options, &measured);
+  MeasureAirAndLight(site, photos, options, &measured);
   return measured;
 }
 
@@ -363,9 +371,7 @@ LightMeasurement MeasureDaylightSoFar(const SitePaths& site, const SceneGeometry
   LightMeasurement measured = WithoutSamples(site, scene, options);
   measured.samples = ReadSamples(site, scene, photos, {}, left_out);
   RequireEnough(site, &measured.samples, left_out);
-  measured.reflectance_known = measured.samples.daylight_reflectance.has_value();
-  MeasureAir(&measured);
-  MeasureLightComponents(photos, options, &measured);
+  MeasureAirAndLight(site, photos, options, &measured);
   return measured;
 }
 

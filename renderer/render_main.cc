@@ -4,9 +4,9 @@
 #include <map>
 #include <memory>
 
+#include "calibration/foreground_matte.h"
 #include "calibration/program/program.h"
 #include "calibration/program/warnings.h"
-#include "renderer/foreground_matte.h"
 #include "renderer/render_site.h"
 #include "renderer/trace/profile.h"
 

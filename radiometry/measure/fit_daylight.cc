@@ -46,7 +46,8 @@ Equations SetUp(const std::vector<DaylightSample>& samples, double brdf, bool ha
   for (int i = 0; i < n; ++i) {
     const LightGeometry& seen = samples[i].geometry;
     const double p = std::sqrt(weights[i]) / samples[i].sigma[bin];
-    equations.A.row(i) << (has_sun ? seen.sun : 0), AmbientFactor(samples[i]), seen.sky;
+    equations.A.row(i) << (has_sun ? seen.sun : 0), AmbientFactor(samples[i]),
+        seen.sky * samples[i].relative_sky[bin];
     equations.A.row(i) *= p * brdf;
     equations.y[i] = p * Unexplained(samples[i], brdf, bin);
   }
@@ -162,7 +163,7 @@ Spectrum ModelRadiance(const DaylightFit& fit, const Spectrum& brdf, const Dayli
                                ? *sample.surroundings
                                : Spectrum(fit.ambient_radiance * sample.geometry.ambient);
   return brdf * (fit.sun_radiance * sample.geometry.sun + ambient +
-                 fit.sky_radiance * sample.geometry.sky);
+                 fit.sky_radiance * sample.geometry.sky * sample.relative_sky);
 }
 
 // Per sample: root mean square over the bins, in units of sigma.

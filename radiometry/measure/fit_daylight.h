@@ -17,6 +17,8 @@ struct DaylightSample {
   // Irradiance from the surroundings as photographed (Interreflection::At); with all samples or
   // with none.
   std::optional<Spectrum> surroundings = std::nullopt;
+  // Mean radiance of what it sees of the sky over the open sky's (GatheredLight::relative_sky).
+  Spectrum relative_sky = Spectrum::Ones();
 };
 
 struct DaylightFitOptions {

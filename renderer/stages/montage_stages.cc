@@ -97,11 +97,16 @@ Paths UndistortionInputs(const MontageRequest& request) {
   return inputs;
 }
 
-// The description of the light names the input images with their cameras.
+// The description of the light names the input images with their cameras; what stands in front is
+// no sky.
 Paths LightInputs(const MontageRequest& request) {
   const SitePaths& site = request.site;
-  Paths inputs = {site.scene(), site.photos(), site.description(), site.survey() / "samples.json",
-                  site.survey() / "materials.json"};
+  Paths inputs = {site.scene(),
+                  site.photos(),
+                  site.description(),
+                  site.survey() / "samples.json",
+                  site.survey() / "materials.json",
+                  site.survey() / "foreground"};
   for (const std::string& camera : CamerasOf(ListCameraFolders(site))) {
     inputs.push_back(site.pinhole_camera(camera));
   }

@@ -149,6 +149,7 @@ MontageScene MakeMontageScene(NaturalEnvironment natural, const ArtificialEnviro
                      .building_box = box,
                      .lamps = {},
                      .panels = {},
+                     .sky = {},
                      .facets = {},
                      .facet_directions = {},
                      .inverse_facet_directions = {},
@@ -169,6 +170,7 @@ MontageScene MakeMontageScene(NaturalEnvironment natural, const ArtificialEnviro
   for (const PointLight& lamp : artificial.lights) {
     AddLamp(lamp, &scene);
   }
+  scene.sky = site.light.Sky();
   scene.facets = MakeSkyFacets(site.light.zenith_direction, site.light.polar_facets);
   INSITU_CHECK(scene.facets.directions.size() <= kMostFacets);
   for (const Eigen::Vector3d& direction : scene.facets.directions) {

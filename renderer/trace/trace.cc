@@ -177,6 +177,15 @@ Spectrum FaceColor(const MontageScene& scene, const SceneHit& hit, const Ray& ra
                                                               LightAround(scene, hit));
 }
 
+// Case B above the horizon: the horizon's colour, or what the photographs show of the sky there.
+Spectrum SkyColor(const MontageScene& scene, const Eigen::Vector3d& direction) {
+  const Daylight& light = scene.natural.light;
+  if (!light.photographed_sky || light.zenith_direction.dot(direction) <= 0) {
+    return scene.natural.air.horizon;
+  }
+  return *light.photographed_sky * scene.sky.Towards(direction);
+}
+
 }  // namespace
 
 Spectrum BuildingColor(const MontageScene& scene, const SurfacePoint& surface,
@@ -236,7 +245,8 @@ Spectrum TraceSecondary(const MontageScene& scene, const Ray& ray, const LightDi
   // Case B. Departure: the paper leaves open what a ray below the horizon returns.
   if (!hit) hit = FindGround(scene, ray);
   if (!hit) {
-    return light.sees_lights ? Spectrum(air.horizon + SunAlong(scene, ray.direction)) : air.horizon;
+    const Spectrum sky = SkyColor(scene, ray.direction);
+    return light.sees_lights ? Spectrum(sky + SunAlong(scene, ray.direction)) : sky;
   }
   if (!hit->is_building) {
     return ApparentColor(SiteColor(scene, *hit, -ray.direction, light, world, depth), air,

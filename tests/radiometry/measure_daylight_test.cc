@@ -7,6 +7,7 @@
 #include "calibration/files/whole_file.h"
 #include "calibration/photo/photograph.h"
 #include "radiometry/light_report.h"
+#include "reconstruction/geometry/ray_scene.h"
 #include "tests/calibration/files/wrong_field.h"
 #include "tests/radiometry/measure/synthetic_site.h"
 
@@ -101,6 +102,50 @@ TEST(MeasureDaylight, WithoutSunDirectionTheSkyIsOvercast) {
   const LightMeasurement measured = MeasureDaylight(truth.site);
   EXPECT_TRUE((measured.environment.light.sun_radiance == 0).all());
   EXPECT_TRUE(HasWarning(measured, "overcast"));
+}
+
+TEST(MeasureDaylight, ASkyOfOneColourStaysUniform) {
+  const SyntheticSite truth = MakeSyntheticSite("uniform_sky");
+  const LightMeasurement measured = MeasureDaylight(truth.site);
+  EXPECT_EQ(measured.sky.photos, 2);
+  EXPECT_TRUE(measured.environment.light.sky_shape.IsUniform());
+  EXPECT_FALSE(measured.environment.light.photographed_sky);
+  const SpectralBasis& spectra = measured.environment.spectra;
+  EXPECT_LT(RelativeError(spectra.RgbFromSpectrum(*measured.sky.fit.level), truth.horizon), 1e-5);
+  EXPECT_TRUE(HasWarning(measured, "times as bright as that which lights"));  // as painted
+}
+
+// Sky pixels as those of an overcast sky, of the brightness that lights the site.
+TEST(MeasureDaylight, FindsHowTheSkyIsSpread) {
+  const SyntheticSite truth = MakeSyntheticSite("overcast_sky");
+  const Eigen::Vector3d level = truth.sky_radiance + truth.ambient_radiance;
+  const Eigen::Vector3d up = truth.scene.zenith.unit;
+  const RelativeSky overcast({Spectrum::Ones(), Spectrum::Zero()}, up, up);
+  const RayScene rays(MeshOfPolygons(truth.scene).mesh);
+  for (const PosedCamera& posed : truth.scene.cameras) {
+    const std::filesystem::path file = truth.site.photos() / (posed.photo + ".exr");
+    Raster image = ReadPhotograph(file).linear;
+    const Eigen::Vector3d center = Center(posed.cam_from_world) - truth.scene.origin;
+    for (int y = 0; y < image.height; ++y) {
+      for (int x = 0; x < image.width; ++x) {
+        const Eigen::Vector3d direction =
+            posed.cam_from_world.rotation.conjugate() * posed.camera.Unproject({x, y});
+        if (rays.IsOccluded({center, direction}) || up.dot(direction) <= 0) continue;
+        image.SetRgb(x, y, level * overcast.Towards(direction)[0]);
+      }
+    }
+    WriteExr(file, image);
+  }
+  const LightMeasurement measured = MeasureDaylight(truth.site);
+  const Daylight& light = measured.environment.light;
+  EXPECT_LT((light.sky_shape.gradation - 1).abs().maxCoeff(), 0.05);
+  EXPECT_TRUE((light.sky_shape.glow == 0).all());
+  ASSERT_TRUE(light.photographed_sky);
+  const SpectralBasis& spectra = measured.environment.spectra;
+  EXPECT_LT(RelativeError(spectra.RgbFromSpectrum(*light.photographed_sky), level), 0.02);
+  // The paper's light has one sky.
+  const LightMeasurement paper = MeasureDaylight(truth.site, {.uniform_ambient = true});
+  EXPECT_TRUE(paper.environment.light.sky_shape.IsUniform());
 }
 
 TEST(MeasureDaylight, RefusesPhotographsThatDoNotFit) {

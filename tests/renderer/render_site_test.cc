@@ -9,8 +9,8 @@
 #include "calibration/files/error.h"
 #include "calibration/files/json_file.h"
 #include "calibration/files/whole_file.h"
+#include "calibration/foreground_matte.h"
 #include "radiometry/natural_environment.h"
-#include "renderer/foreground_matte.h"
 #include "tests/calibration/files/scratch_folder.h"
 #include "tests/renderer/trace/small_site.h"
 

@@ -152,6 +152,9 @@ export const kServerTexts = {
   lightSunUnseen: "keine Tageslichtprobe sieht die Sonne: sie bleibt dunkel",
   lightUnseen:
     "Tageslichtproben, die viel Licht von Flächen erhalten, die kein Foto zeigt, und weniger zählen: {samples}",
+  lightOtherSky:
+    "die Fotos zeigen einen {times}-mal so hellen Himmel, wie er die Tageslichtproben beleuchtet: stimmt ihre " +
+    "Albedo, und haben alle Fotos dieselbe Belichtung?",
   lightPoor:
     "die Tageslichtproben trennen Sonne, Himmel und Umgebungslicht kaum: einige in der Sonne, im offenen " +
     "und im tiefen Schatten wählen",

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "renderer/foreground_matte.h"
+#include "calibration/foreground_matte.h"
 
 #include <algorithm>
 #include <limits>
