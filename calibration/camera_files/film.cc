@@ -127,10 +127,10 @@ void CheckSame(const CsvRow& row, const std::map<std::string, Eigen::Vector2d>& 
 
 // Of a mark that is switched off the line is a comment, so nothing else can stand there.
 double SigmaTimes(const CsvRow& row) {
-  const auto state = row.cells.find("state");
-  if (state == row.cells.end() || state->second.empty() || state->second == "on") return 1;
-  if (state->second == "dubious") return kDubiousFiducial;
-  throw row.Error("state is " + Quoted(state->second) + ", expected dubious or nothing");
+  const std::string* state = row.Find("state");
+  if (state == nullptr || *state == "on") return 1;
+  if (*state == "dubious") return kDubiousFiducial;
+  throw row.Error("state is " + Quoted(*state) + ", expected dubious or nothing");
 }
 
 }  // namespace

@@ -67,12 +67,17 @@ NumberStyle StyleOf(const std::vector<DelimitedRow>& rows, std::string_view cont
 
 }  // namespace
 
-const std::string& CsvRow::Text(const std::string& column) const {
+const std::string* CsvRow::Find(const std::string& column) const {
   const auto title = std::find(columns->begin(), columns->end(), column);
-  if (title == columns->end()) throw Error("column \"" + column + "\" is missing");
+  if (title == columns->end()) return nullptr;
   const std::string& cell = cells[static_cast<size_t>(title - columns->begin())];
-  if (cell.empty()) throw Error("column \"" + column + "\" is empty");
-  return cell;
+  return cell.empty() ? nullptr : &cell;
+}
+
+const std::string& CsvRow::Text(const std::string& column) const {
+  if (const std::string* cell = Find(column)) return *cell;
+  const bool is_there = std::ranges::find(*columns, column) != columns->end();
+  throw Error("column \"" + column + (is_there ? "\" is empty" : "\" is missing"));
 }
 
 double CsvRow::Number(const std::string& column) const {

@@ -21,6 +21,8 @@ struct CsvRow {
   std::shared_ptr<const std::vector<std::string>> columns;  // their titles, for all rows
   NumberStyle style;                                        // of all numbers of the table
 
+  // nullptr: no such column, or its cell is empty.
+  const std::string* Find(const std::string& column) const;
   const std::string& Text(const std::string& column) const;  // must not be empty
   double Number(const std::string& column) const;            // finite
   InputError Error(const std::string& message) const;
