@@ -14,6 +14,10 @@ namespace insitu {
 namespace {
 
 void PrintReport(const RenderSiteReport& report) {
+  if (report.is_within_building) {
+    std::printf("%s: not rendered\n", report.photo.c_str());
+    return;
+  }
   const Raster& picture = report.result.linear;
   const double pixels = static_cast<double>(picture.width) * picture.height;
   std::printf("%s: building %.1f %%, changed %.1f %% of the pixels, %.2f rays a pixel, %.1f s\n",
@@ -104,7 +108,7 @@ int RunRender(int argc, char** argv) {
     std::fputs(WarningLines(UnreadForegroundFiles(site)).c_str(), stdout);
     for (const RenderSiteReport& report : RenderSite(site, options)) {
       PrintReport(report);
-      PrintQuality(report, options);
+      if (!report.is_within_building) PrintQuality(report, options);
       std::fputs(WarningLines(report.remarks).c_str(), stdout);
     }
     if (profile) std::fputs(profile->Report().c_str(), stdout);

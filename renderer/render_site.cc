@@ -14,6 +14,7 @@
 #include "calibration/photo/exif.h"
 #include "calibration/photo/montage_files.h"
 #include "calibration/program/program.h"
+#include "radiometry/transport/cosine_directions.h"
 #include "renderer/trace/interreflected_light.h"
 #include "renderer/trace/make_montage_scene.h"
 #include "renderer/trace/profile.h"
@@ -210,6 +211,33 @@ std::vector<std::string> WriteMontage(const SitePaths& site,
                             StatementOf(statement, photograph, result)});
 }
 
+// In all directions but a few a solid's inside comes first.
+bool IsWithinBuilding(const MontageScene& scene, const PosedCamera& camera) {
+  constexpr int kDirections = 128;  // of each half
+  constexpr double kNearlyAll = 0.95;
+  const Eigen::Vector3d center = Center(camera.cam_from_world) - scene.natural.scene.origin;
+  const CosineDirections directions(kDirections);
+  int backs = 0;
+  for (const double side : {1.0, -1.0}) {
+    for (const Eigen::Vector3d& direction : directions.About(side * Eigen::Vector3d::UnitZ())) {
+      const auto hit = scene.artificial_rays.Nearest({center, direction});
+      backs += hit && scene.artificial_normals[hit->triangle].dot(direction) > 0;
+    }
+  }
+  return backs > kNearlyAll * 2 * kDirections;
+}
+
+// No montage is better than one of another building, or than a black one.
+void RefuseMontage(const SitePaths& site, RenderSiteReport* report) {
+  for (const char* ending : {".exr", ".png", ".jpg", ".tif", ".layers.exr"}) {
+    std::filesystem::remove(site.montages() / (report->photo + ending));
+  }
+  report->is_within_building = true;
+  report->remarks.push_back(
+      "taken from within the building, in a solid of it: no montage was made; move the building "
+      "(building/placement.json), or turn faces that look the wrong way");
+}
+
 // Of the building in every photograph, by name, with its file in montages/.
 std::map<std::string, UncertaintySummary> WriteUncertainties(
     const SitePaths& site, const SceneGeometry& scene, const ArtificialEnvironment& building) {
@@ -243,11 +271,17 @@ std::vector<RenderSiteReport> RenderSite(const SitePaths& site, const RenderSite
   const MontageStatement statement = StatementOf(site, options.with_building);
   std::vector<RenderSiteReport> reports;
   for (const std::filesystem::path& photograph : photographs) {
-    View view = LoadView(site, scene, photograph, options.frame);
-    Progress progress(photograph.stem().string(), TileCount(view.photo.linear));
-    const auto start = std::chrono::steady_clock::now();
     RenderSiteReport report;
     report.photo = photograph.stem().string();
+    const SceneGeometry& geometry = scene.natural.scene;
+    if (IsWithinBuilding(scene, geometry.cameras[IndexOf(site, geometry, report.photo)])) {
+      RefuseMontage(site, &report);
+      reports.push_back(std::move(report));
+      continue;
+    }
+    View view = LoadView(site, scene, photograph, options.frame);
+    Progress progress(report.photo, TileCount(view.photo.linear));
+    const auto start = std::chrono::steady_clock::now();
     const auto uncertainty = uncertainties.find(report.photo);
     if (uncertainty != uncertainties.end()) report.uncertainty = uncertainty->second;
     RenderOptions render = options.render;

@@ -45,6 +45,8 @@ struct RenderSiteReport {
   std::optional<UncertaintySummary> uncertainty;  // of the building's image; nullopt: no building
                                                   // in the frame, or no covariances
   std::vector<std::string> remarks;               // what of the photograph could not be delivered
+  // Taken from within a solid of the building: nothing was rendered, and montages/ has none of it.
+  bool is_within_building = false;
 };
 
 // Reads work/environment.json and the input images that it names, work/building.json and its

@@ -11,6 +11,8 @@
 #include "calibration/files/whole_file.h"
 #include "calibration/foreground_matte.h"
 #include "radiometry/natural_environment.h"
+#include "renderer/trace/interreflected_light.h"
+#include "renderer/trace/make_montage_scene.h"
 #include "tests/calibration/files/scratch_folder.h"
 #include "tests/renderer/trace/small_site.h"
 
@@ -58,6 +60,35 @@ TEST_F(RenderSiteTest, NeedsTheDescriptionsAndTheImagesAlone) {
   EXPECT_THAT(ReadWhole(site_.montages() / "photo.uncertainty.csv"), HasSubstr("sigma_major_px"));
 }
 
+// In the frame of the pinhole a montage is made of the input image, as that camera sees it.
+TEST_F(RenderSiteTest, ThePinholesFrameShowsTheInputImage) {
+  for (size_t i = 0; i < small_.photo.data.size(); ++i) {
+    small_.photo.data[i] = 0.1f + 0.0013f * static_cast<float>(i % 211);
+  }
+  WriteExr(site_.input_image("photo"), small_.photo);
+  small_.natural.scene.cameras[0].camera =
+      Camera("LENSMODEL_OPENCV4", {57, 58, 30, 22, -0.1, 0.02, 1e-3, -1e-3}, 64, 48);
+  small_.natural.qualities = {{PointSpread{0.8, 0.8, 0.05, 12}, std::nullopt}};
+  WriteJson(site_.environment(), DescriptionOf(small_.natural, site_.environment()));
+  RenderSiteOptions options;
+  const RenderResult in_photo = RenderSite(site_, options)[0].result;
+  options.frame = Frame::kPinhole;
+  const RenderSiteReport report = RenderSite(site_, options)[0];
+  // A pixel of the lens's middle spans 60 / 57.5 of the pinhole's.
+  EXPECT_NEAR(report.point_spread->center_sigma, 0.8 * 60 / 57.5, 0.02);
+  MontageScene scene =
+      MakeMontageScene(ReadEnvironment(site_), ReadArtificialEnvironment(site_), {small_.photo});
+  AddInterreflection(&scene, std::nullopt);
+  PosedCamera pinhole = small_.camera();
+  pinhole.camera = small_.pinhole;
+  RenderOptions render;
+  render.point_spread = report.point_spread;
+  const RenderResult expected = RenderMontage(scene, pinhole, small_.photo, render);
+  EXPECT_EQ(report.result.linear.data, expected.linear.data);
+  EXPECT_EQ(report.result.linear.Rgb(0, 0), small_.photo.Rgb(0, 0));
+  EXPECT_NE(in_photo.linear.data, expected.linear.data);
+}
+
 TEST_F(RenderSiteTest, IsAsSharpAsThePhotographUnlessIdealIsAskedFor) {
   small_.natural.qualities = {{PointSpread{0.8, 0.8, 0.05, 12}, std::nullopt}};
   RenderSiteOptions options;
@@ -72,6 +103,22 @@ TEST_F(RenderSiteTest, IsAsSharpAsThePhotographUnlessIdealIsAskedFor) {
   EXPECT_FALSE(ideal.point_spread);
   EXPECT_FALSE(ideal.has_grain);
   EXPECT_EQ(ideal.result.linear.data, unmeasured);
+}
+
+TEST_F(RenderSiteTest, RefusesAPhotographTakenFromWithinTheBuilding) {
+  RenderSite(site_, {});
+  WriteArtificialEnvironment(site_, Box(small_, {-5, -15, 0}, {5, -5, 6}, {}));
+  const RenderSiteReport report = RenderSite(site_, {})[0];
+  EXPECT_TRUE(report.is_within_building);
+  ASSERT_EQ(report.remarks.size(), 1u);
+  EXPECT_THAT(report.remarks[0], HasSubstr("from within the building"));
+  EXPECT_FALSE(std::filesystem::exists(site_.montages() / "photo.exr"));
+  // Without its south wall it is a room that one looks into.
+  ArtificialEnvironment open = Box(small_, {-5, -15, 0}, {5, -5, 6}, {});
+  open.triangles.erase(open.triangles.begin() + 4, open.triangles.begin() + 6);
+  open.material_of_triangle.resize(open.triangles.size());
+  WriteArtificialEnvironment(site_, open);
+  EXPECT_FALSE(RenderSite(site_, {})[0].is_within_building);
 }
 
 TEST_F(RenderSiteTest, WhatIsMissingNamesItsProgram) {

@@ -15,9 +15,9 @@ class PhotographedColorTest : public testing::Test {
   PhotographedColorTest() {
     scene_.origin = {2600000, 1200000, 400};
     AddPolygon({-20, -20, 0}, {40, 0, 0}, {0, 40, 0}, 0);
-    AddPolygon({9, -3, 0}, {0, 6, 0}, {0, 0, 9}, std::nullopt);
+    AddPolygon({1.5, -3, 0}, {0, 6, 0}, {0, 0, 9}, std::nullopt);
     AddCamera({-9, 2, 14}, 200, 170);
-    AddCamera({12, -5, 10}, 180, 210);
+    AddCamera({4, -5, 10}, 180, 210);
     const RayScene rays(MeshOfPolygons(scene_).mesh);
     for (size_t i = 0; i < scene_.cameras.size(); ++i) Paint(rays, i);
   }
@@ -87,14 +87,14 @@ class PhotographedColorTest : public testing::Test {
 
 TEST_F(PhotographedColorTest, IsThatOfThePlaceInThePhotographOfTheAttribute) {
   ExpectColor(-12, 4, 0);
-  ExpectColor(-4, -3, 0);
+  ExpectColor(0, -5.5, 0);  // which both show
   scene_.polygons[0].photo = 1;
+  ExpectColor(0, -5.5, 1);
   ExpectColor(7, -9, 1);
-  ExpectColor(16, -9, 1);
 }
 
 TEST_F(PhotographedColorTest, WhatThatOneDoesNotShowAnotherDoes) {
-  ExpectColor(14, -8, 1);  // out of the first one's frame
+  ExpectColor(8, -8, 1);  // out of the first one's frame
   scene_.polygons[0].photo = 1;
   ExpectColor(-4, 3, 0);
   EXPECT_FALSE(LookUp(3, 15));
@@ -102,7 +102,8 @@ TEST_F(PhotographedColorTest, WhatThatOneDoesNotShowAnotherDoes) {
 
 TEST_F(PhotographedColorTest, WhatStandsBeforeItHidesIt) {
   scene_.polygons[0].photo = 1;
-  EXPECT_FALSE(LookUp(7, 0));  // and beyond the first one's frame
+  ExpectColor(0, 0, 0);  // which the first one shows
+  EXPECT_FALSE(LookUp(1.2, 0));
 }
 
 TEST_F(PhotographedColorTest, TheOtherSideIsSeenByNone) { EXPECT_FALSE(LookUp(-4, 3, -1)); }
