@@ -9,6 +9,7 @@
 #include "radiometry/measure/clipped_shares.h"
 #include "radiometry/measure/fit_atmosphere.h"
 #include "radiometry/measure/fit_daylight.h"
+#include "radiometry/measure/photo_exposures.h"
 #include "radiometry/measure/samples.h"
 #include "radiometry/measure_sky.h"
 #include "radiometry/natural_environment.h"
@@ -33,6 +34,9 @@ struct LightMeasurement {
   std::vector<ClippedShare> clipped;    // empty: not looked at, or nothing is
   double brightest = 0;                 // value in any photograph
   std::vector<ExifExposure> exposures;  // as the scene's cameras; empty: not read
+  // By which all photographs were brought to one unit, as the scene's cameras; empty: they were
+  // not.
+  ExposureFit exposure_fit;
   std::vector<Sentence> warnings;
 };
 

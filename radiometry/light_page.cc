@@ -104,6 +104,28 @@ Json::Value PhotosJson(const SitePaths& site, const LightMeasurement& measured) 
   return list;
 }
 
+// Of all photographs, sampled or not.
+Json::Value ExposuresJson(const LightMeasurement& measured) {
+  Json::Value json;
+  json["photos"] = Json::Value(Json::arrayValue);
+  const ExposureFit& fit = measured.exposure_fit;
+  for (size_t i = 0; i < fit.photos.size(); ++i) {
+    const PhotoExposure& photo = fit.photos[i];
+    Json::Value row;
+    row["photo"] = measured.environment.scene.cameras[i].photo;
+    row["gain"] = ToJson(photo.gain);
+    row["measured"] = photo.measured;
+    row["sigma"] = photo.sigma;
+    row["points"] = photo.points;
+    row["by_exif"] = OrNull(photo.by_exif);
+    row["white_balance"] = ToJson(photo.white_balance);
+    json["photos"].append(row);
+  }
+  json["corner_falloff"] = OrNull(fit.corner_falloff);
+  json["corner_falloff_sigma"] = fit.corner_falloff_sigma;
+  return json;
+}
+
 // ---- light ----------------------------------------------------------------------------------
 
 // The spread that a light's errors give its reciprocal temperature. Bins of one third of the
@@ -254,6 +276,7 @@ Json::Value LightPageReport(const SitePaths& site, const LightMeasurement& measu
   report["haze_samples"] = SamplesJson(measured.samples.haze, scene, measured.air_fit.residuals,
                                        measured.air_fit.over_sigma);
   report["daylight_samples"] = DaylightSamplesJson(measured);
+  report["exposure"] = ExposuresJson(measured);
   report["daylight"] = DaylightJson(measured);
   report["haze"] = HazeJsonOf(measured);
   report["clipped"] = ClippedJson(measured);

@@ -57,6 +57,21 @@ function showSamples() {
     {isFlagged: isOff});
 }
 
+function showExposure() {
+  const {photos, corner_falloff: falloff, corner_falloff_sigma: sigma} = report.exposure;
+  if (photos.length < 2) return;
+  const node = section("Exposure", "Linear values of each photograph over the site's unit, from surfaces that several show " +
+    "and from EXIF. What differs by more than chance and 2 % is brought to the unit, in the montage back again.");
+  table(node, photos, [
+    ["photo", p => p.photo, "text"],
+    ["shared points", p => p.points, 0],
+    ["measured [EV]", p => withSigma(Math.log2(p.measured), p.sigma / Math.LN2, 3), "text"],
+    ["by EXIF [EV]", p => isKnown(p.by_exif) ? Math.log2(p.by_exif) : null, 2],
+    ["red", p => p.white_balance[0], 3], ["blue", p => p.white_balance[2], 3],
+    ["applied", p => p.gain.every(g => g === 1) ? "–" : p.gain.map(g => fixed(g, 3)).join(" "), "text"]]);
+  if (isKnown(falloff)) element(node, "p", `Corners beside centres: ${withSigma(100 * Math.expm1(falloff), 100 * sigma, 1)} %.`);
+}
+
 // A spectrum with the band of its standard deviation.
 function spectrumPlot(parent, caption, light, color, unit) {
   const rows = light.spectrum.map((value, i) => ({nm: report.wavelengths_nm[i], value,
@@ -126,6 +141,7 @@ if (verdict.reasons.length === 0) {
 }
 showVerdict(verdict);
 showSamples();
+showExposure();
 showLight();
 showHaze();
 showClipped();

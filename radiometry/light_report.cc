@@ -88,6 +88,13 @@ void AddLight(const LightMeasurement& measured, Json::Value* light) {
   json["samples"] = SamplesToJson(measured.samples.daylight, fit.residuals, environment.scene);
 }
 
+// Where a photograph is of another exposure than the site's unit.
+void AddExposures(const ExposureFit& fit, Json::Value* cameras) {
+  for (Json::ArrayIndex i = 0; i < fit.photos.size(); ++i) {
+    if (!fit.photos[i].IsOne()) (*cameras)[i]["exposure"] = ToJson(fit.photos[i].gain);
+  }
+}
+
 Json::Value Provenance(const SceneGeometry& scene) {
   Json::Value json;
   json["software"] = "insitu " INSITU_VERSION;
@@ -189,8 +196,20 @@ std::string BriefReport(const LightMeasurement& measured) {
   return out.str();
 }
 
+std::vector<Eigen::Vector3d> ReadPhotoGains(const SitePaths& site) {
+  std::vector<Eigen::Vector3d> gains;
+  for (const JsonNode& camera :
+       JsonNode::Load(site.environment()).At("scene").At("cameras").Items()) {
+    const auto exposure = camera.Find("exposure");
+    gains.push_back(exposure ? exposure->Vector3() : Eigen::Vector3d(Eigen::Vector3d::Ones()));
+    if (gains.back().minCoeff() <= 0) throw exposure->Error("is no exposure, expected above 0");
+  }
+  return gains;
+}
+
 void WriteEnvironment(const SitePaths& site, const LightMeasurement& measured) {
   Json::Value json = DescriptionOf(measured.environment, site.environment());
+  AddExposures(measured.exposure_fit, &json["scene"]["cameras"]);
   json["provenance"] = Provenance(measured.environment.scene);
   AddAir(measured, &json["air"]);
   AddLight(measured, &json["light"]);

@@ -11,6 +11,7 @@
 #include "calibration/site_cameras.h"
 #include "radiometry/daylight_warnings.h"
 #include "radiometry/measure/measure_image_quality.h"
+#include "radiometry/one_unit.h"
 #include "radiometry/transport/interreflection.h"
 #include "reconstruction/geometry/ray_scene.h"
 
@@ -353,12 +354,13 @@ LightMeasurement MeasureDaylight(const SitePaths& site, const LightOptions& opti
   const int photographs = static_cast<int>(environment.scene.cameras.size());
   constexpr int kMeasurements = 2;  // samples, light, each about as long as a photograph
   Progress progress("haze and daylight", 2 * photographs + kMeasurements);
-  const std::vector<Photograph> photos =
+  std::vector<Photograph> photos =
       ReadPhotographs(site, environment.scene, &progress, &measured.exposures);
   environment.input_images = ListInputImages(site, environment.scene);
   environment.qualities = MeasureQualities(photos, environment.scene, &progress);
   measured.samples = ReadSamples(site, environment.scene, photos);
   measured.clipped = MeasureClippedShares(environment.scene, photos);
+  BringToOneUnit(&photos, &measured);
   progress.Step();
   MeasureAirAndLight(site, photos, options, &measured);
   return measured;

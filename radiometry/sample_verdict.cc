@@ -16,6 +16,10 @@ namespace {
 
 constexpr double kHighResidual = 3, kTooHighResidual = 10;  // RMS in units of sigma
 constexpr double kDifferentEv = 0.1, kTooDifferentEv = 0.25;
+constexpr int kEnoughPoints = 20;         // shared, to tell an exposure
+constexpr double kUnsureExposure = 0.05;  // relative sigma
+constexpr double kContradiction = 0.25;   // of logarithms: EXIF rounds to thirds of a stop
+constexpr double kMuchFalloff = 0.05;
 constexpr double kDarkerPhoto = 0.1;  // a photograph's median residual beside the others'
 constexpr double kSignificant = 3;    // times the standard error
 
@@ -115,29 +119,82 @@ std::set<int> SampledPhotos(const LightSamples& samples) {
   return photos;
 }
 
-// Whether EXIF states the exposure of every sampled photograph.
-bool JudgeStatedExposures(const LightMeasurement& measured, std::vector<Finding>* findings) {
+// Whether surfaces that others show too tell a photograph's exposure.
+bool IsMeasured(const LightMeasurement& measured, int photo) {
+  const std::vector<PhotoExposure>& fit = measured.exposure_fit.photos;
+  return !fit.empty() && fit[photo].points >= kEnoughPoints;
+}
+
+// Of the photographs that EXIF alone tells of, what was not brought to one unit.
+void JudgeStatedExposures(const LightMeasurement& measured, std::vector<Finding>* findings) {
   std::map<double, std::string> photo_of_ev;
   for (const int photo : SampledPhotos(measured.samples)) {
-    const auto relative =
-        measured.exposures.empty() ? std::nullopt : measured.exposures[photo].Relative();
-    if (!relative) return false;
-    photo_of_ev[std::log2(*relative)] = measured.environment.scene.cameras[photo].photo;
+    if (measured.exposures.empty() || IsMeasured(measured, photo)) continue;
+    const auto relative = measured.exposures[photo].Relative();
+    if (!relative) continue;
+    const auto& fit = measured.exposure_fit.photos;
+    const double left = *relative / (fit.empty() ? 1 : fit[photo].gain.y());
+    photo_of_ev[std::log2(left)] = measured.environment.scene.cameras[photo].photo;
   }
-  if (photo_of_ev.empty()) return true;
+  if (photo_of_ev.empty()) return;
   const double spread = photo_of_ev.rbegin()->first - photo_of_ev.begin()->first;
-  if (spread <= kDifferentEv) return true;
+  if (spread <= kDifferentEv) return;
   findings->push_back(
       {spread > kTooDifferentEv ? Severity::kFail : Severity::kReview,
        "the samples come from photographs of different exposure: by EXIF " +
            photo_of_ev.rbegin()->second + Number(" got %.1f EV more light than ", spread) +
            photo_of_ev.begin()->second,
-       "choose all samples in photographs of one exposure, or bring the photographs to one in "
-       "linear light before (photograph in manual mode)"});
-  return true;
+       "survey polygons that both show, or choose all samples in photographs of one exposure"});
 }
 
-// Where EXIF says nothing, a photograph whose samples are all too bright or too dark.
+// What was brought to one unit, and photographs that do not fit.
+void JudgeMeasuredExposures(const LightMeasurement& measured, std::vector<Finding>* findings) {
+  std::vector<std::string> brought, unsure, contradicted, tinted;
+  for (size_t i = 0; i < measured.exposure_fit.photos.size(); ++i) {
+    const PhotoExposure& fit = measured.exposure_fit.photos[i];
+    const std::string& photo = measured.environment.scene.cameras[i].photo;
+    if (!fit.IsOne()) {
+      const std::string text = photo + Number(" by %+.2f EV", std::log2(fit.measured)) +
+                               Number(" +- %.2f", fit.sigma / std::log(2.0));
+      (fit.sigma < kUnsureExposure ? brought : unsure).push_back(text);
+      if (fit.gain.maxCoeff() > fit.gain.minCoeff()) {
+        tinted.push_back(photo + Number(" (red %.2f,", fit.white_balance[0]) +
+                         Number(" blue %.2f)", fit.white_balance[2]));
+      }
+    }
+    if (!fit.by_exif || fit.points < kEnoughPoints) continue;
+    const double off = std::log(*fit.by_exif / fit.measured);
+    if (std::abs(off) < kContradiction + 3 * fit.sigma) continue;
+    contradicted.push_back(photo + Number(" by %+.1f EV", -std::log2(std::exp(off))));
+  }
+  const auto say = [&](Severity severity, const char* what, const std::vector<std::string>& names,
+                       const char* remedy) {
+    if (names.empty()) return;
+    findings->push_back({severity, Listing(what, names, 4), remedy});
+  };
+  say(Severity::kNote, "photographs of other exposure, brought to one unit", brought,
+      "nothing; photographs made in manual mode need none of it");
+  say(Severity::kReview, "photographs whose exposure is known badly", unsure,
+      "survey polygons that several photographs show");
+  say(Severity::kNote, "photographs of another white balance, brought to one", tinted,
+      "set the camera to one white balance");
+  say(Severity::kReview, "photographs that are brighter or darker than EXIF says", contradicted,
+      "look whether they were edited or raw-developed one by one; develop them alike");
+}
+
+void JudgeFalloff(const ExposureFit& fit, std::vector<Finding>* findings) {
+  if (!fit.corner_falloff) return;
+  const double off = std::abs(*fit.corner_falloff);
+  if (off < kMuchFalloff || off < kSignificant * fit.corner_falloff_sigma) return;
+  findings->push_back(
+      {Severity::kReview,
+       Number("the photographs' corners are %+.0f %% beside their centres",
+              100 * std::expm1(*fit.corner_falloff)) +
+           Number(" (+- %.0f): vignetting", 100 * fit.corner_falloff_sigma),
+       "let the camera or the raw developer correct it; choose samples near the centres"});
+}
+
+// Whatever else says: a photograph whose samples are all too bright or too dark.
 void JudgeExposuresByResiduals(const LightMeasurement& measured, std::vector<Finding>* findings) {
   std::map<int, std::vector<double>> of_photo;
   const std::vector<double>& residuals = measured.daylight_fit.residuals;
@@ -184,7 +241,10 @@ void JudgeSamples(const LightMeasurement& measured, std::vector<Finding>* findin
   }
   JudgeResiduals("haze", samples.haze, air.rms, air.residuals, air.over_sigma, environment.scene,
                  findings);
-  if (!JudgeStatedExposures(measured, findings)) JudgeExposuresByResiduals(measured, findings);
+  JudgeStatedExposures(measured, findings);
+  JudgeMeasuredExposures(measured, findings);
+  JudgeExposuresByResiduals(measured, findings);
+  JudgeFalloff(measured.exposure_fit, findings);
 }
 
 }  // namespace insitu

@@ -14,7 +14,10 @@
 #include "calibration/photo/exif.h"
 #include "calibration/photo/montage_files.h"
 #include "calibration/program/program.h"
+#include "radiometry/light_report.h"
+#include "radiometry/measure/photo_exposures.h"
 #include "radiometry/transport/cosine_directions.h"
+#include "renderer/photo_gain.h"
 #include "renderer/trace/interreflected_light.h"
 #include "renderer/trace/make_montage_scene.h"
 #include "renderer/trace/profile.h"
@@ -22,6 +25,8 @@
 
 namespace insitu {
 namespace {
+
+const Eigen::Vector3d kUnitGain = Eigen::Vector3d::Ones();
 
 // The photographs that are asked for, in the site's order.
 std::vector<std::filesystem::path> ChoosePhotographs(const SitePaths& site,
@@ -83,11 +88,16 @@ std::shared_ptr<const SurfaceTextures> LoadTextures(const SitePaths& site,
                                                  site.root / "work/textures", PixelAngle(natural));
 }
 
+// With its photographs in one unit.
 MontageScene LoadScene(const SitePaths& site, NaturalEnvironment natural,
+                       const std::vector<Eigen::Vector3d>& gains,
                        const ArtificialEnvironment& building) {
   const PhaseScope phase(Phase::kFiles);
   std::vector<Raster> images;
-  for (const InputImage& image : natural.input_images) images.push_back(ReadInputImage(image));
+  for (size_t i = 0; i < gains.size(); ++i) {
+    images.push_back(ReadInputImage(natural.input_images[i]));
+    if (gains[i] != kUnitGain) DivideByGain(gains[i], &images.back());
+  }
   auto textures = LoadTextures(site, natural, building);
   const PhaseScope shading(Phase::kShading);
   MontageScene scene = MakeMontageScene(std::move(natural), building, std::move(images));
@@ -97,8 +107,10 @@ MontageScene LoadScene(const SitePaths& site, NaturalEnvironment natural,
 
 struct View {
   PosedCamera camera;
-  ImageQuality quality;
+  ImageQuality quality;  // in the site's unit
   Photograph photo;
+  Eigen::Vector3d gain = kUnitGain;
+  Raster in_unit = {};  // the photograph over its gain; empty where that is 1
   std::shared_ptr<const Foreground> foreground = {};  // null: nothing stands in front
 };
 
@@ -135,12 +147,26 @@ Raster InPinhole(const Raster& share, const Camera& lens, const Camera& pinhole)
   return seen;
 }
 
+// Photograph and grain in the site's unit.
+void SetGain(const Eigen::Vector3d& gain, View* view) {
+  if (gain == kUnitGain) return;
+  view->gain = gain;
+  view->in_unit = view->photo.linear;
+  DivideByGain(gain, &view->in_unit);
+  if (auto& grain = view->quality.grain) grain = GrainInUnit(*grain, gain);
+}
+
+const Raster& InUnit(const View& view) {
+  return view.in_unit.data.empty() ? view.photo.linear : view.in_unit;
+}
+
 View LoadView(const SitePaths& site, const MontageScene& scene,
-              const std::filesystem::path& photograph, Frame frame) {
+              const std::vector<Eigen::Vector3d>& gains, const std::filesystem::path& photograph,
+              Frame frame) {
   const PhaseScope phase(Phase::kFiles);
   const NaturalEnvironment& natural = scene.natural;
   const size_t index = IndexOf(site, natural.scene, photograph.stem().string());
-  View view = {natural.scene.cameras[index], natural.qualities[index], {}, {}};
+  View view = {natural.scene.cameras[index], natural.qualities[index], {}};
   RequirePhotographSize(photograph, view.camera.camera.width(), view.camera.camera.height());
   view.photo = ReadPhotograph(photograph);
   const Camera lens = view.camera.camera;
@@ -151,12 +177,14 @@ View LoadView(const SitePaths& site, const MontageScene& scene,
       spread = InPinhole(*spread, lens, pinhole);
     }
     view.camera.camera = pinhole;
-    view.photo.linear = scene.input_images[index];
+    view.photo.linear = gains[index] == kUnitGain ? scene.input_images[index]
+                                                  : ReadInputImage(natural.input_images[index]);
     if (share) share = InPinhole(*share, lens, pinhole);
   }
+  SetGain(gains[index], &view);
   if (share) {
-    view.foreground = std::make_shared<const Foreground>(
-        SeparateForeground(view.photo.linear, std::move(*share)));
+    view.foreground =
+        std::make_shared<const Foreground>(SeparateForeground(InUnit(view), std::move(*share)));
   }
   return view;
 }
@@ -238,6 +266,18 @@ void RefuseMontage(const SitePaths& site, RenderSiteReport* report) {
       "(building/placement.json), or turn faces that look the wrong way");
 }
 
+// Where the photograph shows less than there was, what is drawn is a bound.
+void RemarkClipped(const RenderResult& result, std::vector<std::string>* remarks) {
+  const auto say = [&](long pixels, const char* what) {
+    if (pixels == 0) return;
+    remarks->push_back(std::to_string(pixels) + " pixels are clipped in the photograph and " +
+                       what +
+                       "; what they truly show is brighter: photograph shorter where that matters");
+  };
+  say(result.clipped_darkened, "darkened by the building, drawn as dark as they can be");
+  say(result.clipped_lifted, "lit by it, drawn as the least that they can be");
+}
+
 // Of the building in every photograph, by name, with its file in montages/.
 std::map<std::string, UncertaintySummary> WriteUncertainties(
     const SitePaths& site, const SceneGeometry& scene, const ArtificialEnvironment& building) {
@@ -262,7 +302,9 @@ std::vector<RenderSiteReport> RenderSite(const SitePaths& site, const RenderSite
   const std::vector<std::filesystem::path> photographs = ChoosePhotographs(site, options.photos);
   const ArtificialEnvironment building =
       options.with_building ? ReadArtificialEnvironment(site) : ArtificialEnvironment();
-  MontageScene scene = LoadScene(site, ReadEnvironment(site), building);
+  NaturalEnvironment natural = ReadEnvironment(site);
+  const std::vector<Eigen::Vector3d> gains = ReadPhotoGains(site);
+  MontageScene scene = LoadScene(site, std::move(natural), gains, building);
   if (!options.uniform_ambient) AddInterreflection(&scene, options.bounces);
   std::map<std::string, UncertaintySummary> uncertainties;
   if (options.with_building) {
@@ -279,7 +321,7 @@ std::vector<RenderSiteReport> RenderSite(const SitePaths& site, const RenderSite
       reports.push_back(std::move(report));
       continue;
     }
-    View view = LoadView(site, scene, photograph, options.frame);
+    View view = LoadView(site, scene, gains, photograph, options.frame);
     Progress progress(report.photo, TileCount(view.photo.linear));
     const auto start = std::chrono::steady_clock::now();
     const auto uncertainty = uncertainties.find(report.photo);
@@ -288,14 +330,19 @@ std::vector<RenderSiteReport> RenderSite(const SitePaths& site, const RenderSite
     if (options.sharpness == Sharpness::kMeasured) render.point_spread = view.quality.point_spread;
     if (options.with_grain) render.grain = view.quality.grain;
     render.foreground = view.foreground;
+    render.is_clipped = [&view](int x, int y) { return IsClipped(view.photo, x, y); };
     report.point_spread = render.point_spread;
     report.has_grain = render.grain.has_value();
-    report.result = RenderMontage(scene, view.camera, view.photo.linear, render,
-                                  [&progress] { progress.Step(); });
+    report.result =
+        RenderMontage(scene, view.camera, InUnit(view), render, [&progress] { progress.Step(); });
+    if (!view.in_unit.data.empty()) {
+      BackToPhotograph(view.photo.linear, view.in_unit, view.gain, &report.result.linear);
+    }
     report.seconds =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     report.remarks = WriteMontage(site, photograph, options.frame, std::move(view.photo),
                                   report.result, statement);
+    RemarkClipped(report.result, &report.remarks);
     reports.push_back(std::move(report));
   }
   return reports;

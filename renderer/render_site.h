@@ -44,7 +44,8 @@ struct RenderSiteReport {
   double seconds = 0;                             // rendering, files apart
   std::optional<UncertaintySummary> uncertainty;  // of the building's image; nullopt: no building
                                                   // in the frame, or no covariances
-  std::vector<std::string> remarks;               // what of the photograph could not be delivered
+  // What of the photograph could not be delivered, what of it is clipped and changed all the same.
+  std::vector<std::string> remarks;
   // Taken from within a solid of the building: nothing was rendered, and montages/ has none of it.
   bool is_within_building = false;
 };

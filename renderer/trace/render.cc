@@ -171,7 +171,16 @@ void SetLayers(float front, bool is_computed, float* layers) {
 
 struct Counts {
   std::atomic<long> building = 0, changed = 0, rays = 0;
+  std::atomic<long> clipped_darkened = 0, clipped_lifted = 0;
 };
+
+// The site's surface changes by its reflectance, of which a clipped pixel tells a lower bound.
+void CountClipped(const ViewWork& view, const Eigen::Vector3d& computed, int x, int y,
+                  Counts& counts) {
+  if (!view.options.is_clipped || !view.options.is_clipped(x, y)) return;
+  const bool is_darker = computed.sum() < view.photo.Rgb(x, y).sum();
+  ++(is_darker ? counts.clipped_darkened : counts.clipped_lifted);
+}
 
 // What the rays make of a pixel; nullopt: the photograph's stays.
 std::optional<Eigen::Vector3d> ComputedPixel(const ViewWork& view, const PixelSum& sum,
@@ -202,6 +211,7 @@ void RenderTile(const ViewWork& view, const Tile& tile, RenderResult& result, Co
       const auto computed = ComputedPixel(view, sum, outline.has_value(), x, y);
       if (!computed) continue;
       ++(sum.building_rays > 0 ? counts.building : counts.changed);
+      if (sum.building_rays == 0) CountClipped(view, *computed, x, y, counts);
       result.linear.SetRgb(x, y, *computed);
       SetLayers(front, true, result.layers.At(x, y));
     }
@@ -247,6 +257,8 @@ RenderResult RenderMontage(const MontageScene& scene, const PosedCamera& camera,
   });
   result.building_pixels = counts.building;
   result.changed_pixels = counts.changed;
+  result.clipped_darkened = counts.clipped_darkened;
+  result.clipped_lifted = counts.clipped_lifted;
   result.mean_rays = static_cast<double>(counts.rays) / (photo.width * photo.height);
   return result;
 }

@@ -25,6 +25,8 @@ struct RenderOptions {
   int outline_rays = 32;  // with a point spread: a pixel that the outline may spread into, at most
   std::optional<Grain> grain = {};  // noise that computed pixels get; nullopt: none
   std::shared_ptr<const Foreground> foreground = {};  // of this photograph; null: nothing in front
+  // Whether the photograph shows less than there was: its sensor clipped. Empty: nowhere.
+  std::function<bool(int x, int y)> is_clipped = {};
 
   void Check() const;  // throws CheckError that names the field that is wrong
 };
@@ -34,7 +36,9 @@ struct RenderResult {
   Raster layers;  // shares of each pixel: of the photograph, computed, and in front by the matte
   long building_pixels = 0;  // some ray hits the building
   long changed_pixels = 0;   // other pixels that differ from the photograph
-  double mean_rays = 0;      // a pixel
+  // Of these, clipped ones: drawn from a reflectance that is a lower bound.
+  long clipped_darkened = 0, clipped_lifted = 0;
+  double mean_rays = 0;  // a pixel
 };
 
 // `camera` and `photo` are one view: a photograph with its lens, or an input image with the

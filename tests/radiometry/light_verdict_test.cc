@@ -93,13 +93,39 @@ TEST_F(LightVerdictTest, SamplesOnAMirrorFail) {
   EXPECT_FALSE(Found("mirrors"));
 }
 
-TEST_F(LightVerdictTest, SamplesOfDifferentExposureFail) {
+TEST_F(LightVerdictTest, ExposuresThatExifAloneTellsFail) {
+  for (PhotoExposure& photo : light_.exposure_fit.photos) photo.points = 0;
   light_.exposures = {{0.01, 8, 100}, {0.005, 8, 100}};
   EXPECT_EQ(Found("by EXIF A got 1.0 EV more light than B"), Severity::kFail);
-  light_.exposures[1].iso = 200;
-  EXPECT_FALSE(Found("exposure"));
-  light_.exposures[1].iso = 180;
-  EXPECT_EQ(Found("exposure"), Severity::kReview);
+  light_.exposure_fit.photos[1].gain.setConstant(0.5);  // brought to the unit
+  light_.exposure_fit.photos[1].measured = 0.5;
+  EXPECT_FALSE(Found("by EXIF A got"));
+  light_.exposures[1].iso = 90;
+  EXPECT_EQ(Found("by EXIF A got 0.2 EV more light than B"), Severity::kReview);
+}
+
+TEST_F(LightVerdictTest, MeasuredExposuresAreTold) {
+  ASSERT_EQ(light_.exposure_fit.photos.size(), 2U);
+  PhotoExposure& photo = light_.exposure_fit.photos[1];
+  photo.gain.setConstant(2);
+  photo.measured = 2;
+  photo.sigma = 0.01;
+  photo.points = 900;
+  EXPECT_EQ(Found("brought to one unit (1): B by +1.00 EV +- 0.01"), Severity::kNote);
+  photo.sigma = 0.1;
+  EXPECT_EQ(Found("known badly (1): B"), Severity::kReview);
+  photo.by_exif = 1;
+  photo.sigma = 0.2;
+  EXPECT_FALSE(Found("darker than EXIF says"));  // not surely
+  photo.sigma = 0.01;
+  EXPECT_EQ(Found("darker than EXIF says (1): B by +1.0 EV"), Severity::kReview);
+  photo.white_balance = {1.2, 1, 0.9};
+  photo.gain = 2 * photo.white_balance;
+  EXPECT_EQ(Found("another white balance, brought to one (1): B (red 1.20, blue 0.90)"),
+            Severity::kNote);
+  light_.exposure_fit.corner_falloff = -0.2;
+  light_.exposure_fit.corner_falloff_sigma = 0.01;
+  EXPECT_EQ(Found("corners are -18 %"), Severity::kReview);
 }
 
 TEST_F(LightVerdictTest, WithoutExifResidualsTellAPhotographOfAnotherExposure) {

@@ -63,6 +63,28 @@ TEST_P(BinsTest, MeasureDaylightFindsTheTruth) {
   EXPECT_LT(measured.daylight_fit.rms, 0.5);
 }
 
+// One photograph a stop brighter than the other: in one unit the light is what it was.
+TEST(MeasureDaylight, PhotographsOfDifferentExposureAreBroughtToOneUnit) {
+  const SyntheticSite truth = MakeSyntheticSite("exposures");
+  LightOptions options;
+  options.uniform_ambient = true;  // as the site has it
+  const LightMeasurement alike = MeasureDaylight(truth.site, options);
+  EXPECT_TRUE(alike.exposure_fit.photos[0].IsOne() && alike.exposure_fit.photos[1].IsOne());
+  WriteEnvironment(truth.site, alike);
+  EXPECT_EQ(ReadPhotoGains(truth.site)[1], Eigen::Vector3d(1, 1, 1));
+  Raster brighter = ReadPhotograph(truth.site.photos() / "B.exr").linear;
+  for (float& value : brighter.data) value *= 2;
+  WriteExr(truth.site.photos() / "B.exr", brighter);
+  const LightMeasurement measured = MeasureDaylight(truth.site, options);
+  EXPECT_NEAR(measured.exposure_fit.photos[1].gain.y(), 2, 0.02);
+  EXPECT_LT(RelativeError(SunIrradianceRgb(measured.environment), truth.sun_irradiance), 0.01);
+  const Eigen::Vector3d tau = truth.transmittance.array().pow(200);
+  EXPECT_LT((TransmittanceRgb(measured.environment, 200) - tau).cwiseAbs().maxCoeff(), 0.01);
+  WriteEnvironment(truth.site, measured);
+  EXPECT_EQ(ReadPhotoGains(truth.site)[0], Eigen::Vector3d(1, 1, 1));
+  EXPECT_EQ(ReadPhotoGains(truth.site)[1], measured.exposure_fit.photos[1].gain);
+}
+
 TEST(MeasureDaylight, PolygonsThatLieOnEachOtherDoNotShadeEachOther) {
   const SyntheticSite truth = MakeSyntheticSite("coplanar");
   LightOptions options;

@@ -121,6 +121,50 @@ TEST_F(RenderSiteTest, RefusesAPhotographTakenFromWithinTheBuilding) {
   EXPECT_FALSE(RenderSite(site_, {})[0].is_within_building);
 }
 
+// White lawn: how bright it is behind the sensor's highest code, nobody knows.
+TEST_F(RenderSiteTest, SaysWhereItDarkensWhatIsClipped) {
+  EXPECT_EQ(RenderSite(site_, {})[0].result.clipped_darkened, 0);
+  std::ranges::fill(small_.photo.data, 1.0F);
+  std::filesystem::remove(site_.photos() / "photo.exr");
+  WritePng(site_.photos() / "photo.png", small_.photo, Encoding::kSrgb8);
+  WriteExr(site_.input_image("photo"), small_.photo);
+  const RenderSiteReport report = RenderSite(site_, {})[0];
+  EXPECT_GT(report.result.clipped_darkened, 10);
+  EXPECT_LE(report.result.clipped_darkened + report.result.clipped_lifted,
+            report.result.changed_pixels);
+  ASSERT_FALSE(report.remarks.empty());
+  EXPECT_THAT(report.remarks[0], HasSubstr(std::to_string(report.result.clipped_darkened) +
+                                           " pixels are clipped in the photograph and darkened"));
+}
+
+// The same site photographed with a stop and a half more: the montage is that much brighter, and
+// what the building does not touch is the photograph.
+TEST_F(RenderSiteTest, APhotographOfAnotherExposureStaysInItsOwn) {
+  const Raster usual = RenderSite(site_, {})[0].result.linear;
+  Json::Value environment = ReadJson(site_.environment());
+  const Eigen::Vector3d gain(2.8, 2.8, 2.6);
+  environment["scene"]["cameras"][0]["exposure"] = ToJson(gain);
+  WriteJson(site_.environment(), environment);
+  Raster brighter = small_.photo;
+  for (size_t i = 0; i < brighter.data.size(); ++i) {
+    brighter.data[i] *= static_cast<float>(gain[static_cast<int>(i % 3)]);
+  }
+  WriteExr(site_.input_image("photo"), brighter);
+  WriteExr(site_.photos() / "photo.exr", brighter);
+  for (const Frame frame : {Frame::kPhoto, Frame::kPinhole}) {
+    RenderSiteOptions options;
+    options.frame = frame;
+    const RenderResult result = RenderSite(site_, options)[0].result;
+    EXPECT_GT(result.building_pixels, 100);
+    int untouched = 0;
+    for (size_t i = 0; i < usual.data.size(); ++i) {
+      EXPECT_NEAR(result.linear.data[i], usual.data[i] * gain[static_cast<int>(i % 3)], 0.02);
+      untouched += result.linear.data[i] == brighter.data[i];
+    }
+    EXPECT_GT(untouched, 100);
+  }
+}
+
 TEST_F(RenderSiteTest, WhatIsMissingNamesItsProgram) {
   std::filesystem::remove(site_.input_image("photo"));
   EXPECT_THAT(Complaint(), HasSubstr("insitu-undistort"));
