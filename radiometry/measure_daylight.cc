@@ -165,6 +165,9 @@ std::vector<LightGeometry> TraceLight(const std::vector<SurfacePoint>& points, c
 
 Spectrum SampleBrdf(const LightSamples& samples, const SpectralBasis& spectra,
                     std::vector<Sentence>* warnings) {
+  if (samples.reflectance_table) {
+    return Sampled(*samples.reflectance_table, spectra.bins()) / std::numbers::pi;
+  }
   if (samples.daylight_reflectance) {
     return spectra.ReflectanceFromRgb(*samples.daylight_reflectance) / std::numbers::pi;
   }
@@ -257,6 +260,13 @@ void WarnOfUnseen(const LightMeasurement& measured, const std::vector<double>& u
                                {{"samples", names}}));
 }
 
+DaylightFitOptions FitOptions(const LightMeasurement& measured, const LightOptions& options) {
+  const auto& table = measured.samples.daylight_spectrum;
+  const SpectralBins& bins = measured.environment.spectra.bins();
+  return {options.average_over_wavelength,
+          table ? std::optional(Sampled(*table, bins)) : std::nullopt};
+}
+
 // Eq. (9) with photographed surroundings: what no photograph shows of them depends on the light,
 // so the two take turns.
 DaylightFit FitInSurroundings(const LightMeasurement& measured,
@@ -290,7 +300,7 @@ DaylightFit FitInSurroundings(const LightMeasurement& measured,
     samples = bare;
     SetSurroundings(interreflection, points, brdf, &samples, &unseen);
     fit = FitDaylight(samples, brdf, has_sun, environment.spectra.bins(),
-                      {options.average_over_wavelength});
+                      FitOptions(measured, options));
     light.sun_radiance = fit.sun_radiance;
     light.sky_radiance = fit.sky_radiance + fit.ambient_radiance;
   }
@@ -312,13 +322,17 @@ void MeasureLightComponents(const std::vector<Photograph>& photos, const LightOp
   const Spectrum brdf = SampleBrdf(measured->samples, environment.spectra, &measured->warnings);
   DaylightFit& fit = measured->daylight_fit;
   fit = options.uniform_ambient ? FitDaylight(samples, brdf, has_sun, environment.spectra.bins(),
-                                              {options.average_over_wavelength})
+                                              FitOptions(*measured, options))
                                 : FitInSurroundings(*measured, photos, points, brdf, options,
                                                     samples, &measured->warnings);
   light.sun_radiance = fit.sun_radiance;
   light.ambient_radiance = fit.ambient_radiance;
   light.sky_radiance = fit.sky_radiance;
   WarnOfWeakSamples(*measured, has_sun, samples, &measured->warnings);
+}
+
+bool KnowsReflectance(const LightSamples& samples) {
+  return samples.daylight_reflectance || samples.reflectance_table;
 }
 
 LightMeasurement WithoutSamples(const SitePaths& site, SceneGeometry scene,
@@ -371,7 +385,7 @@ LightMeasurement MeasureDaylight(const SitePaths& site, const LightOptions& opti
   environment.qualities = MeasureQualities(photos, environment.scene, &progress);
   measured.samples = ReadSamples(site, environment.scene, photos);
   progress.Step();
-  measured.reflectance_known = measured.samples.daylight_reflectance.has_value();
+  measured.reflectance_known = KnowsReflectance(measured.samples);
   measured.air_fit = MeasureAir(measured.samples, environment.spectra, &measured.warnings);
   environment.air = measured.air_fit.air;
   progress.Step();
@@ -386,7 +400,7 @@ LightMeasurement MeasureDaylightSoFar(const SitePaths& site, const SceneGeometry
   LightMeasurement measured = WithoutSamples(site, scene, options);
   measured.samples = ReadSamples(site, scene, photos, {}, left_out);
   RequireEnough(site, &measured.samples, left_out);
-  measured.reflectance_known = measured.samples.daylight_reflectance.has_value();
+  measured.reflectance_known = KnowsReflectance(measured.samples);
   measured.air_fit = MeasureAir(measured.samples, measured.environment.spectra, &measured.warnings);
   measured.environment.air = measured.air_fit.air;
   MeasureLightComponents(photos, options, &measured);

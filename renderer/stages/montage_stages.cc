@@ -5,6 +5,7 @@
 
 #include "calibration/files/error.h"
 #include "calibration/site_cameras.h"
+#include "radiometry/library/material_library.h"
 #include "reconstruction/tie_points_site.h"
 
 namespace insitu {
@@ -101,6 +102,7 @@ Paths LightInputs(const MontageRequest& request) {
   const SitePaths& site = request.site;
   Paths inputs = {site.scene(), site.photos(), site.description(), site.survey() / "samples.json",
                   site.survey() / "materials.json"};
+  inputs += LibraryFolders(site);
   for (const std::string& camera : CamerasOf(ListCameraFolders(site))) {
     inputs.push_back(site.pinhole_camera(camera));
   }
@@ -110,7 +112,8 @@ Paths LightInputs(const MontageRequest& request) {
 // The survey and the scene tell where the site is, which the building is checked against.
 Paths ConversionInputs(const MontageRequest& request) {
   const SitePaths& site = request.site;
-  return {site.building(), site.survey() / "control_points.csv", site.scene()};
+  Paths inputs = {site.building(), site.survey() / "control_points.csv", site.scene()};
+  return inputs += LibraryFolders(site);
 }
 
 Paths Building(const MontageRequest& request) {
@@ -129,7 +132,8 @@ Paths RenderInputs(const MontageRequest& request) {
 Paths Montages(const MontageRequest& request) {
   Paths montages;
   for (const fs::path& photo : ListPhotographs(request.site)) {
-    for (const char* ending : {".exr", ".png", ".jpg", ".layers.exr", ".uncertainty.csv"}) {
+    for (const char* ending :
+         {".exr", ".png", ".jpg", ".layers.exr", ".uncertainty.csv"}) {
       montages.push_back(request.site.montages() / (photo.stem().string() + ending));
     }
   }
