@@ -124,7 +124,7 @@ Paths Building(const MontageRequest& request) {
 Paths RenderInputs(const MontageRequest& request) {
   const SitePaths& site = request.site;
   Paths inputs = {site.environment(), site.input_image("").parent_path(), site.photos(),
-                  site.survey() / "foreground"};
+                  site.survey() / "foreground", site.survey() / "shadows"};
   if (request.with_building) inputs.push_back(site.building());  // textures
   return inputs += Building(request);
 }
@@ -133,7 +133,7 @@ Paths Montages(const MontageRequest& request) {
   Paths montages;
   for (const fs::path& photo : ListPhotographs(request.site)) {
     for (const char* ending :
-         {".exr", ".png", ".jpg", ".layers.exr", ".uncertainty.csv"}) {
+         {".exr", ".png", ".jpg", ".layers.exr", ".shadows.exr", ".uncertainty.csv"}) {
       montages.push_back(request.site.montages() / (photo.stem().string() + ending));
     }
   }

@@ -25,6 +25,9 @@ struct RenderOptions {
   int outline_rays = 32;  // with a point spread: a pixel that the outline may spread into, at most
   std::optional<Grain> grain = {};  // noise that computed pixels get; nullopt: none
   std::shared_ptr<const Foreground> foreground = {};  // of this photograph; null: nothing in front
+  // One channel of the photograph's size: of the sun that no polygon keeps away, what it shows to
+  // arrive, 0..1; null: all.
+  std::shared_ptr<const Raster> sun_share = {};
 
   void Check() const;  // throws CheckError that names the field that is wrong
 };
