@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// survey/foreground/<photo>.png: which part of each pixel something in front of the building
-// covers.
+// Pictures that a person draws over a photograph: survey/foreground/<photo>.png, which part of each
+// pixel something in front of the building covers, and survey/shadows/<photo>.png, which part of
+// the sun reaches what is seen there.
 #pragma once
 
 #include <optional>
@@ -17,7 +18,12 @@ namespace insitu {
 std::optional<Raster> ReadForegroundMatte(const SitePaths& site, const std::string& photo,
                                           int width, int height);
 
-// Files in survey/foreground/ that belong to no photograph, a line each.
-std::vector<std::string> UnreadForegroundFiles(const SitePaths& site);
+// The same of survey/shadows/: 0 where something that no polygon stands for keeps the sun away, 1
+// where nothing does.
+std::optional<Raster> ReadShadowPicture(const SitePaths& site, const std::string& photo, int width,
+                                        int height);
+
+// Files in these two folders that belong to no photograph, a line each.
+std::vector<std::string> UnreadDrawings(const SitePaths& site);
 
 }  // namespace insitu

@@ -69,11 +69,16 @@ void AddLight(const LightMeasurement& measured, Json::Value* light) {
   const Daylight& daylight = environment.light;
   const DaylightFit& fit = measured.daylight_fit;
   Json::Value& json = *light;
-  // The paper's: one k for all wavelengths, and L that of D65. [Durisch92, §4.3, §7]
-  json["relative_spectrum"] = BinsJson(IlluminantD65(spectra.bins()), spectra.bins());
-  json["k_s"] = WeightOfD65(daylight.sun_radiance, spectra.bins());
-  json["k_u"] = WeightOfD65(daylight.ambient_radiance, spectra.bins());
-  json["k_h"] = WeightOfD65(daylight.sky_radiance, spectra.bins());
+  // The paper's: one k for all wavelengths, and L that of D65 or as stated. [Durisch92, §4.3, §7]
+  const auto& table = measured.samples.daylight_spectrum;
+  const Spectrum relative = table ? Sampled(*table, spectra.bins()) : IlluminantD65(spectra.bins());
+  json["relative_spectrum"] = BinsJson(relative, spectra.bins());
+  const auto weight = [&](const Spectrum& radiance) {
+    return Tristimulus(radiance, spectra.bins()).y() / Tristimulus(relative, spectra.bins()).y();
+  };
+  json["k_s"] = weight(daylight.sun_radiance);
+  json["k_u"] = weight(daylight.ambient_radiance);
+  json["k_h"] = weight(daylight.sky_radiance);
   json["sun_radiance_sigma"] = BinsJson(fit.sun_sigma, spectra.bins());
   json["sun_irradiance_rgb"] = ToJson(SunIrradianceRgb(environment));
   json["ambient_radiance_sigma"] = BinsJson(fit.ambient_sigma, spectra.bins());

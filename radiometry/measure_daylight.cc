@@ -172,6 +172,9 @@ std::vector<LightGeometry> TraceLight(const std::vector<SurfacePoint>& points, c
 
 Spectrum SampleBrdf(const LightSamples& samples, const SpectralBasis& spectra,
                     std::vector<Sentence>* warnings) {
+  if (samples.reflectance_table) {
+    return Sampled(*samples.reflectance_table, spectra.bins()) / std::numbers::pi;
+  }
   if (samples.daylight_reflectance) {
     return spectra.ReflectanceFromRgb(*samples.daylight_reflectance) / std::numbers::pi;
   }
@@ -226,6 +229,13 @@ void SetSurroundings(const Interreflection& interreflection,
   }
 }
 
+DaylightFitOptions FitOptions(const LightMeasurement& measured, const LightOptions& options) {
+  const auto& table = measured.samples.daylight_spectrum;
+  const SpectralBins& bins = measured.environment.spectra.bins();
+  return {options.average_over_wavelength,
+          table ? std::optional(Sampled(*table, bins)) : std::nullopt};
+}
+
 // Eq. (9) with photographed surroundings: what no photograph shows of them depends on the light,
 // so the two take turns.
 void FitInSurroundings(const std::vector<Photograph>& photos,
@@ -257,7 +267,7 @@ void FitInSurroundings(const std::vector<Photograph>& photos,
     SetSurroundings(interreflection, points, measured->brdf, &measured->daylight,
                     &measured->unseen);
     fit = FitDaylight(measured->daylight, measured->brdf, has_sun, environment.spectra.bins(),
-                      {options.average_over_wavelength});
+                      FitOptions(*measured, options));
     light.sun_radiance = fit.sun_radiance;
     light.sky_radiance = fit.sky_radiance + fit.ambient_radiance;
   }
@@ -272,11 +282,15 @@ double BrightestOf(const std::vector<Photograph>& photos) {
   return brightest;
 }
 
+bool KnowsReflectance(const LightSamples& samples) {
+  return samples.daylight_reflectance || samples.reflectance_table;
+}
+
 // From the samples.
 void MeasureAirAndLight(const SitePaths& site, const std::vector<Photograph>& photos,
                         const LightOptions& options, LightMeasurement* measured) {
   NaturalEnvironment& environment = measured->environment;
-  measured->reflectance_known = measured->samples.daylight_reflectance.has_value();
+  measured->reflectance_known = KnowsReflectance(measured->samples);
   MeasureAir(measured);
   Daylight& light = environment.light;
   light = IlluminationGeometry(environment.scene, options.polar_facets);
@@ -293,7 +307,7 @@ void MeasureAirAndLight(const SitePaths& site, const std::vector<Photograph>& ph
   DaylightFit& fit = measured->daylight_fit;
   if (options.uniform_ambient) {
     fit = FitDaylight(measured->daylight, measured->brdf, has_sun, environment.spectra.bins(),
-                      {options.average_over_wavelength});
+                      FitOptions(*measured, options));
   } else {
     FitInSurroundings(photos, points, options, measured);
   }

@@ -65,7 +65,8 @@ class Converter {
       : site_(site),
         options_(options),
         file_(site.building() / "materials.json"),
-        materials_(BuildingMaterials::Read(file_)) {}
+        library_(LibraryFolders(site)),
+        materials_(BuildingMaterials::Read(file_, library_)) {}
 
   void Add(const fs::path& path);
   Conversion Finish();
@@ -87,6 +88,7 @@ class Converter {
   SitePaths site_;
   ConvertOptions options_;
   fs::path file_;
+  MaterialLibrary library_;
   BuildingMaterials materials_;
   ModelMesh mesh_;
   std::map<const BuildingMaterial*, int> index_of_material_;
@@ -254,6 +256,11 @@ void Converter::WarnOfMaterials() {
     Warn(file_, "not listed, shown in the model's own colour: " + Listed(own_color_));
   }
   if (!hidden_.empty()) Warn(file_, "hidden: " + Listed(hidden_));
+  const std::vector<std::string> proposed = materials_.Proposed();
+  if (!proposed.empty()) {
+    Warn(file_, "proposed and not taken, which \"use\" in the place of \"proposed\" does: " +
+                    Listed(std::set<std::string>(proposed.begin(), proposed.end())));
+  }
   for (const std::string& name : materials_.Unused()) {
     Warn(file_,
          name + " is listed but decides no face: materials go before blocks, those before layers");
@@ -298,7 +305,7 @@ Conversion Converter::Finish() {
     Warn(site_.building(), suspicion);
   }
   const fs::path lights = site_.building() / "lights.json";
-  if (fs::exists(lights)) environment.lights = ReadLights(lights);
+  if (fs::exists(lights)) environment.lights = ReadLights(lights, library_);
   return std::move(conversion_);
 }
 

@@ -74,9 +74,11 @@ int RunRender(int argc, char** argv) {
   app.footer(
       "Example: insitu-render path/to/site --photo IMG_2102\n"
       "Reads work/environment.json, work/building.json, work/input_images/ and what\n"
-      "stands in front, survey/foreground/<photo>.png (white: in front);\n"
+      "stands in front, survey/foreground/<photo>.png (white: in front), and where something\n"
+      "keeps the sun away, survey/shadows/<photo>.png (black), which is found if it is not there;\n"
       "writes montages/<photo>.exr, .png and .jpg, and .layers.exr: the shares of the\n"
-      "photograph (red), computed (green) and in front (blue).");
+      "photograph (red), computed (green) and in front (blue); and .shadows.exr: the share of\n"
+      "the sun that the photograph shows to arrive (red) and its standard deviation (green).");
   SitePaths site;
   RenderSiteOptions options;
   bool no_building = false, timing = false;
@@ -89,6 +91,8 @@ int RunRender(int argc, char** argv) {
       ->capture_default_str();
   app.add_flag("--uniform-ambient", options.uniform_ambient,
                "the paper's ambient light, alike everywhere, instead of light among surfaces");
+  app.add_flag("!--no-shadow-search", options.find_shadows,
+               "take what no polygon shades as lit by the sun, whatever the photograph shows");
   app.add_option("--reach", options.render.reach,
                  "change in 8-bit codes up to which the photograph's pixel stays")
       ->check(CLI::NonNegativeNumber)
@@ -105,7 +109,7 @@ int RunRender(int argc, char** argv) {
   return RunProgram(app, argc, argv, [&] {
     options.with_building = !no_building;
     const auto profile = timing ? std::make_unique<Profile>() : nullptr;
-    std::fputs(WarningLines(UnreadForegroundFiles(site)).c_str(), stdout);
+    std::fputs(WarningLines(UnreadDrawings(site)).c_str(), stdout);
     for (const RenderSiteReport& report : RenderSite(site, options)) {
       PrintReport(report);
       if (!report.is_within_building) PrintQuality(report, options);

@@ -18,6 +18,7 @@
 #include "radiometry/measure/photo_exposures.h"
 #include "radiometry/transport/cosine_directions.h"
 #include "renderer/photo_gain.h"
+#include "renderer/shadows/existing_shadows.h"
 #include "renderer/trace/interreflected_light.h"
 #include "renderer/trace/make_montage_scene.h"
 #include "renderer/trace/profile.h"
@@ -112,6 +113,7 @@ struct View {
   Eigen::Vector3d gain = kUnitGain;
   Raster in_unit = {};  // the photograph over its gain; empty where that is 1
   std::shared_ptr<const Foreground> foreground = {};  // null: nothing stands in front
+  std::optional<Raster> drawn_shadows = {};           // one channel, as SunShares::share
 };
 
 // Pixels of a pinhole for one of its photograph, at a pixel of the photograph.
@@ -171,6 +173,8 @@ View LoadView(const SitePaths& site, const MontageScene& scene,
   view.photo = ReadPhotograph(photograph);
   const Camera lens = view.camera.camera;
   auto share = ReadForegroundMatte(site, photograph.stem().string(), lens.width(), lens.height());
+  view.drawn_shadows =
+      ReadShadowPicture(site, photograph.stem().string(), lens.width(), lens.height());
   if (frame == Frame::kPinhole) {
     const Camera& pinhole = natural.input_images[index].camera;
     if (auto& spread = view.quality.point_spread) {
@@ -180,6 +184,7 @@ View LoadView(const SitePaths& site, const MontageScene& scene,
     view.photo.linear = gains[index] == kUnitGain ? scene.input_images[index]
                                                   : ReadInputImage(natural.input_images[index]);
     if (share) share = InPinhole(*share, lens, pinhole);
+    if (view.drawn_shadows) view.drawn_shadows = InPinhole(*view.drawn_shadows, lens, pinhole);
   }
   SetGain(gains[index], &view);
   if (share) {
@@ -187,6 +192,39 @@ View LoadView(const SitePaths& site, const MontageScene& scene,
         std::make_shared<const Foreground>(SeparateForeground(InUnit(view), std::move(*share)));
   }
   return view;
+}
+
+// Which part of the sun the photograph shows to arrive; nullopt: nobody has drawn it, and it is not
+// looked for.
+std::optional<SunShares> SunSharesOf(const MontageScene& scene, const View& view,
+                                     const RenderSiteOptions& options) {
+  if (view.drawn_shadows) {
+    const Raster& drawn = *view.drawn_shadows;
+    return SunShares{drawn, Raster(drawn.width, drawn.height, 1)};
+  }
+  if (!options.find_shadows || !options.with_building || !scene.interreflected) {
+    return std::nullopt;
+  }
+  return FindExistingShadows(scene, view.camera, InUnit(view), view.foreground.get());
+}
+
+// Upright, as the montage's EXR is; what an earlier run has left goes.
+void WriteSunShares(const SitePaths& site, const std::filesystem::path& photograph,
+                    const std::optional<SunShares>& shares) {
+  const std::filesystem::path file =
+      site.montages() / (photograph.stem().string() + ".shadows.exr");
+  if (!shares) {
+    std::filesystem::remove(file);
+    return;
+  }
+  Raster picture(shares->share.width, shares->share.height);
+  for (size_t i = 0; i < shares->share.data.size(); ++i) {
+    picture.data[3 * i] = shares->share.data[i];
+    picture.data[3 * i + 1] = shares->sigma.data[i];
+  }
+  const CodedPhotograph upright =
+      Upright(CodesOf(picture, Encoding::kLinear, {}), ReadOrientation(photograph));
+  WriteWhole(file, [&](const std::filesystem::path& temporary) { WriteCodes(temporary, upright); });
 }
 
 // Of all files of survey/, by their names and contents; "" if there are none.
@@ -331,6 +369,9 @@ std::vector<RenderSiteReport> RenderSite(const SitePaths& site, const RenderSite
     if (options.with_grain) render.grain = view.quality.grain;
     render.foreground = view.foreground;
     render.is_clipped = [&view](int x, int y) { return IsClipped(view.photo, x, y); };
+    const std::optional<SunShares> shares = SunSharesOf(scene, view, options);
+    if (shares) render.sun_share = std::make_shared<const Raster>(shares->share);
+    WriteSunShares(site, photograph, shares);
     report.point_spread = render.point_spread;
     report.has_grain = render.grain.has_value();
     report.result =

@@ -30,6 +30,9 @@ struct RenderSiteOptions {
   RenderOptions render;             // point spread and grain apart: each photograph has its own
   Sharpness sharpness = Sharpness::kMeasured;
   bool with_grain = false;
+  // Shadows of what no polygon stands for are looked for in the photographs; not with
+  // uniform_ambient, nor where somebody has drawn them.
+  bool find_shadows = true;
   bool uniform_ambient = false;     // the paper's light as printed, instead of light among surfaces
   std::optional<int> bounces = {};  // of light among surfaces, at most; 0: sun and sky alone
 
@@ -51,14 +54,14 @@ struct RenderSiteReport {
 };
 
 // Reads work/environment.json and the input images that it names, work/building.json and its
-// textures, the photographs to render into and survey/foreground/, of the rest of
+// textures, the photographs to render into, survey/foreground/ and survey/shadows/, of the rest of
 // survey/ only the hash; writes montages/<photo>.exr, .png and .jpg, .tif of a TIFF
 // (montage_files.h); in <photo>.layers.exr which share of each pixel is the
-// photograph's (red), computed (green), in front by the matte (blue); and how well the building's
-// corners are known in <photo>.uncertainty.csv. Keeps the
-// textures in linear light in work/textures/. Throws InputError: a stage before is missing, an
-// unknown photo, a texture that is not there, a photograph or matte whose size is not its camera's,
-// a matte that is not grey.
+// photograph's (red), computed (green), in front by the matte (blue); in <photo>.shadows.exr which
+// share of the sun it shows to arrive (red), and its standard deviation (green); and how well the
+// building's corners are known in <photo>.uncertainty.csv. Keeps the textures in linear light in
+// work/textures/. Throws InputError: a stage before is missing, an unknown photo, a texture that is
+// not there, a photograph or matte whose size is not its camera's, a matte that is not grey.
 std::vector<RenderSiteReport> RenderSite(const SitePaths& site, const RenderSiteOptions& options);
 
 }  // namespace insitu

@@ -152,10 +152,13 @@ DaylightFit SolveBins(const std::vector<DaylightSample>& samples, const Spectrum
   return fit;
 }
 
-// The paper's k, one for all wavelengths, times its L, which is D65 as in §7. The mean over the
-// spectrum is weighted by what the eye makes of D65, so that the luminance stays as measured.
-Spectrum AverageOverWavelength(const Spectrum& radiance, const SpectralBins& bins) {
-  return WeightOfD65(radiance, bins) * IlluminantD65(bins);
+// The paper's k, one for all wavelengths, times its L, which is D65 as in §7 unless another is
+// given. The mean over the spectrum is weighted by what the eye makes of L, so that the luminance
+// stays as measured.
+Spectrum AverageOverWavelength(const Spectrum& radiance, const Spectrum& relative_spectrum,
+                               const SpectralBins& bins) {
+  return relative_spectrum *
+         (Tristimulus(radiance, bins).y() / Tristimulus(relative_spectrum, bins).y());
 }
 
 Spectrum ModelRadiance(const DaylightFit& fit, const Spectrum& brdf, const DaylightSample& sample) {
@@ -230,9 +233,10 @@ DaylightFit FitDaylight(const std::vector<DaylightSample>& samples, const Spectr
   SetResiduals(samples, brdf, bins, &fit);
   if (has_surroundings) SpreadSurroundings(samples, &fit);
   if (options.average_over_wavelength) {
+    const Spectrum relative = options.relative_spectrum.value_or(IlluminantD65(bins));
     for (Spectrum* part : {&fit.sun_radiance, &fit.ambient_radiance, &fit.sky_radiance,
                            &fit.sun_sigma, &fit.ambient_sigma, &fit.sky_sigma}) {
-      *part = AverageOverWavelength(*part, bins);
+      *part = AverageOverWavelength(*part, relative, bins);
     }
   }
   return fit;

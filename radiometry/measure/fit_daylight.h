@@ -23,6 +23,7 @@ struct DaylightSample {
 
 struct DaylightFitOptions {
   bool average_over_wavelength = false;  // the paper's one spectrum for all three components
+  std::optional<Spectrum> relative_spectrum = std::nullopt;  // that one; nullopt: D65
 };
 
 struct DaylightFit {

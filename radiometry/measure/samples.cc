@@ -6,6 +6,7 @@
 #include <exception>
 
 #include "calibration/files/json_file.h"
+#include "radiometry/library/material_library.h"
 #include "reconstruction/geometry/ray_scene.h"
 
 namespace insitu {
@@ -269,6 +270,31 @@ Eigen::Vector3d ReadReflectance(const JsonNode& node) {
   return rgb;
 }
 
+SpectralTable ReadMaterialTable(const MaterialLibrary& library, const JsonNode& name) {
+  const LibraryEntry& entry = library.Material(name);
+  SpectralTable table = ReflectanceOf(entry);
+  RequireVisibleRange(table, name);
+  const auto is_dark = [](const Eigen::Vector2d& row) { return row.y() <= 0; };
+  if (std::ranges::any_of(table, is_dark)) {
+    throw name.Error("reflects nothing at some wavelength, expected values above 0");
+  }
+  return table;
+}
+
+// What the file says of the samples' material and of the light on it.
+void ReadSpectra(const SitePaths& site, const JsonNode& file, LightSamples* samples) {
+  const auto rgb = file.Find("daylight_reflectance_rgb"), material = file.Find("daylight_material");
+  const auto spectrum = file.Find("daylight_spectrum");
+  if (rgb && material) {
+    throw material->Error("stands beside daylight_reflectance_rgb, expected one of them");
+  }
+  if (rgb) samples->daylight_reflectance = ReadReflectance(*rgb);
+  if (!material && !spectrum) return;
+  const MaterialLibrary library(LibraryFolders(site));
+  if (material) samples->reflectance_table = ReadMaterialTable(library, *material);
+  if (spectrum) samples->daylight_spectrum = SpectrumOfLamp(library, *spectrum);
+}
+
 }  // namespace
 
 void SampleOptions::Check() const { INSITU_CHECK(radius >= 0); }
@@ -299,10 +325,7 @@ LightSamples ReadSamples(const SitePaths& site, const SceneGeometry& scene,
     const auto daylight = FindList(file, "daylight", faults);
     if (daylight) samples.daylight = read(*daylight, 3, ReadSurfaceSample);
   });
-  gathered.Try([&] {
-    const auto reflectance = file.Find("daylight_reflectance_rgb");
-    if (reflectance) samples.daylight_reflectance = ReadReflectance(*reflectance);
-  });
+  gathered.Try([&] { ReadSpectra(site, file, &samples); });
   gathered.ThrowIfAny(site.survey() / "samples.json");
   return samples;
 }

@@ -306,8 +306,9 @@ class List {
                    {{"count", 3 - static_cast<int>(Count("daylight"))}}),
           Sentence("whyDaylight", "sun, sky and ambient light are told apart by them"), "light");
     }
-    const bool has_card = !input_.tables["light"].empty() &&
-                          input_.tables["light"][0].isMember("daylight_reflectance_rgb");
+    const Json::Value& light = input_.tables["light"];
+    const bool has_card = !light.empty() && (light[0].isMember("daylight_reflectance_rgb") ||
+                                             light[0].isMember("daylight_material"));
     if (Count("daylight") > 0 && !has_card) {
       Advise(Sentence("doReflectance", "the reflectance of the daylight samples' material"),
              Sentence("whyReflectance",

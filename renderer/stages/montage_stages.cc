@@ -6,6 +6,7 @@
 #include "calibration/files/error.h"
 #include "calibration/program/report_paths.h"
 #include "calibration/site_cameras.h"
+#include "radiometry/library/material_library.h"
 #include "reconstruction/tie_points_site.h"
 
 namespace insitu {
@@ -107,6 +108,7 @@ Paths LightInputs(const MontageRequest& request) {
                   site.survey() / "samples.json",
                   site.survey() / "materials.json",
                   site.survey() / "foreground"};
+  inputs += LibraryFolders(site);
   for (const std::string& camera : CamerasOf(ListCameraFolders(site))) {
     inputs.push_back(site.pinhole_camera(camera));
   }
@@ -116,7 +118,8 @@ Paths LightInputs(const MontageRequest& request) {
 // The survey and the scene tell where the site is, which the building is checked against.
 Paths ConversionInputs(const MontageRequest& request) {
   const SitePaths& site = request.site;
-  return {site.building(), site.survey() / "control_points.csv", site.scene()};
+  Paths inputs = {site.building(), site.survey() / "control_points.csv", site.scene()};
+  return inputs += LibraryFolders(site);
 }
 
 Paths Building(const MontageRequest& request) {
@@ -127,7 +130,7 @@ Paths Building(const MontageRequest& request) {
 Paths RenderInputs(const MontageRequest& request) {
   const SitePaths& site = request.site;
   Paths inputs = {site.environment(), site.input_image("").parent_path(), site.photos(),
-                  site.survey() / "foreground"};
+                  site.survey() / "foreground", site.survey() / "shadows"};
   if (request.with_building) inputs.push_back(site.building());  // textures
   return inputs += Building(request);
 }
@@ -135,7 +138,8 @@ Paths RenderInputs(const MontageRequest& request) {
 Paths Montages(const MontageRequest& request) {
   Paths montages;
   for (const fs::path& photo : ListPhotographs(request.site)) {
-    for (const char* ending : {".exr", ".png", ".jpg", ".layers.exr", ".uncertainty.csv"}) {
+    for (const char* ending :
+         {".exr", ".png", ".jpg", ".layers.exr", ".shadows.exr", ".uncertainty.csv"}) {
       montages.push_back(request.site.montages() / (photo.stem().string() + ending));
     }
   }

@@ -98,6 +98,7 @@ void AddRay(const ViewWork& view, const PixelSampler& sampler, int x, int y,
   primary.apparent_rgb = Behind(view, x, y);
   primary.light = ChooseLightDirections(view.scene, sampler.OnDisc(sum.rays), sum.rays,
                                         sampler.OnFacet(sum.rays), sampler.Seed(sum.rays));
+  if (view.options.sun_share) primary.light.sun_share = *view.options.sun_share->At(x, y);
   const RayOutcome outcome = TracePrimary(view.scene, primary);
   ++sum.rays;
   if (outcome.hits_building) {
@@ -241,6 +242,8 @@ RenderResult RenderMontage(const MontageScene& scene, const PosedCamera& camera,
   INSITU_CHECK(photo.width == camera.camera.width() && photo.height == camera.camera.height());
   INSITU_CHECK(!options.foreground || (options.foreground->share.width == photo.width &&
                                        options.foreground->share.height == photo.height));
+  INSITU_CHECK(!options.sun_share || (options.sun_share->width == photo.width &&
+                                      options.sun_share->height == photo.height));
   const int cores = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
                                   options.threads > 0 ? options.threads : cores);

@@ -27,6 +27,9 @@ struct RenderOptions {
   std::shared_ptr<const Foreground> foreground = {};  // of this photograph; null: nothing in front
   // Whether the photograph shows less than there was: its sensor clipped. Empty: nowhere.
   std::function<bool(int x, int y)> is_clipped = {};
+  // One channel of the photograph's size: of the sun that no polygon keeps away, what it shows to
+  // arrive, 0..1; null: all.
+  std::shared_ptr<const Raster> sun_share = {};
 
   void Check() const;  // throws CheckError that names the field that is wrong
 };

@@ -109,7 +109,8 @@ Spectrum SunBefore(const MontageScene& scene, const SurfacePoint& surface,
 
 // Case D on a secondary ray: true colour of a natural surface, from the photograph that shows it.
 Spectrum SiteColor(const MontageScene& scene, const SceneHit& hit, const Eigen::Vector3d& to_viewer,
-                   const LightDirections& light, World world, int depth) {
+                   LightDirections light, World world, int depth) {
+  light.sun_share = 1;  // that of the surface that the camera ray met
   const SpectralMaterial& material = scene.material_of_polygon[hit.index];
   const std::optional<SmoothLight> around = LightAround(scene, hit);
   Spectrum diffuse;

@@ -103,6 +103,39 @@ TEST(MeasureDaylight, WithoutBouncesNothingButSunAndSkyIsFound) {
   EXPECT_GT(bare.environment.light.sky_radiance.sum(), all.environment.light.sky_radiance.sum());
 }
 
+// A grey card of the site's library is as good as its colour.
+TEST(MeasureDaylight, AMaterialAndASpectrumOfTheLibrary) {
+  const SyntheticSite truth = MakeSyntheticSite("library");
+  const LightMeasurement by_color = MeasureDaylight(truth.site);
+  std::filesystem::create_directories(truth.site.root / "library");
+  WriteWhole(truth.site.root / "library/card.json",
+             R"({"kind": "material", "source": "us", "licence": "-",
+                 "reflectance": [[380, 0.4], [780, 0.4]]})");
+  WriteWhole(truth.site.root / "library/evening.json",
+             R"({"kind": "lamp", "source": "us", "licence": "-",
+                 "spectrum_table": [[380, 0], [780, 1]]})");
+  const std::filesystem::path samples = truth.site.survey() / "samples.json";
+  Replace(samples, "\"daylight_reflectance_rgb\"",
+          R"("daylight_spectrum": "evening", "daylight_material": "card", "note")");
+  const LightMeasurement measured = MeasureDaylight(truth.site, {.average_over_wavelength = true});
+  EXPECT_TRUE(measured.reflectance_known);
+  const Spectrum& sun = measured.environment.light.sun_radiance;
+  EXPECT_NEAR(sun[15] / sun[0], 31, 1e-6);  // the middles of 25 nm
+  const double luminance =
+      SunIrradianceRgb(measured.environment).dot(Eigen::Vector3d(0.2126, 0.7152, 0.0722));
+  EXPECT_NEAR(
+      luminance /
+          SunIrradianceRgb(by_color.environment).dot(Eigen::Vector3d(0.2126, 0.7152, 0.0722)),
+      1, 2e-3);
+  Replace(samples, "\"note\"", "\"daylight_reflectance_rgb\"");
+  EXPECT_NE(ErrorOf([&] { MeasureDaylight(truth.site); }).find("expected one of them"),
+            std::string::npos);
+  Replace(samples, "\"daylight_reflectance_rgb\"", "\"note\"");
+  Replace(samples, "\"card\"", "\"kard\"");
+  EXPECT_NE(ErrorOf([&] { MeasureDaylight(truth.site); }).find("is card meant?"),
+            std::string::npos);
+}
+
 TEST(MeasureDaylight, WarnsOfWhatIsMissing) {
   const SyntheticSite truth = MakeSyntheticSite("warnings");
   const std::filesystem::path samples = truth.site.survey() / "samples.json";

@@ -202,6 +202,31 @@ TEST_F(RenderSiteTest, LeavesWhatStandsInFrontInEitherFrame) {
   EXPECT_EQ(layers.Rgb(30, 20), Eigen::Vector3d(0, 0, 1));
 }
 
+// Where somebody has drawn that the sun does not arrive, the building takes none of it away.
+TEST_F(RenderSiteTest, ADrawnShadowStays) {
+  const auto darkest = [&](const RenderSiteOptions& options) {
+    const RenderResult result = RenderSite(site_, options)[0].result;
+    double least = 1;
+    for (int y = 24; y < 30; ++y) {
+      for (int x = 0; x < 20; ++x) {
+        if (*(result.layers.At(x, y) + 1) == 0) continue;
+        least = std::min(least, result.linear.Rgb(x, y).y() / kLawnRadiance);
+      }
+    }
+    return least;
+  };
+  RenderSiteOptions without_search;
+  without_search.find_shadows = false;
+  EXPECT_LT(darkest(without_search), 0.5);  // the box shades the lawn west of it
+  EXPECT_FALSE(std::filesystem::exists(site_.montages() / "photo.shadows.exr"));
+  WritePng(site_.survey() / "shadows/photo.png", Raster(64, 48, 1), Encoding::kSrgb8);
+  EXPECT_GT(darkest({}), 0.6);
+  const Raster shares = ReadPhotograph(site_.montages() / "photo.shadows.exr").linear;
+  EXPECT_EQ(shares.Rgb(10, 40).x(), 0);
+  WritePng(site_.survey() / "shadows/photo.png", Raster(64, 40, 1), Encoding::kSrgb8);
+  EXPECT_THAT(Complaint(), HasSubstr("shadows/photo.png: is 64x40 px, expected 64x48 px"));
+}
+
 TEST_F(RenderSiteTest, RefusesAMatteThatCannotBeOne) {
   const auto matte = site_.survey() / "foreground/photo.png";
   WritePng(matte, Raster(64, 40, 1), Encoding::kSrgb8);
@@ -213,10 +238,10 @@ TEST_F(RenderSiteTest, RefusesAMatteThatCannotBeOne) {
 }
 
 TEST_F(RenderSiteTest, TellsOfMattesThatBelongToNoPhotograph) {
-  EXPECT_TRUE(UnreadForegroundFiles(site_).empty());
+  EXPECT_TRUE(UnreadDrawings(site_).empty());
   WritePng(site_.survey() / "foreground/photo.png", Raster(64, 48, 1), Encoding::kSrgb8);
   WritePng(site_.survey() / "foreground/foto.png", Raster(64, 48, 1), Encoding::kSrgb8);
-  const std::vector<std::string> unread = UnreadForegroundFiles(site_);
+  const std::vector<std::string> unread = UnreadDrawings(site_);
   ASSERT_EQ(unread.size(), 1u);
   EXPECT_THAT(unread[0], HasSubstr("foto.png: is not read"));
   EXPECT_THAT(unread[0], HasSubstr("as in photo.png"));

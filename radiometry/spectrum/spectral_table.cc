@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "renderer/building/spectral_table.h"
+#include "radiometry/spectrum/spectral_table.h"
 
 #include <Eigen/LU>
 #include <algorithm>
@@ -51,9 +51,9 @@ double Planck(double nanometres, double kelvin) {
 
 template <typename Law>
 SpectralTable TableOfLaw(const Law& law) {
-  constexpr double kStep = 5, kReference = 560;
+  constexpr double kSpacing = 5, kReference = 560;
   SpectralTable table;
-  for (double nm = kFirstWavelength; nm <= kLastWavelength; nm += kStep) {
+  for (double nm = kFirstWavelength; nm <= kLastWavelength; nm += kSpacing) {
     table.emplace_back(nm, law(nm) / law(kReference));
   }
   return table;

@@ -2,13 +2,17 @@
 // Spectra given as tables: of materials and of light sources.
 #pragma once
 
+#include <Eigen/Core>
 #include <filesystem>
+#include <vector>
 
 #include "calibration/files/json_file.h"
 #include "radiometry/spectrum/spectrum.h"
-#include "renderer/building/artificial_environment.h"
 
 namespace insitu {
+
+// Wavelength [nm], rising, and a value there; linear between, constant beyond.
+using SpectralTable = std::vector<Eigen::Vector2d>;
 
 // Rows [wavelength nm, value]. Throws InputError: fewer than two rows, wavelengths that do not
 // rise, a negative value.

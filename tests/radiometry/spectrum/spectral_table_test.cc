@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "renderer/building/spectral_table.h"
+#include "radiometry/spectrum/spectral_table.h"
 
 #include <gtest/gtest.h>
 
