@@ -7,13 +7,18 @@
 #include <memory>
 
 #include "calibration/files/error.h"
+#include "calibration/files/json_file.h"
 #include "calibration/files/sha256.h"
 #include "calibration/files/whole_file.h"
+#include "calibration/files/wording.h"
 #include "calibration/lens/undistort.h"
 #include "calibration/photo/exif.h"
 #include "calibration/photo/montage_files.h"
 #include "calibration/program/program.h"
+#include "renderer/building/building_outline.h"
 #include "renderer/foreground_matte.h"
+#include "renderer/render_inputs.h"
+#include "renderer/tiles/partial_render.h"
 #include "renderer/trace/interreflected_light.h"
 #include "renderer/trace/make_montage_scene.h"
 #include "renderer/trace/profile.h"
@@ -210,20 +215,143 @@ std::vector<std::string> WriteMontage(const SitePaths& site,
                             StatementOf(statement, photograph, result)});
 }
 
-// Of the building in every photograph, by name, with its file in montages/.
-std::map<std::string, UncertaintySummary> WriteUncertainties(
-    const SitePaths& site, const SceneGeometry& scene, const ArtificialEnvironment& building) {
+// How well the building is known in a photograph, with its file in montages/.
+std::optional<UncertaintySummary> WriteUncertaintyOf(const SitePaths& site,
+                                                     const SceneGeometry& scene, size_t camera,
+                                                     const BuildingEdges& edges) {
   const PhaseScope phase(Phase::kFiles);
-  std::map<std::string, UncertaintySummary> summaries;
-  for (size_t i = 0; i < scene.cameras.size(); ++i) {
-    const auto corners = BuildingUncertainty(scene, i, building);
-    if (!corners || corners->empty()) continue;
-    const std::string& photo = scene.cameras[i].photo;
-    WriteUncertainty(site.montages() / (photo + ".uncertainty.csv"), *corners);
-    summaries[photo] = Summarize(*corners);
-  }
-  return summaries;
+  const Eigen::Vector3d eye = Center(scene.cameras[camera].cam_from_world);
+  const auto corners = BuildingUncertainty(scene, camera, edges.CornersSeenFrom(eye));
+  if (!corners || corners->empty()) return std::nullopt;
+  const std::vector<CornerUncertainty> kept = ThinnedOut(*corners);
+  WriteUncertainty(site.montages() / (scene.cameras[camera].photo + ".uncertainty.csv"), kept);
+  return Summarize(kept);
 }
+
+const char* FrameName(Frame frame) { return frame == Frame::kPhoto ? "photo" : "pinhole"; }
+
+// All that changes pixels; the number of threads does not.
+std::string OptionsText(const RenderSiteOptions& options) {
+  const RenderOptions& render = options.render;
+  return Formatted("rays %d %d %d tolerance %.17g reach %.17g frame %d building %d sharpness %d ",
+                   render.fewest_rays, render.most_rays, render.outline_rays, render.tolerance,
+                   render.reach, static_cast<int>(options.frame),
+                   static_cast<int>(options.with_building), static_cast<int>(options.sharpness)) +
+         Formatted("grain %d ambient %d bounces %d", static_cast<int>(options.with_grain),
+                   static_cast<int>(options.uniform_ambient), options.bounces.value_or(-1));
+}
+
+// What insitu-view must know of a montage that its files do not tell.
+void WriteRenderRecord(const SitePaths& site, const std::string& photo,
+                       const RenderSiteOptions& options) {
+  Json::Value record;
+  record["frame"] = FrameName(options.frame);
+  record["with_building"] = options.with_building;
+  record["most_rays"] = options.render.most_rays;
+  WriteJson(site.root / "work/render" / (photo + ".json"), record);
+}
+
+// All photographs of a run, each of which may go on where an earlier run was stopped.
+class SiteRender {
+ public:
+  SiteRender(const SitePaths& site, const RenderSiteOptions& options)
+      : site_(site),
+        options_(options),
+        building_(options.with_building ? ReadArtificialEnvironment(site)
+                                        : ArtificialEnvironment()),
+        edges_(building_),
+        scene_(LoadScene(site, ReadEnvironment(site), building_)),
+        inputs_(SiteInputsSha256(site, scene_.natural, building_, OptionsText(options))),
+        statement_(StatementOf(site, options.with_building)) {
+    ThrowIfStopped();
+    if (!options.uniform_ambient) AddInterreflection(&scene_, options.bounces);
+  }
+
+  RenderSiteReport Render(const std::filesystem::path& photograph) {
+    ThrowIfStopped();
+    View view = LoadView(site_, scene_, photograph, options_.frame);
+    RenderSiteReport report;
+    report.photo = photograph.stem().string();
+    const size_t camera = IndexOf(site_, scene_.natural.scene, report.photo);
+    if (options_.with_building) {
+      report.uncertainty = WriteUncertaintyOf(site_, scene_.natural.scene, camera, edges_);
+    }
+    RenderOptions render = options_.render;
+    if (options_.sharpness == Sharpness::kMeasured) render.point_spread = view.quality.point_spread;
+    if (options_.with_grain) render.grain = view.quality.grain;
+    render.foreground = view.foreground;
+    report.point_spread = render.point_spread;
+    report.has_grain = render.grain.has_value();
+    const auto start = std::chrono::steady_clock::now();
+    report.result = Tiles(photograph, view, render);
+    report.seconds =
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    report.remarks = WriteMontage(site_, photograph, options_.frame, std::move(view.photo),
+                                  report.result, statement_);
+    WriteRenderRecord(site_, report.photo, options_);
+    return report;
+  }
+
+  // When all are written: until then none is rendered twice.
+  void RemovePartials() {
+    for (const auto& partial : partials_) partial->Remove();
+  }
+
+ private:
+  void ThrowIfStopped() const {
+    if (options_.stops && options_.stops()) {
+      throw RenderStopped("stopped; the same command goes on where it was");
+    }
+  }
+
+  RenderResult Tiles(const std::filesystem::path& photograph, const View& view,
+                     const RenderOptions& render) {
+    const Raster& photo = view.photo.linear;
+    const std::string name = photograph.stem().string();
+    partials_.push_back(std::make_unique<PartialRender>(
+        site_.root / "work/render" / (name + ".partial"),
+        PartialHeader{photo.width, photo.height, FrameName(options_.frame),
+                      PhotographInputsSha256(site_, inputs_, photograph)}));
+    PartialRender& partial = *partials_.back();
+    const int tiles = TileCount(photo.width, photo.height);
+    Progress progress(name, tiles);
+    RenderCourse course;
+    course.earlier = partial.TakeEarlier();
+    RenderWatcher* const watcher = options_.watcher;
+    if (watcher) watcher->Begin(name, photo);
+    for (const FinishedTile& tile : course.earlier) {
+      progress.Step();
+      if (watcher) watcher->Take(tile);
+    }
+    course.tile_done = [&](const FinishedTile& tile) {
+      partial.Keep(tile);
+      progress.Step();
+      if (watcher) watcher->Take(tile);
+    };
+    course.stops = [&] { return partial.has_failed() || (options_.stops && options_.stops()); };
+    RenderResult result = RenderMontage(scene_, view.camera, photo, render, course);
+    if (watcher) watcher->End(result.tiles_left == 0);
+    const std::string kept = std::to_string(tiles - result.tiles_left) + " of " +
+                             std::to_string(tiles) + " tiles of " + name + " are kept";
+    if (partial.has_failed()) {
+      throw std::runtime_error(partial.failure() + "; about " + kept +
+                               ": make room, then the same command goes on there");
+    }
+    if (result.tiles_left > 0) {
+      throw RenderStopped("stopped: " + kept + "; the same command goes on there");
+    }
+    return result;
+  }
+
+  const SitePaths& site_;
+  const RenderSiteOptions& options_;
+  const ArtificialEnvironment building_;
+  const BuildingEdges edges_;
+  MontageScene scene_;
+  const std::string inputs_;
+  const MontageStatement statement_;
+  std::vector<std::unique_ptr<PartialRender>> partials_;
+};
 
 }  // namespace
 
@@ -232,38 +360,12 @@ void RenderSiteOptions::Check() const { render.Check(); }
 std::vector<RenderSiteReport> RenderSite(const SitePaths& site, const RenderSiteOptions& options) {
   options.Check();
   const std::vector<std::filesystem::path> photographs = ChoosePhotographs(site, options.photos);
-  const ArtificialEnvironment building =
-      options.with_building ? ReadArtificialEnvironment(site) : ArtificialEnvironment();
-  MontageScene scene = LoadScene(site, ReadEnvironment(site), building);
-  if (!options.uniform_ambient) AddInterreflection(&scene, options.bounces);
-  std::map<std::string, UncertaintySummary> uncertainties;
-  if (options.with_building) {
-    uncertainties = WriteUncertainties(site, scene.natural.scene, building);
-  }
-  const MontageStatement statement = StatementOf(site, options.with_building);
+  SiteRender render(site, options);
   std::vector<RenderSiteReport> reports;
   for (const std::filesystem::path& photograph : photographs) {
-    View view = LoadView(site, scene, photograph, options.frame);
-    Progress progress(photograph.stem().string(), TileCount(view.photo.linear));
-    const auto start = std::chrono::steady_clock::now();
-    RenderSiteReport report;
-    report.photo = photograph.stem().string();
-    const auto uncertainty = uncertainties.find(report.photo);
-    if (uncertainty != uncertainties.end()) report.uncertainty = uncertainty->second;
-    RenderOptions render = options.render;
-    if (options.sharpness == Sharpness::kMeasured) render.point_spread = view.quality.point_spread;
-    if (options.with_grain) render.grain = view.quality.grain;
-    render.foreground = view.foreground;
-    report.point_spread = render.point_spread;
-    report.has_grain = render.grain.has_value();
-    report.result = RenderMontage(scene, view.camera, view.photo.linear, render,
-                                  [&progress] { progress.Step(); });
-    report.seconds =
-        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    report.remarks = WriteMontage(site, photograph, options.frame, std::move(view.photo),
-                                  report.result, statement);
-    reports.push_back(std::move(report));
+    reports.push_back(render.Render(photograph));
   }
+  render.RemovePartials();
   return reports;
 }
 
