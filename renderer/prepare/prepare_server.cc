@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "renderer/prepare/prepare_server.h"
 
-#include <signal.h>
-
 #include <algorithm>
 #include <atomic>
 #include <cmath>
@@ -16,6 +14,7 @@
 #include "calibration/files/error.h"
 #include "calibration/files/error_at.h"
 #include "calibration/files/json_file.h"
+#include "calibration/web/end_signals.h"
 #include "calibration/web/loopback_server.h"
 #include "calibration/web/open_browser.h"
 #include "calibration/web/photo_tiles.h"
@@ -28,7 +27,7 @@
 #include "renderer/prepare/questions.h"
 #include "renderer/prepare/relit_photos.h"
 #include "renderer/prepare/site_from_exif.h"
-#include "renderer/prepare/stage_runs.h"
+#include "renderer/stages/stage_runs.h"
 
 namespace insitu {
 namespace {
@@ -323,23 +322,6 @@ LoopbackServerOptions ServerOptions(int port, const std::string& token) {
   server.slow_paths = {"/api/tile", "/api/patch", "/api/value", "/api/refine", "/api/match"};
   return server;
 }
-
-// Signals that end a server are blocked in this thread and all that it starts from now on.
-class EndSignals {
- public:
-  EndSignals() {
-    sigemptyset(&signals_);
-    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) sigaddset(&signals_, signal);
-    pthread_sigmask(SIG_BLOCK, &signals_, nullptr);
-  }
-  void Wait() const {  // for the first one
-    int signal = 0;
-    sigwait(&signals_, &signal);
-  }
-
- private:
-  sigset_t signals_ = {};
-};
 
 // At the port asked for, else at the site's last one if that is free; `remark` if it is not.
 std::unique_ptr<LoopbackServer> MakeServer(const SitePaths& site, const PrepareOptions& options,

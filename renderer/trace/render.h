@@ -5,10 +5,12 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include "calibration/photo/foreground.h"
 #include "calibration/photo/raster.h"
 #include "radiometry/light/image_quality.h"
+#include "renderer/tiles/finished_tile.h"
 #include "renderer/trace/montage_scene.h"
 
 namespace insitu {
@@ -42,18 +44,23 @@ struct RenderResult {
   // Of these, clipped ones: drawn from a reflectance that is a lower bound.
   long clipped_darkened = 0, clipped_lifted = 0;
   double mean_rays = 0;  // a pixel
+  int tiles_left = 0;    // not rendered, since it was stopped: they hold the photograph
+};
+
+// How a render is followed, stopped and taken up again.
+struct RenderCourse {
+  std::vector<FinishedTile> earlier = {};  // of the same render: these are not rendered again
+  std::function<void(const FinishedTile&)> tile_done = {};  // called from any thread
+  std::function<bool()> stops = {};  // asked before each tile, from any thread
 };
 
 // `camera` and `photo` are one view: a photograph with its lens, or an input image with the
 // pinhole. Pixels that the building does not influence are those of `photo`, bit for bit. The
-// result does not depend on the number of threads. Where something stands in front the photograph
-// stays, and changes by what changes behind it. `tile_done`, if given, is called from any
-// thread.
+// result does not depend on the number of threads, nor on what was rendered earlier. Where
+// something stands in front the photograph stays, and changes by what changes behind it. Tiles in
+// sight of the building come first.
 RenderResult RenderMontage(const MontageScene& scene, const PosedCamera& camera,
                            const Raster& photo, const RenderOptions& options = {},
-                           const std::function<void()>& tile_done = {});
-
-constexpr int kTileSize = 32;  // [px]
-int TileCount(const Raster& photo);
+                           const RenderCourse& course = {});
 
 }  // namespace insitu

@@ -5,12 +5,14 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <map>
 
 #include "calibration/files/error.h"
 #include "calibration/files/json_file.h"
 #include "calibration/files/whole_file.h"
 #include "calibration/foreground_matte.h"
 #include "radiometry/natural_environment.h"
+#include "renderer/tiles/partial_render.h"
 #include "renderer/trace/interreflected_light.h"
 #include "renderer/trace/make_montage_scene.h"
 #include "tests/calibration/files/scratch_folder.h"
@@ -264,6 +266,90 @@ TEST_F(RenderSiteTest, ShowsTheTexturesOfTheBuilding) {
   }
   EXPECT_LT(least, 0.2 * most);
   EXPECT_FALSE(std::filesystem::is_empty(site_.root / "work/textures"));
+}
+
+// All that lies in montages/.
+std::map<std::string, std::string> Montages(const SitePaths& site) {
+  std::map<std::string, std::string> files;
+  for (const auto& entry : std::filesystem::directory_iterator(site.montages())) {
+    files[entry.path().filename().string()] = ReadWhole(entry.path());
+  }
+  return files;
+}
+
+TEST_F(RenderSiteTest, StoppedItGoesOnToTheSameBytes) {
+  RenderSite(site_, {});
+  const auto expected = Montages(site_);
+  const auto partial = site_.root / "work/render/photo.partial";
+  EXPECT_FALSE(std::filesystem::exists(partial));
+  for (const int calls : {0, 3, 4, 5}) {  // asked twice before the first tile, then before each
+    std::filesystem::remove_all(site_.montages());
+    RenderSiteOptions options;
+    options.render.threads = 1;
+    int asked = 0;
+    options.stops = [&] { return asked++ >= calls; };
+    EXPECT_THROW(RenderSite(site_, options), RenderStopped);
+    EXPECT_FALSE(std::filesystem::exists(site_.montages() / "photo.exr"));
+    if (calls > 2) {
+      PartialRenderReader reader(partial);
+      EXPECT_EQ(reader.Read().tiles.size(), static_cast<size_t>(calls - 2));
+    }
+    RenderSite(site_, {});  // with other threads
+    EXPECT_EQ(Montages(site_), expected);
+    EXPECT_FALSE(std::filesystem::exists(partial));
+  }
+}
+
+TEST_F(RenderSiteTest, WhatWasRenderedOfOtherInputsIsNotGoneOnWith) {
+  const auto stop_after_three = [&](RenderSiteOptions options) {
+    options.render.threads = 1;
+    int asked = 0;
+    options.stops = [&] { return asked++ >= 5; };
+    EXPECT_THROW(RenderSite(site_, options), RenderStopped);
+  };
+  RenderSiteOptions others;
+  others.render.most_rays = 4;
+  RenderSite(site_, others);
+  auto expected = Montages(site_);
+  stop_after_three({});
+  RenderSite(site_, others);
+  EXPECT_EQ(Montages(site_), expected);
+
+  SurfaceMaterial white;
+  white.diffuse_rgb.setConstant(0.9);
+  stop_after_three({});
+  WriteArtificialEnvironment(site_, Box(small_, {-2, 0, 0}, {2, 4, 6}, white));
+  RenderSite(site_, {});
+  expected = Montages(site_);
+  std::filesystem::remove_all(site_.root / "work/render");
+  RenderSite(site_, {});
+  EXPECT_EQ(Montages(site_), expected);
+}
+
+TEST_F(RenderSiteTest, ThePhotographsOfAStoppedRunAreNotRenderedTwice) {
+  std::filesystem::copy(site_.photos() / "photo.exr", site_.photos() / "z.exr");
+  small_.natural.scene.cameras.push_back(small_.natural.scene.cameras[0]);
+  small_.natural.scene.cameras[1].photo = "z";
+  small_.natural.scene.camera_covariances.push_back(small_.natural.scene.camera_covariances[0]);
+  small_.natural.input_images.push_back(small_.natural.input_images[0]);
+  WriteJson(site_.environment(), DescriptionOf(small_.natural, site_.environment()));
+  RenderSiteOptions options;
+  options.render.threads = 1;
+  int asked = 0;
+  options.stops = [&] { return asked++ >= 9; };  // in the second one
+  EXPECT_THROW(RenderSite(site_, options), RenderStopped);
+  EXPECT_TRUE(std::filesystem::exists(site_.montages() / "photo.exr"));
+  PartialRenderReader reader(site_.root / "work/render/photo.partial");
+  EXPECT_EQ(reader.Read().tiles.size(), 4u);
+  int rest = 0;
+  options.stops = [&] {
+    ++rest;
+    return false;
+  };
+  RenderSite(site_, options);
+  EXPECT_LT(rest, 8);
+  EXPECT_TRUE(std::filesystem::is_empty(site_.root / "work/render") ||
+              !std::filesystem::exists(site_.root / "work/render/photo.partial"));
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// insitu-prepare as a test drives it: started, asked, killed.
+// insitu-prepare, or another server of ours, as a test drives it: started, asked, killed.
 import {spawn} from "node:child_process";
 import http from "node:http";
 import {once} from "node:events";
@@ -12,9 +12,10 @@ process.once("exit", () => running.forEach(child => child.kill("SIGKILL")));
  * @param {string} site
  * @param {string[]} [options]
  * @param {import("node:child_process").SpawnOptions} [how] as whom it runs, for one
+ * @param {string} [program]
  */
-export async function start(site, options = [], how = {}) {
-  const child = spawn(`${process.env.INSITU_BIN}/insitu-prepare`, [site, "--no-browser", ...options], how);
+export async function start(site, options = [], how = {}, program = "insitu-prepare") {
+  const child = spawn(`${process.env.INSITU_BIN}/${program}`, [site, "--no-browser", ...options], how);
   running.add(child);
   child.once("exit", () => running.delete(child));
   let said = "", complained = "";

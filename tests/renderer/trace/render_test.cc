@@ -335,5 +335,50 @@ TEST(RenderMontage, WhatStandsInFrontStaysAndShowsWhatIsBehindItNow) {
   EXPECT_GT(mixed, 50);
 }
 
+// Stopped anywhere and gone on with, the picture is the same to the bit, with its counts.
+TEST(RenderMontage, GoesOnWhereItWasStopped) {
+  const SmallSite site = MakeSmallSite();
+  const MontageScene scene = site.With(Tower(site));
+  RenderOptions options = SpreadAlike();
+  options.grain = Grain{Eigen::Vector3d::Constant(1e-4), Eigen::Vector3d::Constant(1e-4), 0};
+  const RenderResult whole = RenderMontage(scene, site.camera(), site.photo, options);
+  EXPECT_EQ(whole.tiles_left, 0);
+  for (const int stopped_after : {0, 1, 3}) {
+    std::vector<FinishedTile> kept;
+    RenderCourse first;
+    first.tile_done = [&](const FinishedTile& tile) { kept.push_back(tile); };
+    first.stops = [&] { return static_cast<int>(kept.size()) >= stopped_after; };
+    options.threads = 1;
+    const RenderResult part = RenderMontage(scene, site.camera(), site.photo, options, first);
+    EXPECT_EQ(part.tiles_left, 4 - stopped_after);
+    RenderCourse second;
+    second.earlier = kept;
+    int rendered = 0;
+    second.tile_done = [&](const FinishedTile&) { ++rendered; };
+    const RenderResult rest = RenderMontage(scene, site.camera(), site.photo, options, second);
+    EXPECT_EQ(rendered, 4 - stopped_after);
+    EXPECT_EQ(rest.linear.data, whole.linear.data);
+    EXPECT_EQ(rest.layers.data, whole.layers.data);
+    EXPECT_EQ(rest.building_pixels, whole.building_pixels);
+    EXPECT_EQ(rest.changed_pixels, whole.changed_pixels);
+    EXPECT_EQ(rest.mean_rays, whole.mean_rays);
+  }
+}
+
+TEST(RenderMontage, BeginsWithTheTilesInSightOfTheBuilding) {
+  const SmallSite site = MakeSmallSite();
+  RenderOptions options;
+  options.threads = 1;
+  std::vector<int64_t> of_building;
+  RenderCourse course;
+  course.tile_done = [&](const FinishedTile& tile) { of_building.push_back(tile.counts.building); };
+  // In the lower right quarter alone.
+  const auto hut = Box(site, {1.5, 0, 0}, {4, 2, 1}, {});
+  RenderMontage(site.With(hut), site.camera(), site.photo, options, course);
+  ASSERT_EQ(of_building.size(), 4u);
+  EXPECT_GT(of_building[0], 0);
+  EXPECT_EQ(of_building[3], 0);
+}
+
 }  // namespace
 }  // namespace insitu

@@ -18,7 +18,7 @@ export const kStages = [
   "montage"
 ];
 const kMostLines = 2000,
-  kStopped = 143; // by SIGTERM
+  kStopped = [143, 3]; // by SIGTERM; a render that keeps what it has
 
 /** What the newest run has said. */
 const run = {
@@ -120,7 +120,7 @@ export function followRuns() {
       run.status =
         message.status === 0
           ? t("done")
-          : message.status === kStopped
+          : kStopped.includes(message.status)
             ? t("stopped")
             : typeof message.status === "number"
               ? t("failed", {status: message.status})

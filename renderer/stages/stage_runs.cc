@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "renderer/prepare/stage_runs.h"
+#include "renderer/stages/stage_runs.h"
 
 #include <optional>
 #include <string_view>
@@ -18,9 +18,12 @@ namespace {
 
 constexpr char kMontage[] = "montage";
 
-std::vector<std::string> CommandOf(const std::string& stage, const SitePaths& site) {
+std::vector<std::string> CommandOf(const std::string& stage, const SitePaths& site,
+                                   const std::vector<std::string>& options) {
   const auto program = FindProgram(OwnFolder(), stage);
-  return {program.string(), site.root.string()};
+  std::vector<std::string> command = {program.string(), site.root.string()};
+  command.insert(command.end(), options.begin(), options.end());
+  return command;
 }
 
 // "progress: middle 40 %, 12 s left" is 0.4; nullopt: it is not known how far.
@@ -38,7 +41,7 @@ std::optional<double> ShareOf(const std::string& progress) {
 StageRuns::StageRuns(SitePaths site, std::function<void(Json::Value)> tell)
     : site_(std::move(site)), tell_(std::move(tell)) {}
 
-int StageRuns::Start(const std::string& stage) {
+int StageRuns::Start(const std::string& stage, const std::vector<std::string>& options) {
   if (stage != kMontage) StageNamed(stage);
   const std::lock_guard lock(mutex_);
   if (is_running_) {
@@ -48,7 +51,7 @@ int StageRuns::Start(const std::string& stage) {
   is_running_ = true;
   const int run = ++last_;
   thread_ =
-      std::jthread([this, run, stage](const std::stop_token& stop) { Run(run, stage, stop); });
+      std::jthread([=, this](const std::stop_token& stop) { Run(run, stage, options, stop); });
   return run;
 }
 
@@ -59,7 +62,8 @@ void StageRuns::End() {
   if (thread_.joinable()) thread_.join();
 }
 
-void StageRuns::Run(int run, const std::string& stage, const std::stop_token& stop) {
+void StageRuns::Run(int run, const std::string& stage, const std::vector<std::string>& options,
+                    const std::stop_token& stop) {
   const auto message = [&](const char* what, const Json::Value& value) {
     Json::Value json;
     json["type"] = "run";
@@ -74,7 +78,7 @@ void StageRuns::Run(int run, const std::string& stage, const std::stop_token& st
   };
   int status = 1;
   try {
-    status = RunChild({.command = CommandOf(stage, site_),
+    status = RunChild({.command = CommandOf(stage, site_, options),
                        .environment = {std::string(kProgressVariable) + "=1"},
                        .on_output = tell_line,
                        .on_error = tell_line,

@@ -8,6 +8,7 @@
 #include <mutex>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include "calibration/program/site.h"
 
@@ -23,14 +24,16 @@ class StageRuns {
   StageRuns& operator=(const StageRuns&) = delete;
 
   // "montage": every stage whose results do not hold any more; else that stage alone, whatever
-  // holds. Its number. Throws InputError: no such stage, or one is running.
-  int Start(const std::string& stage);
+  // holds. Its number. `options` are the program's. Throws InputError: no such stage, or one is
+  // running.
+  int Start(const std::string& stage, const std::vector<std::string>& options = {});
 
   void Stop();  // as Ctrl-C does; nothing if none runs
   void End();   // and waits for its end
 
  private:
-  void Run(int run, const std::string& stage, const std::stop_token& stop);
+  void Run(int run, const std::string& stage, const std::vector<std::string>& options,
+           const std::stop_token& stop);
 
   SitePaths site_;
   std::function<void(Json::Value)> tell_;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "renderer/prepare/stage_runs.h"
+#include "renderer/stages/stage_runs.h"
 
 #include <gtest/gtest.h>
 
