@@ -22,7 +22,7 @@ const PartialHeader kHeader{70, 40, "photo", "0123abcd"};  // 3 x 2 tiles
 FinishedTile TileOf(int index) {
   FinishedTile tile;
   tile.index = index;
-  tile.counts = {5, index, 1000000000000};
+  tile.counts = {5, index, 2, 1, 1000000000000};
   std::mt19937 random(index);
   const int pixels = TileAt(kHeader.width, kHeader.height, index).pixels();
   for (int i = 0; i < pixels; ++i) {
