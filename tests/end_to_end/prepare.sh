@@ -32,6 +32,7 @@ in_browser() {
 }
 in_browser 'two windows' windows
 in_browser 'another light' relit
+in_browser 'German' german "${SCREENSHOTS:-}"
 in_browser 'files' files
 check 'what the page wrote is read by the adjustment' \
   "$INSITU_BIN/insitu-reconstruct" "$temporary/site"
