@@ -64,6 +64,10 @@ new_site
 check_figures 'nothing but photographs' node "$tests/prepare/start_from_nothing.mjs" \
   "$temporary/photographs" "$temporary/site" "$temporary/small.jpg"
 
+mkdir -p -- "$temporary/upright/photos"
+/usr/bin/python3 "$tests/prepare/upright_photos.py" "$temporary/upright/photos"
+in_browser 'for everyone' everyone "$temporary/upright" "${SCREENSHOTS:-}"
+
 # The photographs as if taken on film and scanned: no camera but the certificate that is typed.
 /usr/bin/python3 "$tests/prepare/film_scans.py" "$DEMO_SITE" "$temporary/film"
 check_figures 'scanned film' node "$tests/prepare/film.mjs" "$temporary/film" "${SCREENSHOTS:-}"
