@@ -67,12 +67,13 @@ class Blocks {
 
   // Blocks whose corners and middle see no polygon.
   void MarkOpen() {
-    std::vector<bool> corners((columns_ + 1) * (rows_ + 1));
-    for (int i = 0; i < std::ssize(corners); ++i) {
+    const int corner_count = (columns_ + 1) * (rows_ + 1), block_count = columns_ * rows_;
+    std::vector<bool> corners(corner_count);
+    for (int i = 0; i < corner_count; ++i) {
       const Eigen::Vector2d corner(i % (columns_ + 1), i / (columns_ + 1));
       corners[i] = SeesSky(corner * size_ - Eigen::Vector2d::Constant(0.5));
     }
-    is_open_.resize(columns_ * rows_);
+    is_open_.resize(block_count);
     for (int row = 0; row < rows_; ++row) {
       for (int column = 0; column < columns_; ++column) {
         const int corner = row * (columns_ + 1) + column;
