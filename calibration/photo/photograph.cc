@@ -19,6 +19,7 @@
 #include "calibration/files/error_at.h"
 #include "calibration/files/whole_file.h"
 #include "calibration/photo/copy_metadata.h"
+#include "calibration/photo/srgb_table.h"
 #include "calibration/photo/stated_color.h"
 
 namespace insitu {
@@ -151,19 +152,6 @@ std::vector<Sample> ReadThreeChannels(ImageInput& input, const fs::path& path) {
     for (int c = 0; c < 3; ++c) three[3 * i + c] = samples[i * channels + (is_grey ? 0 : c)];
   }
   return three;
-}
-
-template <typename Code>
-const std::vector<float>& LinearTable() {
-  static const std::vector<float> table = [] {
-    constexpr int kHighest = std::numeric_limits<Code>::max();
-    std::vector<float> linear(kHighest + 1);
-    for (int code = 0; code <= kHighest; ++code) {
-      linear[code] = static_cast<float>(LinearFromSrgb(static_cast<double>(code) / kHighest));
-    }
-    return linear;
-  }();
-  return table;
 }
 
 // What stands for 1.
