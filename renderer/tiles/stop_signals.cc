@@ -18,18 +18,20 @@ void NoteSignal(int) {
   constexpr std::string_view kText =
       "stopping when the tiles at work are done; once more stops at once\n";
   is_signalled = true;
-  for (const int signal : kStopSignals) ::signal(signal, SIG_DFL);
   [[maybe_unused]] const ssize_t written = write(STDERR_FILENO, kText.data(), kText.size());
 }
 
 }  // namespace
 
 void NoteStopSignals() {
-  struct sigaction action = {};
+  struct sigaction action = {}, before = {};
   action.sa_handler = NoteSignal;
-  action.sa_flags = SA_RESTART;
+  action.sa_flags = SA_RESTART | SA_RESETHAND;
   sigemptyset(&action.sa_mask);
-  for (const int signal : kStopSignals) sigaction(signal, &action, nullptr);
+  for (const int signal : kStopSignals) {
+    sigaction(signal, nullptr, &before);
+    if (before.sa_handler != SIG_IGN) sigaction(signal, &action, nullptr);  // as nohup wants it
+  }
 }
 
 bool IsStopSignalled() { return is_signalled; }

@@ -4,8 +4,8 @@
 
 namespace insitu {
 
-// From now on the first SIGINT, SIGTERM or SIGHUP is only noted, with a line on standard error; a
-// second one ends the process as always.
+// From now on the first SIGINT, SIGTERM and SIGHUP are only noted, with a line on standard error; a
+// second one of a kind ends the process as always. Those that are ignored already stay so.
 void NoteStopSignals();
 
 bool IsStopSignalled();

@@ -16,8 +16,8 @@ namespace {
 
 constexpr int kMostPhoto = 256;  // [px] of the reduced photograph
 constexpr auto kHeartbeat = std::chrono::seconds(1);
-constexpr int kPatienceMs = 3000;          // at the end, with a reader that does not read
-constexpr size_t kMostAtOnce = 64 * 1024;  // [bytes]
+constexpr int kPatienceMs = 3000;                 // at the end, with a reader that does not read
+constexpr size_t kMostAtOnce = size_t{64} << 10;  // [bytes]
 
 }  // namespace
 

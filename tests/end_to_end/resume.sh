@@ -16,7 +16,8 @@ anew() { rm -rf -- "$site/montages" "$site/work/render"; }
 # Begun in the background, then signalled as soon as some tiles are kept: $1 signal, $2 bytes.
 render_until() {
   local pid status=0
-  render >"$temporary/log" 2>&1 &
+  # Not by the function, whose shell would be signalled.
+  "$INSITU_BIN/insitu-render" "$site" --photo "$name" >"$temporary/log" 2>&1 &
   pid=$!
   while kill -0 "$pid" 2>/dev/null && [[ $(stat -c %s "$partial" 2>/dev/null || echo 0) -lt $2 ]]; do sleep 0.02; done
   kill "-$1" "$pid" 2>/dev/null || true
@@ -48,17 +49,17 @@ check 'killed again and again: the same bytes in the end' killed_again_and_again
 stops_in_order() {
   local status=0
   anew
-  render_until INT 40000 || status=$?
+  render_until TERM 40000 || status=$?  # SIGINT is ignored by what a script starts with &
   [[ $status -eq 3 ]] && grep '^stopped: [0-9]* of [0-9]* tiles of .* are kept' "$temporary/log"
 }
-check 'Ctrl-C ends it with status 3 and tells how far it was' stops_in_order
+check 'a signal as of Ctrl-C ends it with status 3 and tells how far it was' stops_in_order
 goes_on() { render >/dev/null && [[ $(cd "$site" && checksums montages) == "$expected" ]]; }
 check 'then it goes on to the same bytes' goes_on
 
 two_at_a_time() {
   local pid output
   anew
-  render >/dev/null 2>&1 &
+  "$INSITU_BIN/insitu-render" "$site" --photo "$name" >/dev/null 2>&1 &
   pid=$!
   while [[ ! -s $partial ]]; do sleep 0.02; done
   output=$(render 2>&1) && return 1

@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // look.mjs SITE [SCREENSHOTS]: photographs and montages by keyboard alone: to the pixel, in turn, with the
 // outline, layers and differences; in German too.
+import {readdirSync, statSync} from "node:fs";
 import {open} from "../prepare/page.mjs";
 import {report, start, until} from "../prepare/server.mjs";
 
 const [site, screenshots] = process.argv.slice(2);
+const files = () => readdirSync(site, {recursive: true}).map(name => [name, statSync(`${site}/${name}`)])
+  .filter(([, about]) => about.isFile()).map(([name, about]) => `${name} ${about.size} ${about.mtimeMs}`).sort().join();
+const filesBefore = files();
 const server = await start(site, [], {}, "insitu-view");
 const person = await open(server);
 const {page} = person;
@@ -106,4 +110,5 @@ report("in German too", /nebeneinander/.test(await page.textContent("#top")));
 await shot("german");
 report("nothing is wrong on the page", person.faults.length === 0, person.faults.join());
 await person.browser.close();
-report("looking writes nothing", (await server.stop()) === 0);
+report("it ends in order", (await server.stop()) === 0);
+report("looking writes nothing", files() === filesBefore);
