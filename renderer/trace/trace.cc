@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "radiometry/light/illumination.h"
+#include "radiometry/light/mirrored_share.h"
 #include "renderer/trace/glass.h"
 #include "renderer/trace/interreflected_light.h"
 #include "renderer/trace/mirror.h"
@@ -199,13 +200,18 @@ Spectrum BuildingColor(const MontageScene& scene, const SurfacePoint& surface,
       (around ? daylight.sun_radiance * SunOnBuilding(scene, surface, light) + around->before +
                     around->change
               : TotalIrradiance(daylight, DaylightOnBuilding(scene, surface, light)));
-  const Spectrum mirror = MirrorReflectance(material, CosineTo(surface, to_viewer));
-  Spectrum L = (1 - mirror) * ReflectedRadiance(material.diffuse_weight, material.brdf, E);
-  if ((mirror > 0).any()) {
-    L += mirror * MirrorImage(scene, surface, material.specular->roughness, to_viewer, light,
-                              World::kWithBuilding, depth, kBuildingClearance);
-  }
-  return L;
+  const double cosine = CosineTo(surface, to_viewer);
+  const Spectrum mirror = MirrorReflectance(material, cosine);
+  if ((mirror <= 0).all()) return ReflectedRadiance(material.diffuse_weight, material.brdf, E);
+  // What meets a second facet is mirrored again or goes on to the ground: all of it in the shape of
+  // a first reflection. [Turquin 2019]
+  const double single = MirroredShare(material.specular->roughness, cosine);
+  const Spectrum again = (1 - single) * mirror;
+  const Spectrum L =
+      (1 - mirror) * (1 + again) * ReflectedRadiance(material.diffuse_weight, material.brdf, E);
+  return L + mirror * (1 + again / single) *
+                 MirrorImage(scene, surface, material.specular->roughness, to_viewer, light,
+                             World::kWithBuilding, depth, kBuildingClearance);
 }
 
 Spectrum DiffuseChange(const MontageScene& scene, const SurfacePoint& surface,
