@@ -66,7 +66,8 @@ class SwatchScene {
     }
     Spectrum sum = Spectrum::Zero();
     for (int i = 0; i < kFacets * kFacets; ++i) {
-      const Eigen::Vector2d uniform((i % kFacets + 0.5) / kFacets, (i / kFacets + 0.5) / kFacets);
+      const int column = i % kFacets, row = i / kFacets;
+      const Eigen::Vector2d uniform((column + 0.5) / kFacets, (row + 0.5) / kFacets);
       const MirroredRay mirrored = ChooseMirrored(surface, roughness, to_viewer, 0, uniform);
       if (mirrored.weight > 0) sum += mirrored.weight * Around(mirrored.ray.direction);
     }
@@ -137,7 +138,8 @@ Raster MakeSwatch(const SurfaceMaterial& material, const SwatchLight& light,
     for (int x = 0; x < picture.width; ++x) {
       Spectrum sum = Spectrum::Zero();
       for (int i = 0; i < kSamples * kSamples; ++i) {
-        sum += color_at(x + (i % kSamples + 0.5) / kSamples, y + (i / kSamples + 0.5) / kSamples);
+        const int column = i % kSamples, row = i / kSamples;
+        sum += color_at(x + (column + 0.5) / kSamples, y + (row + 0.5) / kSamples);
       }
       const Spectrum mean = sum / (kSamples * kSamples);
       picture.SetRgb(x, y, spectra.RgbFromSpectrum(mean) / white);
