@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <iostream>
 
 #include "calibration/files/error.h"
@@ -76,7 +77,7 @@ std::string TerminalText(const StreamedPicture& streamed, int columns) {
   const CodeImage& picture = streamed.picture();
   const int wide = std::max(1, std::min(columns, picture.width));
   const double step = static_cast<double>(picture.width) / wide;
-  const int rows = std::max(1, static_cast<int>(picture.height / step + 0.5));
+  const int rows = std::max(1, static_cast<int>(std::lround(picture.height / step)));
   std::string text;
   for (int row = 0; row < rows; row += 2) {
     for (int column = 0; column < wide; ++column) {
