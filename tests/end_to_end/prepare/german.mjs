@@ -108,3 +108,15 @@ await shot("film");
 report("the page runs without faults", person.faults.length === 0, person.faults[0] ?? "");
 await person.browser.close();
 report("SIGTERM ends it well", (await server.stop()) === 0);
+
+// A photo that is cut short, whose size is known all the same.
+const photo = fs.readFileSync(`${site}/photos/left.jpg`);
+fs.writeFileSync(`${site}/photos/left.jpg`, photo.subarray(0, photo.length / 2));
+fs.rmSync(`${site}/work/prepare/overviews`, {recursive: true, force: true});
+const again = await start(site);
+const beside = await open(again, {prepared: made => made.addInitScript(() => localStorage.setItem("insitu-language", "de"))});
+await beside.photo("left");
+await beside.sees('.pane[data-photo="left"] .note.fault', "ist abgeschnitten; nötig ist ein ganzes Foto");
+report("a photo that is cut short is told in its pane", true, await beside.page.textContent('.pane[data-photo="left"] .note'));
+await beside.browser.close();
+await again.stop();

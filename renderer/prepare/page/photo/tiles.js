@@ -2,6 +2,7 @@
 // Tiles of photographs: fetched by need, the newest wishes first, kept until newer ones need the room.
 
 import {getBlob} from "../site/api.js";
+import {state} from "../site/state.js";
 
 export const kTile = 512;
 const kMostKept = 256,
@@ -79,7 +80,8 @@ async function fetchTile(key, path) {
       tile.close();
       kept.delete(oldest);
     }
-  } catch {
+  } catch (error) {
+    if (error.status === 400) state.photos[Number(key.split("/")[0])].fault = error.message; // it cannot be decoded
     failed.set(key, performance.now() + 2000);
     setTimeout(() => arrived(), 2100);
   }

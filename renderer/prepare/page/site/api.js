@@ -73,12 +73,13 @@ export async function getJson(path, answers = []) {
 /**
  * @param {string} path
  * @param {AbortSignal} [signal]
- * @returns {Promise<Blob>}
+ * @returns {Promise<Blob>} throws what the server says is wrong, with its `status`
  */
 export async function getBlob(path, signal) {
   const response = await request(path, {signal});
-  if (!response.ok) throw new Error(`${response.status} ${path}`);
-  return response.blob();
+  if (response.ok) return response.blob();
+  const why = said(await response.json().catch(() => ({})), "error");
+  throw Object.assign(new Error(why || `${response.status} ${path}`), {status: response.status});
 }
 
 /**
