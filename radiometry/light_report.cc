@@ -202,6 +202,7 @@ std::string BriefReport(const LightMeasurement& measured) {
 }
 
 std::vector<Eigen::Vector3d> ReadPhotoGains(const SitePaths& site) {
+  RequireResult(site.environment(), "insitu-light");
   std::vector<Eigen::Vector3d> gains;
   for (const JsonNode& camera :
        JsonNode::Load(site.environment()).At("scene").At("cameras").Items()) {

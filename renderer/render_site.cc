@@ -208,7 +208,8 @@ class SiteRender {
     if (options_.with_building) {
       report.uncertainty = WriteUncertaintyOf(site_, geometry, camera, edges_);
     }
-    const RenderOptions render = OptionsFor(photograph, view);
+    const std::optional<SunShares> shares = SunSharesOf(scene_, view, options_);
+    const RenderOptions render = OptionsFor(view, shares);
     report.point_spread = render.point_spread;
     report.has_grain = render.grain.has_value();
     const auto start = std::chrono::steady_clock::now();
@@ -220,6 +221,7 @@ class SiteRender {
         std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     report.remarks = WriteMontage(site_, photograph, options_.frame, std::move(view.photo),
                                   report.result, statement_);
+    WriteSunShares(site_, photograph, shares);
     RemarkClipped(report.result, &report.remarks);
     WriteRenderRecord(site_, photo, options_);
     return report;
@@ -237,15 +239,13 @@ class SiteRender {
     }
   }
 
-  RenderOptions OptionsFor(const std::filesystem::path& photograph, const RenderView& view) const {
+  RenderOptions OptionsFor(const RenderView& view, const std::optional<SunShares>& shares) const {
     RenderOptions render = options_.render;
     if (options_.sharpness == Sharpness::kMeasured) render.point_spread = view.quality.point_spread;
     if (options_.with_grain) render.grain = view.quality.grain;
     render.foreground = view.foreground;
     render.is_clipped = [&view](int x, int y) { return IsClipped(view.photo, x, y); };
-    const std::optional<SunShares> shares = SunSharesOf(scene_, view, options_);
     if (shares) render.sun_share = std::make_shared<const Raster>(shares->share);
-    WriteSunShares(site_, photograph, shares);
     return render;
   }
 

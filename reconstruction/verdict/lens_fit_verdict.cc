@@ -110,17 +110,18 @@ std::optional<LensMisfit> ByPlace(const std::vector<LensMark>& marks, const Eige
   const auto cell = [](double part, int count) {
     return std::clamp(static_cast<int>(std::floor(part * count)), 0, count - 1);
   };
-  std::vector<LensBin> cells(kColumnsOfLens * kRowsOfLens);
+  std::vector<LensBin> cells(size_t{kColumnsOfLens} * kRowsOfLens);
   std::vector<std::string> names;
-  for (int i = 0; i < kColumnsOfLens * kRowsOfLens; ++i) {
-    names.push_back(Formatted("around (%.0f, %.0f)",
-                              (i % kColumnsOfLens + 0.5) * size.x() / kColumnsOfLens,
-                              (i / kColumnsOfLens + 0.5) * size.y() / kRowsOfLens));
+  for (int row = 0; row < kRowsOfLens; ++row) {
+    for (int column = 0; column < kColumnsOfLens; ++column) {
+      names.push_back(Formatted("around (%.0f, %.0f)", (column + 0.5) * size.x() / kColumnsOfLens,
+                                (row + 0.5) * size.y() / kRowsOfLens));
+    }
   }
   for (const LensMark& mark : marks) {
     const int column = cell(mark.pixel.x() / size.x(), kColumnsOfLens),
               row = cell(mark.pixel.y() / size.y(), kRowsOfLens);
-    cells[static_cast<size_t>(row * kColumnsOfLens + column)].Add(mark.w, mark.residual);
+    cells[static_cast<size_t>(row) * kColumnsOfLens + column].Add(mark.w, mark.residual);
   }
   auto misfit = Tested(cells, names, variance);
   if (misfit) misfit->by = "place in the frame";

@@ -11,6 +11,7 @@ cp -r -- "$DEMO_SITE" "$site"
 name=$(photo_names "$site" | head -n 1)
 render() { "$INSITU_BIN/insitu-render" "$site" --photo "$name" "$1"; }
 sums() { (cd "$site" && checksums montages); }
+rm -rf -- "$site/montages"
 "$INSITU_BIN/insitu-render" "$site" --photo "$name" >/dev/null
 expected=$(sums)
 
@@ -25,7 +26,7 @@ newest, montage, photo = (cv2.imread(path) for path in sys.argv[1:])
 computed = cv2.absdiff(montage, photo).max(axis=2) > 8
 worst = cv2.absdiff(newest, montage)[computed].max()
 print(f"{computed.sum()} computed pixels differ from the PNG by {worst} codes at most")
-sys.exit(worst > 1 or computed.sum() < 1000)
+sys.exit(bool(worst > 1 or computed.sum() < 1000))
 PYTHON
   printf '%d bytes\n' "$(stat -c %s "$temporary/stream")"
   grep -q '^'"$name"': building' "$temporary/log"

@@ -16,8 +16,12 @@ const off = await server.ask("POST", "/api/op", insert("off", "observations", ma
 report("a mark off its photograph is refused", off.status === 400, off.body.error);
 const twice = await server.ask("POST", "/api/op", insert("twice", "observations", (await tables(server)).tables.observations[0]));
 report("a mark twice is refused, the other one shown", twice.status === 409 && twice.body.conflicts[0].current.point !== undefined);
-const bad = await server.ask("POST", "/api/op", insert("comma", "control_points", {name: "a,b", x: 1, y: 2, z: 3, sigma_x: 1, sigma_y: 1, sigma_z: 1, role: "control"}));
+const control = name => ({name, x: 1, y: 2, z: 3, sigma_x: 1, sigma_y: 1, sigma_z: 1, role: "control"});
+const bad = await server.ask("POST", "/api/op", insert("break", "control_points", control("a\nb")));
 report("a name that the file cannot hold is refused", bad.status === 400, bad.body.error);
+const comma = await server.ask("POST", "/api/op", insert("comma", "control_points", control("a,b")));
+await until("it is in the file", () => fs.readFileSync(`${survey}/control_points.csv`, "utf8").includes('\n"a,b",'));
+report("a name with a comma stands between quotes", comma.status === 200);
 
 fs.writeFileSync(marks, `${fs.readFileSync(marks, "utf8").trimEnd()}\nleft,from_outside,12,34,0.5\n`);
 await until("the outside change is seen", async () => (await tables(server)).tables.observations.some(row => row.point === "from_outside"));

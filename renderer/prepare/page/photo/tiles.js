@@ -2,7 +2,6 @@
 // Tiles of photographs: fetched by need, the newest wishes first, kept until newer ones need the room.
 
 import {getBlob} from "../site/api.js";
-import {state} from "../site/state.js";
 
 export const kTile = 512;
 const kMostKept = 256,
@@ -20,10 +19,17 @@ const failed = new Map();
 let turn = 0;
 /** @type {() => void} */
 let arrived = () => {};
+/** @type {(photo: number, why: string) => void} */
+let undecodable = () => {};
 
 /** @param {() => void} listener called when there are new tiles */
 export const onTiles = listener => {
   arrived = listener;
+};
+
+/** @param {(photo: number, why: string) => void} listener called when a photo cannot be decoded */
+export const onUndecodable = listener => {
+  undecodable = listener;
 };
 
 /** The tile, if it is here. */
@@ -81,7 +87,7 @@ async function fetchTile(key, path) {
       kept.delete(oldest);
     }
   } catch (error) {
-    if (error.status === 400) state.photos[Number(key.split("/")[0])].fault = error.message; // it cannot be decoded
+    if (error.status === 400) undecodable(Number(key.split("/")[0]), error.message);
     failed.set(key, performance.now() + 2000);
     setTimeout(() => arrived(), 2100);
   }

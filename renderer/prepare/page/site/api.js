@@ -78,7 +78,7 @@ export async function getJson(path, answers = []) {
 export async function getBlob(path, signal) {
   const response = await request(path, {signal});
   if (response.ok) return response.blob();
-  const why = said(await response.json().catch(() => ({})), "error");
+  const why = errorText(await response.json().catch(() => ({})));
   throw Object.assign(new Error(why || `${response.status} ${path}`), {status: response.status});
 }
 
