@@ -6,6 +6,7 @@
 #include "calibration/files/error.h"
 #include "calibration/files/wording.h"
 #include "calibration/lens/undistort.h"
+#include "calibration/lens/undistort_file.h"
 #include "calibration/photo/photograph.h"
 #include "calibration/program/program.h"
 #include "calibration/site_cameras.h"
@@ -61,12 +62,11 @@ SiteUndistortion UndistortSite(const SitePaths& site) {
   Progress progress("undistorting", result.photos);
   for (size_t i = 0; i < photos.size(); ++i) {
     const Lens& lens = lenses.at(cameras[i]);
-    const Photograph original = ReadPhotograph(photos[i]);
+    const CodedPhotograph original = ReadCodedPhotograph(photos[i]);
     if (const std::string& assumption = original.color.assumption; !assumption.empty()) {
       result.warnings.push_back(photos[i].string() + ": " + assumption);
     }
-    WriteExr(site.input_image(photos[i].stem()),
-             Reproject(original.linear, lens.camera, lens.pinhole));
+    WriteReprojected(site.input_image(photos[i].stem()), original, lens.camera, lens.pinhole);
     progress.Step();
   }
   return result;

@@ -138,7 +138,6 @@ class Renderer {
     SampleColors colors;
     const Sighting seen = Look(place_, sight);
     Note(seen.before, record);
-    colors.before = colors.after = RgbFromSpectrum(place_.daylight.sky_radiance);
     if (seen.before) {
       const Lighting light = LightAt(*seen.before, seed, block);
       const auto color = [&](When when) {
@@ -148,6 +147,8 @@ class Renderer {
       colors.after = light.IsUnchanged() ? colors.before : color(When::kAfter);
       record.sun += static_cast<float>(light.sun.before / (kGrid * kGrid));
       record.sky_share += static_cast<float>(light.rest->sky.before / (kGrid * kGrid));
+    } else {
+      colors.before = colors.after = RgbFromSpectrum(place_.daylight.sky_radiance);
     }
     colors.building = seen.after && seen.after->on_building;
     if (colors.building) {
@@ -197,21 +198,21 @@ class Renderer {
 
   void MarkChanges() {
     const Raster changed = ChangedPixels();
-    for (int y = 0; y < view_.lens.height; ++y) {
+    tbb::parallel_for(0, view_.lens.height, [&](int y) {
       for (int x = 0; x < view_.lens.width; ++x) {
         float& code = *result_.mask.At(x, y);
         if (code == 0 && IsNearChange(changed, x, y)) code = 170.0f / 255.0f;
       }
-    }
+    });
   }
 
   Raster ChangedPixels() const {
     Raster changed(view_.lens.width, view_.lens.height, 1);
-    for (int y = 0; y < view_.lens.height; ++y) {
+    tbb::parallel_for(0, view_.lens.height, [&](int y) {
       for (int x = 0; x < view_.lens.width; ++x) {
         *changed.At(x, y) = IsVisibleChange(result_.before.Rgb(x, y), result_.after.Rgb(x, y));
       }
-    }
+    });
     return changed;
   }
 

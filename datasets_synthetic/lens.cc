@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "datasets_synthetic/lens.h"
 
+#include <tbb/parallel_for.h>
+
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
@@ -57,14 +59,14 @@ std::optional<Eigen::Vector2d> Project(const Lens& lens, const Eigen::Vector3d& 
 }
 
 SightTable::SightTable(const Lens& lens) : columns_(lens.width + 1) {
-  corners_.reserve(static_cast<size_t>(columns_) * (lens.height + 1));
-  for (int row = 0; row <= lens.height; ++row) {
+  corners_.resize(static_cast<size_t>(columns_) * (lens.height + 1));
+  tbb::parallel_for(0, lens.height + 1, [&](int row) {
     for (int column = 0; column <= lens.width; ++column) {
       const Eigen::Vector2d seen((column - 0.5 - lens.center_x) / lens.focal_x,
                                  (row - 0.5 - lens.center_y) / lens.focal_y);
-      corners_.push_back(Undistort(lens, seen));
+      corners_[static_cast<size_t>(row) * columns_ + column] = Undistort(lens, seen);
     }
-  }
+  });
 }
 
 Eigen::Vector2d SightTable::Tangents(const Eigen::Vector2d& pixel) const {

@@ -43,8 +43,10 @@ void ForEachHit(const Scene& scene, const Ray& ray, double limit, const Visit& v
       if (distance && *distance < limit) limit = visit(face, *distance);
     }
     if (node.faces > 0) continue;
-    pending[waiting++] = node.second;
-    pending[waiting++] = index + 1;
+    // The nearer half first: what it shows hides most of the other.
+    const bool forward = ray.direction[node.axis] > 0;
+    pending[waiting++] = forward ? node.second : index + 1;
+    pending[waiting++] = forward ? index + 1 : node.second;
   }
 }
 

@@ -52,13 +52,14 @@ void AddNode(Scene& scene, int first, int count) {
   const Eigen::Vector3d slack = Eigen::Vector3d::Constant(1e-6);  // flat boxes are not missed
   box = {box.min() - slack, box.max() + slack};
   const size_t index = scene.nodes.size();
-  scene.nodes.push_back({box, 0, first, count <= kLeafFaces ? count : 0});
+  scene.nodes.push_back({box, 0, 0, first, count <= kLeafFaces ? count : 0});
   if (count <= kLeafFaces) return;
   int axis = 0;
   centers.sizes().maxCoeff(&axis);
   std::nth_element(begin, begin + count / 2, begin + count, [axis](const Face& a, const Face& b) {
     return a.center[axis] < b.center[axis];
   });
+  scene.nodes[index].axis = axis;
   AddNode(scene, first, count / 2);
   scene.nodes[index].second = static_cast<int>(scene.nodes.size());
   AddNode(scene, first + count / 2, count - count / 2);

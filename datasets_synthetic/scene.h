@@ -44,11 +44,11 @@ struct Face {
 // Computes normal, axes, outline and bounding sphere from the vertices.
 Face FinishFace(Face face);
 
-// A node of the tree of bounding boxes. Its children are the next node and `second`; a leaf has
-// faces of its own.
+// A node of the tree of bounding boxes. Its children are the next node and, further along `axis`,
+// `second`; a leaf has faces of its own.
 struct BoxNode {
   Eigen::AlignedBox3d box;
-  int second = 0;
+  int second = 0, axis = 0;
   int first_face = 0, faces = 0;  // faces > 0: a leaf
 };
 

@@ -2,6 +2,7 @@
 #include "datasets_synthetic/truth_writer.h"
 
 #include <json/value.h>
+#include <tbb/parallel_invoke.h>
 
 #include "calibration/files/json_file.h"
 #include "calibration/photo/photograph.h"
@@ -45,8 +46,9 @@ Raster EncodableMask(const Raster& mask) {
 
 void WriteTruthImages(const std::filesystem::path& folder, const View& view,
                       const RenderedView& rendering) {
-  WriteExr(folder / ("before_" + view.photo + ".exr"), rendering.before);
-  WriteExr(folder / ("after_" + view.photo + ".exr"), rendering.after);
+  tbb::parallel_invoke(
+      [&] { WriteExr(folder / ("before_" + view.photo + ".exr"), rendering.before); },
+      [&] { WriteExr(folder / ("after_" + view.photo + ".exr"), rendering.after); });
   WritePng(folder / ("mask_" + view.photo + ".png"), EncodableMask(rendering.mask),
            Encoding::kSrgb8);
 }

@@ -4,6 +4,7 @@
 
 #include "calibration/program/program.h"
 #include "calibration/program/warnings.h"
+#include "radiometry/light_page.h"
 #include "radiometry/light_report.h"
 #include "radiometry/measure_daylight.h"
 
@@ -32,9 +33,12 @@ int RunLight(int argc, char** argv) {
       ->check(CLI::NonNegativeNumber);
   return RunProgram(app, argc, argv, [&] {
     const LightMeasurement measurement = MeasureDaylight(site, options);
+    const Json::Value report = LightPageReport(site, measurement);
     WriteEnvironment(site, measurement);
+    WriteLightPage(site, report);
     std::cout << BriefReport(measurement);
     std::cout << WarningLines(TextsOf(measurement.warnings));
+    std::cout << VerdictLines(site, report);
   });
 }
 

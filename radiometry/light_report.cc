@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "radiometry/light_report.h"
 
+#include <cmath>
+#include <numbers>
 #include <ostream>
 #include <sstream>
 
@@ -40,17 +42,43 @@ void AddAir(const LightMeasurement& measured, Json::Value* air) {
   json["samples"] = SamplesToJson(measured.samples.haze, fit.residuals, environment.scene);
 }
 
+double MeanOverBins(const Spectrum& spectrum, const SpectralBins& bins) {
+  return spectrum.head(bins.count).mean();
+}
+
+// What was found of the sky's shape, a uniform one's too.
+void AddSky(const LightMeasurement& measured, Json::Value* sky) {
+  const SkyFit& fit = measured.sky.fit;
+  const SpectralBasis& spectra = measured.environment.spectra;
+  Json::Value& json = *sky;
+  json["is_uniform"] = fit.shape.IsUniform();
+  json["photos"] = measured.sky.photos;
+  json["cells"] = fit.cells;
+  if (!fit.level) return;
+  json["gradation_sigma"] = BinsJson(fit.sigma.gradation, spectra.bins());
+  json["glow_sigma"] = BinsJson(fit.sigma.glow, spectra.bins());
+  json["photographed_rgb"] = ToJson(spectra.RgbFromSpectrum(*fit.level));
+  json["heights"].append(fit.lowest);
+  json["heights"].append(fit.highest);
+  json["rms_of_ln"] = fit.rms;
+}
+
 void AddLight(const LightMeasurement& measured, Json::Value* light) {
   const NaturalEnvironment& environment = measured.environment;
   const SpectralBasis& spectra = environment.spectra;
   const Daylight& daylight = environment.light;
   const DaylightFit& fit = measured.daylight_fit;
   Json::Value& json = *light;
-  // The paper's: one k for all wavelengths, and L that of D65. [Durisch92, §4.3, §7]
-  json["relative_spectrum"] = BinsJson(IlluminantD65(spectra.bins()), spectra.bins());
-  json["k_s"] = WeightOfD65(daylight.sun_radiance, spectra.bins());
-  json["k_u"] = WeightOfD65(daylight.ambient_radiance, spectra.bins());
-  json["k_h"] = WeightOfD65(daylight.sky_radiance, spectra.bins());
+  // The paper's: one k for all wavelengths, and L that of D65 or as stated. [Durisch92, §4.3, §7]
+  const auto& table = measured.samples.daylight_spectrum;
+  const Spectrum relative = table ? Sampled(*table, spectra.bins()) : IlluminantD65(spectra.bins());
+  json["relative_spectrum"] = BinsJson(relative, spectra.bins());
+  const auto weight = [&](const Spectrum& radiance) {
+    return Tristimulus(radiance, spectra.bins()).y() / Tristimulus(relative, spectra.bins()).y();
+  };
+  json["k_s"] = weight(daylight.sun_radiance);
+  json["k_u"] = weight(daylight.ambient_radiance);
+  json["k_h"] = weight(daylight.sky_radiance);
   json["sun_radiance_sigma"] = BinsJson(fit.sun_sigma, spectra.bins());
   json["sun_irradiance_rgb"] = ToJson(SunIrradianceRgb(environment));
   json["ambient_radiance_sigma"] = BinsJson(fit.ambient_sigma, spectra.bins());
@@ -58,17 +86,25 @@ void AddLight(const LightMeasurement& measured, Json::Value* light) {
   json["sky_radiance_sigma"] = BinsJson(fit.sky_sigma, spectra.bins());
   json["sky_radiance_rgb"] = ToJson(spectra.RgbFromSpectrum(daylight.sky_radiance));
   json["open_sky_radiance_rgb"] = ToJson(OpenSkyRgb(environment));
+  AddSky(measured, &json["seen_sky"]);
   json["reflectance_known"] = measured.reflectance_known;
   json["condition"] = fit.condition;
   json["rms_over_sigma"] = fit.rms;
   json["samples"] = SamplesToJson(measured.samples.daylight, fit.residuals, environment.scene);
 }
 
+// Where a photograph is of another exposure than the site's unit.
+void AddExposures(const ExposureFit& fit, Json::Value* cameras) {
+  for (Json::ArrayIndex i = 0; i < fit.photos.size(); ++i) {
+    if (!fit.photos[i].IsOne()) (*cameras)[i]["exposure"] = ToJson(fit.photos[i].gain);
+  }
+}
+
 Json::Value Provenance(const SceneGeometry& scene) {
   Json::Value json;
   json["software"] = "insitu " INSITU_VERSION;
   for (const char* input : {"work/reconstruction/scene.json", "work/input_images",
-                            "survey/samples.json", "survey/materials.json"}) {
+                            "survey/samples.json", "survey/materials.json", "survey/foreground"}) {
     json["inputs"].append(input);
   }
   for (const PosedCamera& posed : scene.cameras) json["inputs"].append("photos/" + posed.photo);
@@ -95,6 +131,30 @@ void PrintQuality(const ImageQuality& quality, std::ostream& out) {
 
 std::ostream& operator<<(std::ostream& out, const Eigen::Vector3d& rgb) {
   return out << rgb[0] << " " << rgb[1] << " " << rgb[2];
+}
+
+// Uniform, or how it is spread; and how bright the photographs show it.
+void PrintSky(const LightMeasurement& measured, std::ostream& out) {
+  const SkyFit& fit = measured.sky.fit;
+  const SpectralBasis& spectra = measured.environment.spectra;
+  const auto mean = [&](const Spectrum& spectrum) {
+    return MeanOverBins(spectrum, spectra.bins());
+  };
+  out << "Sky by direction    ";
+  if (!fit.level) {
+    out << "no photograph shows enough of it: taken as uniform\n";
+    return;
+  }
+  if (fit.shape.IsUniform()) {
+    out << "uniform, gradation 0 +- " << mean(fit.sigma.gradation);
+  } else {
+    out << "gradation " << mean(fit.shape.gradation) << " +- " << mean(fit.sigma.gradation)
+        << ", glow " << mean(fit.shape.glow) << " +- " << mean(fit.sigma.glow);
+  }
+  constexpr double kToDegrees = 180 / std::numbers::pi;
+  out << "; " << fit.cells << " places in " << measured.sky.photos << " photographs, "
+      << std::lround(kToDegrees * fit.lowest) << " to " << std::lround(kToDegrees * fit.highest)
+      << " degrees high, photographed as " << spectra.RgbFromSpectrum(*fit.level) << "\n";
 }
 
 }  // namespace
@@ -130,8 +190,9 @@ std::string BriefReport(const LightMeasurement& measured) {
       << "Sun: irradiance     " << SunIrradianceRgb(environment) << " across its rays\n"
       << "Sky: radiance       " << spectra.RgbFromSpectrum(light.sky_radiance) << "\n"
       << "Ambient: radiance   " << spectra.RgbFromSpectrum(light.ambient_radiance)
-      << ", with the sky " << OpenSkyRgb(environment) << "\n"
-      << "Daylight: " << measured.samples.daylight.size() << " samples, residuals " << fit.rms
+      << ", with the sky " << OpenSkyRgb(environment) << "\n";
+  PrintSky(measured, out);
+  out << "Daylight: " << measured.samples.daylight.size() << " samples, residuals " << fit.rms
       << " sigma, condition " << fit.condition << "\n";
   for (size_t i = 0; i < environment.qualities.size(); ++i) {
     out << environment.scene.cameras[i].photo << ": ";
@@ -140,8 +201,21 @@ std::string BriefReport(const LightMeasurement& measured) {
   return out.str();
 }
 
+std::vector<Eigen::Vector3d> ReadPhotoGains(const SitePaths& site) {
+  RequireResult(site.environment(), "insitu-light");
+  std::vector<Eigen::Vector3d> gains;
+  for (const JsonNode& camera :
+       JsonNode::Load(site.environment()).At("scene").At("cameras").Items()) {
+    const auto exposure = camera.Find("exposure");
+    gains.push_back(exposure ? exposure->Vector3() : Eigen::Vector3d(Eigen::Vector3d::Ones()));
+    if (gains.back().minCoeff() <= 0) throw exposure->Error("is no exposure, expected above 0");
+  }
+  return gains;
+}
+
 void WriteEnvironment(const SitePaths& site, const LightMeasurement& measured) {
   Json::Value json = DescriptionOf(measured.environment, site.environment());
+  AddExposures(measured.exposure_fit, &json["scene"]["cameras"]);
   json["provenance"] = Provenance(measured.environment.scene);
   AddAir(measured, &json["air"]);
   AddLight(measured, &json["light"]);

@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 #include <string>
+#include <vector>
 
 #include "calibration/program/site.h"
 #include "radiometry/measure_daylight.h"
@@ -22,6 +23,10 @@ Eigen::Vector3d OpenSkyRgb(const NaturalEnvironment& environment);
 
 // What was found, without the warnings.
 std::string BriefReport(const LightMeasurement& measured);
+
+// What each photograph's linear values are over those of the site's one unit, by channel, as
+// WriteEnvironment wrote it: 1 where it is of the same exposure. Throws InputError.
+std::vector<Eigen::Vector3d> ReadPhotoGains(const SitePaths& site);
 
 // work/environment.json: the description, and beside it what is for people and for later checks:
 // standard deviations, conditions, residuals, RGB of the spectra, inputs, warnings.

@@ -9,19 +9,19 @@
 #include "calibration/photo/photograph.h"
 #include "calibration/program/program.h"
 #include "calibration/site_cameras.h"
+#include "radiometry/daylight_warnings.h"
 #include "radiometry/measure/measure_image_quality.h"
+#include "radiometry/one_unit.h"
 #include "radiometry/transport/interreflection.h"
 #include "reconstruction/geometry/ray_scene.h"
 
 namespace insitu {
 namespace {
 
-constexpr double kPoorCondition = 100;
 constexpr int kDirections = 4096;        // in which a sample's surroundings are looked at
 constexpr double kPieceAtSample = 0.15;  // [m], of what surrounds it
 constexpr int kRounds = 4;               // of light and unseen surroundings; each gains a digit
 constexpr double kUnseenSigma = 0.5;     // of what unseen surroundings are taken to send
-constexpr double kMuchUnseen = 0.2;      // of a sample's hemisphere
 
 // For a site as it stands.
 struct NothingPlanned {
@@ -33,8 +33,9 @@ struct NothingPlanned {
   PlannedFaces faces{mesh, rays, normals, materials, brdfs};
 };
 
+// With what their EXIF tells of their exposure.
 std::vector<Photograph> ReadPhotographs(const SitePaths& site, const SceneGeometry& scene,
-                                        Progress* progress) {
+                                        Progress* progress, std::vector<ExifExposure>* exposures) {
   const std::vector<std::filesystem::path> paths = ListPhotographs(site);
   std::vector<Photograph> photos;
   for (const PosedCamera& posed : scene.cameras) {
@@ -46,6 +47,7 @@ std::vector<Photograph> ReadPhotographs(const SitePaths& site, const SceneGeomet
     }
     RequirePhotographSize(*path, posed.camera.width(), posed.camera.height());
     photos.push_back(ReadPhotograph(*path));
+    exposures->push_back(ReadExifExposure(*path));
     progress->Step();
   }
   return photos;
@@ -99,22 +101,27 @@ Spectrum HorizonColor(const std::vector<PixelSample>& samples, const SpectralBas
   return spectra.SpectrumFromRgb(sum / static_cast<double>(samples.size()));
 }
 
-AtmosphereFit MeasureAir(const LightSamples& samples, const SpectralBasis& spectra,
-                         std::vector<Sentence>* warnings) {
-  const Spectrum horizon = HorizonColor(samples.horizon, spectra);
-  if (samples.haze.empty()) {
-    warnings->push_back(
-        Sentence("lightNoHaze", "samples.json has no haze samples: the air is taken as clear"));
-    AtmosphereFit clear;
-    clear.air.horizon = horizon;
-    return clear;
-  }
+std::vector<HazeSample> HazeSamples(const LightSamples& samples, const SpectralBasis& spectra) {
   std::vector<HazeSample> haze;
   for (const PixelSample& sample : samples.haze) {
     haze.push_back({spectra.SpectrumFromRgb(sample.rgb), SpectrumSigma(spectra, sample.rgb_sigma),
                     sample.distance});
   }
-  return FitAtmosphere(haze, horizon, spectra.bins());
+  return haze;
+}
+
+void MeasureAir(LightMeasurement* measured) {
+  NaturalEnvironment& environment = measured->environment;
+  const Spectrum horizon = HorizonColor(measured->samples.horizon, environment.spectra);
+  measured->haze = HazeSamples(measured->samples, environment.spectra);
+  if (measured->haze.empty()) {
+    measured->warnings.push_back(
+        Sentence("lightNoHaze", "samples.json has no haze samples: the air is taken as clear"));
+    measured->air_fit.air.horizon = horizon;
+  } else {
+    measured->air_fit = FitAtmosphere(measured->haze, horizon, environment.spectra.bins());
+  }
+  environment.air = measured->air_fit.air;
 }
 
 Daylight IlluminationGeometry(const SceneGeometry& scene, int polar_facets) {
@@ -165,6 +172,9 @@ std::vector<LightGeometry> TraceLight(const std::vector<SurfacePoint>& points, c
 
 Spectrum SampleBrdf(const LightSamples& samples, const SpectralBasis& spectra,
                     std::vector<Sentence>* warnings) {
+  if (samples.reflectance_table) {
+    return Sampled(*samples.reflectance_table, spectra.bins()) / std::numbers::pi;
+  }
   if (samples.daylight_reflectance) {
     return spectra.ReflectanceFromRgb(*samples.daylight_reflectance) / std::numbers::pi;
   }
@@ -183,26 +193,6 @@ std::vector<ImageQuality> MeasureQualities(const std::vector<Photograph>& photos
     progress->Step();
   }
   return qualities;
-}
-
-void WarnOfWeakSamples(const LightMeasurement& measured, bool has_sun,
-                       const std::vector<DaylightSample>& samples,
-                       std::vector<Sentence>* warnings) {
-  const bool any_sun = std::any_of(samples.begin(), samples.end(),
-                                   [](const auto& sample) { return sample.geometry.sun > 0; });
-  if (!has_sun) {
-    warnings->push_back(
-        Sentence("lightOvercast", "no sun direction was measured: the sky is taken as overcast"));
-  }
-  if (has_sun && !any_sun) {
-    warnings->push_back(
-        Sentence("lightSunUnseen", "no daylight sample sees the sun: it stays dark"));
-  }
-  if (measured.daylight_fit.condition > kPoorCondition) {
-    warnings->push_back(Sentence("lightPoor",
-                                 "the daylight samples hardly tell sun, sky and ambient light "
-                                 "apart: choose some in sun, in open shade and in deep shade"));
-  }
 }
 
 std::vector<DaylightSample> DaylightSamples(const LightMeasurement& measured,
@@ -230,6 +220,7 @@ void SetSurroundings(const Interreflection& interreflection,
     DaylightSample& sample = (*samples)[i];
     sample.surroundings = around.surroundings_before;
     sample.geometry.sky = around.sky;
+    sample.relative_sky = around.relative_sky;
     unseen->push_back(around.unseen / std::numbers::pi);
     // What no photograph shows is known to about half of what it may send.
     const Spectrum guess = kUnseenSigma * brdf * around.surroundings_before *
@@ -238,33 +229,19 @@ void SetSurroundings(const Interreflection& interreflection,
   }
 }
 
-void WarnOfUnseen(const LightMeasurement& measured, const std::vector<double>& unseen,
-                  std::vector<Sentence>* warnings) {
-  const std::vector<PixelSample>& pixels = measured.samples.daylight;
-  std::string names;
-  for (size_t i = 0; i < unseen.size(); ++i) {
-    if (unseen[i] < kMuchUnseen) continue;
-    const PixelSample& pixel = pixels[i];
-    names += names.empty() ? "" : ", ";
-    names += measured.environment.scene.cameras[pixel.photo].photo;
-    names += " (" + std::to_string(std::lround(pixel.pixel.x())) + ", ";
-    names += std::to_string(std::lround(pixel.pixel.y())) + ")";
-  }
-  if (names.empty()) return;
-  warnings->push_back(Sentence("lightUnseen",
-                               "daylight samples that receive much light from surfaces no "
-                               "photograph shows, which weigh less: {samples}",
-                               {{"samples", names}}));
+DaylightFitOptions FitOptions(const LightMeasurement& measured, const LightOptions& options) {
+  const auto& table = measured.samples.daylight_spectrum;
+  const SpectralBins& bins = measured.environment.spectra.bins();
+  return {options.average_over_wavelength,
+          table ? std::optional(Sampled(*table, bins)) : std::nullopt};
 }
 
 // Eq. (9) with photographed surroundings: what no photograph shows of them depends on the light,
 // so the two take turns.
-DaylightFit FitInSurroundings(const LightMeasurement& measured,
-                              const std::vector<Photograph>& photos,
-                              const std::vector<SurfacePoint>& points, const Spectrum& brdf,
-                              const LightOptions& options, std::vector<DaylightSample> samples,
-                              std::vector<Sentence>* warnings) {
-  const NaturalEnvironment& environment = measured.environment;
+void FitInSurroundings(const std::vector<Photograph>& photos,
+                       const std::vector<SurfacePoint>& points, const LightOptions& options,
+                       LightMeasurement* measured) {
+  const NaturalEnvironment& environment = measured->environment;
   const PolygonMesh polygons = MeshOfPolygons(environment.scene);
   const RayScene rays(polygons.mesh);
   const std::vector<LocalImage> images = LocalImages(environment.scene, photos);
@@ -282,43 +259,68 @@ DaylightFit FitInSurroundings(const LightMeasurement& measured,
   Interreflection interreflection(scene, light, grid,
                                   {.bounces = options.bounces, .point_directions = kDirections});
   const bool has_sun = environment.scene.sun.has_value();
-  DaylightFit fit;
-  const std::vector<DaylightSample> bare = samples;
-  std::vector<double> unseen;
+  DaylightFit& fit = measured->daylight_fit;
+  const std::vector<DaylightSample> bare = measured->daylight;
   for (int round = 0; round < kRounds; ++round) {
     interreflection.Solve(light);
-    samples = bare;
-    SetSurroundings(interreflection, points, brdf, &samples, &unseen);
-    fit = FitDaylight(samples, brdf, has_sun, environment.spectra.bins(),
-                      {options.average_over_wavelength});
+    measured->daylight = bare;
+    SetSurroundings(interreflection, points, measured->brdf, &measured->daylight,
+                    &measured->unseen);
+    fit = FitDaylight(measured->daylight, measured->brdf, has_sun, environment.spectra.bins(),
+                      FitOptions(*measured, options));
     light.sun_radiance = fit.sun_radiance;
     light.sky_radiance = fit.sky_radiance + fit.ambient_radiance;
   }
-  WarnOfUnseen(measured, unseen, warnings);
-  return fit;
 }
 
-void MeasureLightComponents(const std::vector<Photograph>& photos, const LightOptions& options,
-                            LightMeasurement* measured) {
+double BrightestOf(const std::vector<Photograph>& photos) {
+  float brightest = 0;
+  for (const Photograph& photo : photos) {
+    const std::vector<float>& values = photo.linear.data;
+    if (!values.empty()) brightest = std::max(brightest, *std::ranges::max_element(values));
+  }
+  return brightest;
+}
+
+bool KnowsReflectance(const LightSamples& samples) {
+  return samples.daylight_reflectance || samples.reflectance_table;
+}
+
+// From the samples.
+void MeasureAirAndLight(const SitePaths& site, const std::vector<Photograph>& photos,
+                        const LightOptions& options, LightMeasurement* measured) {
   NaturalEnvironment& environment = measured->environment;
+  measured->reflectance_known = KnowsReflectance(measured->samples);
+  MeasureAir(measured);
   Daylight& light = environment.light;
   light = IlluminationGeometry(environment.scene, options.polar_facets);
+  if (!options.uniform_ambient) {
+    measured->sky = MeasureSky(site, photos, measured->samples.horizon,
+                               options.average_over_wavelength, &environment);
+  }
   const std::vector<SurfacePoint> points =
       SurfacePoints(measured->samples.daylight, environment.scene);
   const RayScene rays(MeshOfPolygons(environment.scene).mesh);
-  const std::vector<DaylightSample> samples =
-      DaylightSamples(*measured, TraceLight(points, rays, light));
+  measured->daylight = DaylightSamples(*measured, TraceLight(points, rays, light));
   const bool has_sun = environment.scene.sun.has_value();
-  const Spectrum brdf = SampleBrdf(measured->samples, environment.spectra, &measured->warnings);
+  measured->brdf = SampleBrdf(measured->samples, environment.spectra, &measured->warnings);
   DaylightFit& fit = measured->daylight_fit;
-  fit = options.uniform_ambient ? FitDaylight(samples, brdf, has_sun, environment.spectra.bins(),
-                                              {options.average_over_wavelength})
-                                : FitInSurroundings(*measured, photos, points, brdf, options,
-                                                    samples, &measured->warnings);
+  if (options.uniform_ambient) {
+    fit = FitDaylight(measured->daylight, measured->brdf, has_sun, environment.spectra.bins(),
+                      FitOptions(*measured, options));
+  } else {
+    FitInSurroundings(photos, points, options, measured);
+  }
   light.sun_radiance = fit.sun_radiance;
   light.ambient_radiance = fit.ambient_radiance;
   light.sky_radiance = fit.sky_radiance;
-  WarnOfWeakSamples(*measured, has_sun, samples, &measured->warnings);
+  measured->brightest = BrightestOf(photos);
+  measured->is_simplified = options.uniform_ambient || options.bounces == 0;
+  const std::vector<Sentence> warnings = DaylightWarnings(*measured);
+  measured->warnings.insert(measured->warnings.end(), warnings.begin(), warnings.end());
+  if (measured->reflectance_known) {
+    WarnOfAnotherSky(environment, measured->sky, &measured->warnings);
+  }
 }
 
 LightMeasurement WithoutSamples(const SitePaths& site, SceneGeometry scene,
@@ -364,18 +366,17 @@ LightMeasurement MeasureDaylight(const SitePaths& site, const LightOptions& opti
   LightMeasurement measured = WithoutSamples(site, ReadSceneGeometry(site), options);
   NaturalEnvironment& environment = measured.environment;
   const int photographs = static_cast<int>(environment.scene.cameras.size());
-  constexpr int kMeasurements = 3;  // samples, air, light, each about as long as a photograph
+  constexpr int kMeasurements = 2;  // samples, light, each about as long as a photograph
   Progress progress("haze and daylight", 2 * photographs + kMeasurements);
-  const std::vector<Photograph> photos = ReadPhotographs(site, environment.scene, &progress);
+  std::vector<Photograph> photos =
+      ReadPhotographs(site, environment.scene, &progress, &measured.exposures);
   environment.input_images = ListInputImages(site, environment.scene);
   environment.qualities = MeasureQualities(photos, environment.scene, &progress);
   measured.samples = ReadSamples(site, environment.scene, photos);
+  measured.clipped = MeasureClippedShares(environment.scene, photos);
+  BringToOneUnit(&photos, &measured);
   progress.Step();
-  measured.reflectance_known = measured.samples.daylight_reflectance.has_value();
-  measured.air_fit = MeasureAir(measured.samples, environment.spectra, &measured.warnings);
-  environment.air = measured.air_fit.air;
-  progress.Step();
-  MeasureLightComponents(photos, options, &measured);
+  MeasureAirAndLight(site, photos, options, &measured);
   return measured;
 }
 
@@ -386,10 +387,7 @@ LightMeasurement MeasureDaylightSoFar(const SitePaths& site, const SceneGeometry
   LightMeasurement measured = WithoutSamples(site, scene, options);
   measured.samples = ReadSamples(site, scene, photos, {}, left_out);
   RequireEnough(site, &measured.samples, left_out);
-  measured.reflectance_known = measured.samples.daylight_reflectance.has_value();
-  measured.air_fit = MeasureAir(measured.samples, measured.environment.spectra, &measured.warnings);
-  measured.environment.air = measured.air_fit.air;
-  MeasureLightComponents(photos, options, &measured);
+  MeasureAirAndLight(site, photos, options, &measured);
   return measured;
 }
 

@@ -3,15 +3,11 @@
 #pragma once
 
 #include <optional>
-#include <string>
 #include <vector>
 
 #include "calibration/files/sentence.h"
 #include "calibration/program/site.h"
-#include "radiometry/measure/fit_atmosphere.h"
-#include "radiometry/measure/fit_daylight.h"
-#include "radiometry/measure/samples.h"
-#include "radiometry/natural_environment.h"
+#include "radiometry/light_measurement.h"
 
 namespace insitu {
 
@@ -23,16 +19,6 @@ struct LightOptions {
   std::optional<int> bounces = {};  // of light among surfaces, at most; 0: sun and sky alone
 
   void Check() const;  // throws CheckError that names the field that is wrong
-};
-
-// What the light inversion found.
-struct LightMeasurement {
-  NaturalEnvironment environment;
-  LightSamples samples;
-  AtmosphereFit air_fit;  // without haze samples: clear air, residuals empty
-  DaylightFit daylight_fit;
-  bool reflectance_known = false;  // false: rho = 1, the building's brightness is relative
-  std::vector<Sentence> warnings;
 };
 
 // Horizon colour, haze (7), daylight (9) from the site's photographs and samples.

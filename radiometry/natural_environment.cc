@@ -103,6 +103,18 @@ Json::Value AirToJson(const Atmosphere& air, const SpectralBins& bins) {
   return json;
 }
 
+// Null: uniform.
+Json::Value SkyShapeToJson(const Daylight& light, const SpectralBins& bins) {
+  if (light.sky_shape.IsUniform()) return {};
+  Json::Value json;
+  json["gradation"] = BinsJson(light.sky_shape.gradation, bins);
+  json["glow"] = BinsJson(light.sky_shape.glow, bins);
+  if (light.photographed_sky) {
+    json["photographed_radiance"] = BinsJson(*light.photographed_sky, bins);
+  }
+  return json;
+}
+
 Json::Value LightToJson(const Daylight& light, const SpectralBins& bins) {
   Json::Value json;
   json["sun_direction"] = ToJson(light.sun_direction);
@@ -112,6 +124,7 @@ Json::Value LightToJson(const Daylight& light, const SpectralBins& bins) {
   json["sun_radiance"] = BinsJson(light.sun_radiance, bins);
   json["ambient_radiance"] = BinsJson(light.ambient_radiance, bins);
   json["sky_radiance"] = BinsJson(light.sky_radiance, bins);
+  json["sky_shape"] = SkyShapeToJson(light, bins);
   return json;
 }
 
@@ -272,6 +285,17 @@ Atmosphere ReadAir(const JsonNode& node, const SpectralBins& bins) {
   return air;
 }
 
+void ReadSkyShape(const JsonNode& node, const SpectralBins& bins, Daylight* light) {
+  constexpr double kMost = 4;  // far beyond what skies have
+  light->sky_shape = {ReadBins(node.At("gradation"), bins), ReadBins(node.At("glow"), bins)};
+  for (const Spectrum& power : {light->sky_shape.gradation, light->sky_shape.glow}) {
+    if ((power.abs() > kMost).any()) throw node.Error("is no sky, expected powers of -4 to 4");
+  }
+  if (const auto seen = node.Find("photographed_radiance")) {
+    light->photographed_sky = ReadBins(*seen, bins);
+  }
+}
+
 Daylight ReadLight(const JsonNode& node, const SpectralBins& bins) {
   Daylight light;
   light.sun_direction = ReadUnit(node.At("sun_direction"));
@@ -284,6 +308,7 @@ Daylight ReadLight(const JsonNode& node, const SpectralBins& bins) {
   light.sun_radiance = ReadBins(node.At("sun_radiance"), bins);
   light.ambient_radiance = ReadBins(node.At("ambient_radiance"), bins);
   light.sky_radiance = ReadBins(node.At("sky_radiance"), bins);
+  if (const auto shape = node.Find("sky_shape")) ReadSkyShape(*shape, bins, &light);
   return light;
 }
 

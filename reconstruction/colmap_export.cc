@@ -35,7 +35,7 @@ std::optional<Sample> SampleAt(const Lens& lens, const Eigen::Vector2d& pixel) {
     LensDerivatives derivatives;
     derivatives.by_point = &by_point;
     if (!LensResidual(lens, parameters.data(), sample.point, pixel, &residual, derivatives)) break;
-    const Eigen::Vector2d step = by_point.leftCols<2>().colPivHouseholderQr().solve(residual);
+    const Eigen::Vector2d step = by_point.leftCols<2>().inverse() * residual;
     if (!step.allFinite()) break;
     sample.point.head<2>() -= step;
     if (step.norm() < 1e-13) return sample;
@@ -62,17 +62,22 @@ std::vector<Sample> SamplesOver(const Lens& lens) {
   return samples;
 }
 
+// The shortest of the least-squares solutions.
+Eigen::VectorXd LeastSquares(const Eigen::MatrixXd& design, const Eigen::VectorXd& right) {
+  return design.completeOrthogonalDecomposition().solve(right);
+}
+
 // Of pixels as a linear function of x / z and y / z each.
 std::vector<double> PinholeOf(const std::vector<Sample>& samples) {
   std::vector<double> focal_and_center(4);
   for (int axis = 0; axis < 2; ++axis) {
-    Eigen::MatrixX2d design(samples.size(), 2);
+    Eigen::MatrixXd design(samples.size(), 2);
     Eigen::VectorXd pixels(samples.size());
     for (size_t i = 0; i < samples.size(); ++i) {
       design.row(static_cast<Eigen::Index>(i)) << samples[i].point[axis], 1;
       pixels[static_cast<Eigen::Index>(i)] = samples[i].pixel[axis];
     }
-    const Eigen::Vector2d line = design.colPivHouseholderQr().solve(pixels);
+    const Eigen::Vector2d line = LeastSquares(design, pixels);
     focal_and_center[static_cast<size_t>(axis)] = line[0];
     focal_and_center[static_cast<size_t>(axis) + 2] = line[1];
   }
@@ -107,9 +112,8 @@ Camera Fitted(const std::string& model, std::vector<double> intrinsics,
       misclosure.segment<2>(row) = samples[i].pixel - *pixel;
     }
     const Eigen::VectorXd scale = jacobian.colwise().norm().cwiseMax(1e-12);
-    const Eigen::VectorXd step = (jacobian * scale.cwiseInverse().asDiagonal())
-                                     .completeOrthogonalDecomposition()
-                                     .solve(misclosure);
+    const Eigen::VectorXd step =
+        LeastSquares(jacobian * scale.cwiseInverse().asDiagonal(), misclosure);
     for (Eigen::Index k = 0; k < count; ++k)
       intrinsics[static_cast<size_t>(k)] += step[k] / scale[k];
     if (!step.allFinite() || step.norm() < 1e-9) break;

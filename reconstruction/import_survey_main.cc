@@ -17,10 +17,25 @@ void AddOptions(CLI::App* app, insitu::SurveyImportOptions* options) {
                   "coordinate system of files that name none, e.g. EPSG:2056");
   app->add_option("--crs", options->crs,
                   "coordinate system to convert to; default: as read, or the UTM zone of degrees");
+  app->add_option(
+      "--unit", options->reading.unit,
+      "of lengths whose columns state none: m, mm, cm, \"US survey feet\", \"international feet\"");
   app->add_option("--check", options->check_points, "points to keep out of the adjustment");
   app->add_flag("--keep-unsurveyed", options->keeps_unsurveyed,
                 "keep marks of points without coordinates, for vertices of polygons");
   app->add_flag("--replace", options->may_replace, "replace survey files that are there already");
+}
+
+std::map<std::string, std::string> Pairs(const char* option, const std::vector<std::string>& texts,
+                                         const std::string& expected) {
+  std::map<std::string, std::string> pairs;
+  for (const std::string& text : texts) {
+    const size_t equals = text.find('=');
+    if (equals == std::string::npos)
+      throw insitu::InputError(option, "\"" + text + "\", expected " + expected);
+    pairs[text.substr(0, equals)] = text.substr(equals + 1);
+  }
+  return pairs;
 }
 
 }  // namespace
@@ -28,7 +43,7 @@ void AddOptions(CLI::App* app, insitu::SurveyImportOptions* options) {
 int main(int argc, char** argv) {
   insitu::SitePaths site;
   std::vector<std::filesystem::path> files;
-  std::vector<std::string> photos;
+  std::vector<std::string> photos, columns;
   insitu::SurveyImportOptions options;
   CLI::App app(
       "Reads control points and marks as other programs write them (OpenDroneMap, OpenSfM, Pix4D, "
@@ -38,18 +53,17 @@ int main(int argc, char** argv) {
   insitu::AddSite(&app, &site);
   app.add_option("FILE", files, "files to read and merge")->required()->check(CLI::ExistingFile);
   app.add_option("--photo", photos, "NAME=SITE_PHOTO: a photo that the files name otherwise");
+  app.add_option("--column", columns,
+                 "QUANTITY=TITLE: which column of a table is meant; name, photo, east, north, "
+                 "height, sigma_east, "
+                 "sigma_north, sigma_height, sigma_plan, sigma, role");
   AddOptions(&app, &options);
   app.footer(
       "Example:\n  insitu-import-survey sites/mill points.csv gcp_list.txt --sigma-m 0.02 "
       "--mark-sigma-px 0.5");
   return insitu::RunProgram(app, argc, argv, [&] {
-    for (const std::string& pair : photos) {
-      const size_t equals = pair.find('=');
-      if (equals == std::string::npos) {
-        throw insitu::InputError("--photo", "\"" + pair + "\", expected NAME=SITE_PHOTO");
-      }
-      options.photo_names[pair.substr(0, equals)] = pair.substr(equals + 1);
-    }
+    options.photo_names = Pairs("--photo", photos, "NAME=SITE_PHOTO");
+    options.reading.columns = Pairs("--column", columns, "QUANTITY=TITLE");
     for (const std::string& line : insitu::ImportSurveyInto(site, files, options).report) {
       std::cout << line << "\n";
     }

@@ -16,6 +16,7 @@
 #include "reconstruction/report/residual_page.h"
 #include "reconstruction/report/residual_report.h"
 #include "reconstruction/site_photos.h"
+#include "reconstruction/site_sun.h"
 #include "reconstruction/survey/read_survey.h"
 
 namespace insitu {
@@ -90,6 +91,18 @@ void WriteAdjustedLenses(const SitePaths& site, const SitePhotos& photos,
   }
 }
 
+// What the almanac says to the sun that was measured, for the report; a warning where they differ.
+std::optional<Json::Value> CheckSun(const SitePaths& site, const SitePhotos& photos,
+                                    const Survey& survey, Adjustment* adjustment) {
+  const SceneGeometry& scene = adjustment->scene;
+  const auto circumstances = SunCircumstancesOf(site, photos, survey);
+  if (!circumstances || !scene.sun) return std::nullopt;
+  const auto verdict = JudgeSun(*scene.sun, scene.zenith, *circumstances);
+  if (!verdict) return std::nullopt;
+  if (!verdict->agrees) adjustment->warnings.push_back(verdict->message);
+  return verdict->ToJson();
+}
+
 }  // namespace
 
 std::map<std::string, Rigid3> ReadStartPoses(const std::filesystem::path& path,
@@ -111,23 +124,25 @@ Adjustment ReconstructSite(const SitePaths& site, const AdjustmentOptions& optio
                            const std::filesystem::path& start_poses, const std::string& command) {
   const SitePhotos site_photos = ReadSitePhotos(site);
   const std::vector<std::string>& photos = site_photos.names;
-  RequireSizes(site_photos.paths, site_photos.cameras);
-  RequireDistinctPhotographs(site_photos.paths);
   const auto tie_points = TiePointsOf(site, photos);
   Survey survey =
       ReadSurvey(site, photos, tie_points ? SurveyFolder::kOptional : SurveyFolder::kRequired);
   survey.tie_points = tie_points;
+  RequireSizes(site_photos.paths, site_photos.cameras);
+  RequireDistinctPhotographs(site_photos.paths);
   std::map<std::string, Rigid3> estimates;
   if (!start_poses.empty()) estimates = ReadStartPoses(start_poses, photos);
   Adjustment adjustment =
       Adjust(survey, photos, site_photos.cameras, options, site_photos.lenses, estimates);
+  const std::optional<Json::Value> sun = CheckSun(site, site_photos, survey, &adjustment);
   ReportContext context = SiteContext(site, site_photos, options, adjustment, tie_points);
   context.command = command;
   context.start_estimates = static_cast<int>(estimates.size());
   if (!start_poses.empty()) {
     context.inputs.push_back({"--start " + start_poses.filename().string(), Sha256(start_poses)});
   }
-  const Json::Value report = ResidualReport(adjustment, survey, context);
+  Json::Value report = ResidualReport(adjustment, survey, context);
+  if (sun) report["sun_check"] = *sun;
   const std::string page = ResidualPage(report);
   WriteSceneGeometry(site, adjustment.scene);
   WriteAdjustedLenses(site, site_photos, adjustment, options.is_self_calibrating);

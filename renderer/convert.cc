@@ -65,7 +65,8 @@ class Converter {
       : site_(site),
         options_(options),
         file_(site.building() / "materials.json"),
-        materials_(BuildingMaterials::Read(file_)) {}
+        library_(LibraryFolders(site)),
+        materials_(BuildingMaterials::Read(file_, library_)) {}
 
   void Add(const fs::path& path);
   Conversion Finish();
@@ -81,12 +82,14 @@ class Converter {
   int Unlisted(const SurfaceNames& names);
   std::string TextureOf(const SurfaceNames& names);
   void WarnOfMaterials();
+  void WarnOfOpenGlass();
   void WarnOfSolids();
   void DropHidden(const std::vector<std::optional<int>>& material_of_surface);
 
   SitePaths site_;
   ConvertOptions options_;
   fs::path file_;
+  MaterialLibrary library_;
   BuildingMaterials materials_;
   ModelMesh mesh_;
   std::map<const BuildingMaterial*, int> index_of_material_;
@@ -254,9 +257,38 @@ void Converter::WarnOfMaterials() {
     Warn(file_, "not listed, shown in the model's own colour: " + Listed(own_color_));
   }
   if (!hidden_.empty()) Warn(file_, "hidden: " + Listed(hidden_));
+  const std::vector<std::string> proposed = materials_.Proposed();
+  if (!proposed.empty()) {
+    Warn(file_, "proposed and not taken, which \"use\" in the place of \"proposed\" does: " +
+                    Listed(std::set<std::string>(proposed.begin(), proposed.end())));
+  }
   for (const std::string& name : materials_.Unused()) {
     Warn(file_,
          name + " is listed but decides no face: materials go before blocks, those before layers");
+  }
+}
+
+// Light is bent where it enters a body of glass and where it leaves it.
+void Converter::WarnOfOpenGlass() {
+  const ArtificialEnvironment& environment = conversion_.environment;
+  ModelMesh bodies;
+  for (const SurfaceMaterial& material : environment.materials) {
+    bodies.surfaces.emplace_back().layer = material.name;
+  }
+  for (size_t t = 0; t < mesh_.triangles.size(); ++t) {
+    const int material = environment.material_of_triangle[t];
+    const auto& glass = environment.materials[material].glass;
+    if (!glass || !glass->is_solid) continue;
+    bodies.triangles.push_back(mesh_.triangles[t]);
+    bodies.surface_of_triangle.push_back(material);
+  }
+  if (bodies.triangles.empty()) return;
+  bodies.vertices = mesh_.vertices;
+  for (const auto& [name, measures] : MeasuresByLayer(bodies)) {
+    if (measures.volume) continue;
+    Warn(file_, "\"" + name +
+                    "\" is solid glass, and its faces leave a body open: light that meets no face "
+                    "on its way out is lost; close it, or call it thin");
   }
 }
 
@@ -277,6 +309,7 @@ Conversion Converter::Finish() {
   conversion_.solids = MendSolids(&mesh_);
   ResolveMaterials();
   WarnOfMaterials();
+  WarnOfOpenGlass();
   WarnOfSolids();
   DropUnused(&mesh_);
   conversion_.elements = MeasuresByLayer(mesh_);
@@ -298,7 +331,7 @@ Conversion Converter::Finish() {
     Warn(site_.building(), suspicion);
   }
   const fs::path lights = site_.building() / "lights.json";
-  if (fs::exists(lights)) environment.lights = ReadLights(lights);
+  if (fs::exists(lights)) environment.lights = ReadLights(lights, library_);
   return std::move(conversion_);
 }
 

@@ -17,13 +17,14 @@ void Prepare(const SitePaths& site, const std::string& colleague, const PrepareO
     std::cout << MergeColleague(site, {colleague});
     return;
   }
-  ServePrepare(site, options, [](const std::string& url, const std::string& remark) {
-    if (!remark.empty()) std::cerr << "warning: " << remark << "\n";
+  const auto tell = [](const std::string& url) {
     std::cout << "measuring page: " << url
               << "\nCtrl-C ends it; all that the page shows as saved is "
               << "in the survey's files\n"
               << std::flush;
-  });
+  };
+  ServePrepare(site, options, tell,
+               [](const std::string& text) { std::cerr << "warning: " + text + "\n"; });
 }
 
 int RunPrepare(int argc, char** argv) {

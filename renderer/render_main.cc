@@ -1,27 +1,38 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <unistd.h>
+
 #include <algorithm>
 #include <cstdio>
+#include <iostream>
 #include <map>
 #include <memory>
+#include <optional>
 
+#include "calibration/foreground_matte.h"
 #include "calibration/program/program.h"
 #include "calibration/program/warnings.h"
-#include "renderer/foreground_matte.h"
 #include "renderer/render_site.h"
+#include "renderer/tiles/stop_signals.h"
+#include "renderer/tiles/stream_writer.h"
 #include "renderer/trace/profile.h"
 
 namespace insitu {
 namespace {
 
-void PrintReport(const RenderSiteReport& report) {
+void PrintReport(FILE* out, const RenderSiteReport& report) {
+  if (report.is_within_building) {
+    std::fprintf(out, "%s: not rendered\n", report.photo.c_str());
+    return;
+  }
   const Raster& picture = report.result.linear;
   const double pixels = static_cast<double>(picture.width) * picture.height;
-  std::printf("%s: building %.1f %%, changed %.1f %% of the pixels, %.2f rays a pixel, %.1f s\n",
-              report.photo.c_str(), 100 * report.result.building_pixels / pixels,
-              100 * report.result.changed_pixels / pixels, report.result.mean_rays, report.seconds);
+  std::fprintf(
+      out, "%s: building %.1f %%, changed %.1f %% of the pixels, %.2f rays a pixel, %.1f s\n",
+      report.photo.c_str(), 100 * report.result.building_pixels / pixels,
+      100 * report.result.changed_pixels / pixels, report.result.mean_rays, report.seconds);
   if (!report.uncertainty) return;
-  std::printf(
-      "  its %d corners stand to %.2f px (%.1f mm), %.2f px (%.1f mm) at worst, one sigma\n",
+  std::fprintf(
+      out, "  its %d corners stand to %.2f px (%.1f mm), %.2f px (%.1f mm) at worst, one sigma\n",
       report.uncertainty->corners, report.uncertainty->median_px,
       1000 * report.uncertainty->median_m, report.uncertainty->worst_px,
       1000 * report.uncertainty->worst_m);
@@ -51,31 +62,38 @@ void AddSharpness(CLI::App* app, Sharpness* sharpness) {
       ->option_text("measured|ideal [measured]");
 }
 
-void PrintQuality(const RenderSiteReport& report, const RenderSiteOptions& options) {
+void PrintQuality(FILE* out, const RenderSiteReport& report, const RenderSiteOptions& options) {
   if (const auto& spread = report.point_spread) {
-    std::printf(
+    std::fprintf(
+        out,
         "  sharpness of the photograph: sigma %.2f px in the centre, %.2f px in the corners "
         "(%d pieces of edges)\n",
         spread->center_sigma, spread->corner_sigma, spread->edges);
   } else if (options.sharpness == Sharpness::kMeasured) {
-    std::printf("  sharpness ideal: insitu-light measured none in this photograph\n");
+    std::fprintf(out, "  sharpness ideal: insitu-light measured none in this photograph\n");
   }
   if (options.with_grain && !report.has_grain) {
-    std::printf("  no grain: insitu-light measured none in this photograph\n");
+    std::fprintf(out, "  no grain: insitu-light measured none in this photograph\n");
   }
 }
+
+constexpr int kStopped = 3;  // exit status
 
 int RunRender(int argc, char** argv) {
   CLI::App app("Renders the planned building into the photographs of its site.", "insitu-render");
   app.footer(
       "Example: insitu-render path/to/site --photo IMG_2102\n"
       "Reads work/environment.json, work/building.json, work/input_images/ and what\n"
-      "stands in front, survey/foreground/<photo>.png (white: in front);\n"
+      "stands in front, survey/foreground/<photo>.png (white: in front), and where something\n"
+      "keeps the sun away, survey/shadows/<photo>.png (black), which is found if it is not there;\n"
       "writes montages/<photo>.exr, .png and .jpg, and .layers.exr: the shares of the\n"
-      "photograph (red), computed (green) and in front (blue).");
+      "photograph (red), computed (green) and in front (blue); and .shadows.exr: the share of\n"
+      "the sun that the photograph shows to arrive (red) and its standard deviation (green).\n"
+      "Ctrl-C ends it with status 3 when the tiles at work are done; whatever ends it, the same\n"
+      "command goes on where it was and comes to the same bytes.");
   SitePaths site;
   RenderSiteOptions options;
-  bool no_building = false, timing = false;
+  bool no_building = false, timing = false, stopped = false, streams = false, base64 = false;
   AddSite(&app, &site);
   app.add_option("--photo", options.photos, "only this photograph (may be repeated)");
   AddFrame(&app, &options.frame);
@@ -85,6 +103,8 @@ int RunRender(int argc, char** argv) {
       ->capture_default_str();
   app.add_flag("--uniform-ambient", options.uniform_ambient,
                "the paper's ambient light, alike everywhere, instead of light among surfaces");
+  app.add_flag("!--no-shadow-search", options.find_shadows,
+               "take what no polygon shades as lit by the sun, whatever the photograph shows");
   app.add_option("--reach", options.render.reach,
                  "change in 8-bit codes up to which the photograph's pixel stays")
       ->check(CLI::NonNegativeNumber)
@@ -97,18 +117,39 @@ int RunRender(int argc, char** argv) {
   app.add_option("--threads", options.render.threads, "threads; 0: all cores")
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
+  app.add_flag("--stream", streams,
+               "the picture on standard output as it comes, for insitu view -; reports on standard "
+               "error");
+  app.add_flag("--stream-base64", base64, "the same in a third of the bytes");
   app.add_flag("--timing", timing, "print the shares of CPU time");
-  return RunProgram(app, argc, argv, [&] {
-    options.with_building = !no_building;
+  const auto render = [&] {
     const auto profile = timing ? std::make_unique<Profile>() : nullptr;
-    std::fputs(WarningLines(UnreadForegroundFiles(site)).c_str(), stdout);
-    for (const RenderSiteReport& report : RenderSite(site, options)) {
-      PrintReport(report);
-      PrintQuality(report, options);
-      std::fputs(WarningLines(report.remarks).c_str(), stdout);
+    FILE* const out = streams || base64 ? stderr : stdout;
+    std::optional<StreamWriter> stream;
+    if (streams || base64) {
+      stream.emplace(STDOUT_FILENO, base64 ? StreamCoding::kBase64 : StreamCoding::kDecimal);
+      options.watcher = &*stream;
     }
-    if (profile) std::fputs(profile->Report().c_str(), stdout);
+    std::fputs(WarningLines(UnreadDrawings(site)).c_str(), out);
+    for (const RenderSiteReport& report : RenderSite(site, options)) {
+      PrintReport(out, report);
+      if (!report.is_within_building) PrintQuality(out, report, options);
+      std::fputs(WarningLines(report.remarks).c_str(), out);
+    }
+    if (profile) std::fputs(profile->Report().c_str(), out);
+  };
+  const int status = RunProgram(app, argc, argv, [&] {
+    options.with_building = !no_building;
+    NoteStopSignals();
+    options.stops = IsStopSignalled;
+    try {
+      render();
+    } catch (const RenderStopped& told) {
+      std::cerr << told.what() << "\n";
+      stopped = true;
+    }
   });
+  return status == 0 && stopped ? kStopped : status;
 }
 
 }  // namespace

@@ -2,21 +2,20 @@
 // From a site's files to its montages.
 #pragma once
 
+#include <functional>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "calibration/photo/photograph.h"
 #include "calibration/program/site.h"
 #include "renderer/building/building_uncertainty.h"
+#include "renderer/render_view.h"
+#include "renderer/tiles/render_watcher.h"
 #include "renderer/trace/render.h"
 
 namespace insitu {
-
-enum class Frame {
-  kPhoto,
-  kPinhole
-};  // the original photograph's pixel grid, or the input image's
 
 enum class Sharpness {
   kMeasured,
@@ -30,8 +29,13 @@ struct RenderSiteOptions {
   RenderOptions render;             // point spread and grain apart: each photograph has its own
   Sharpness sharpness = Sharpness::kMeasured;
   bool with_grain = false;
+  // Shadows of what no polygon stands for are looked for in the photographs; not with
+  // uniform_ambient, nor where somebody has drawn them.
+  bool find_shadows = true;
   bool uniform_ambient = false;     // the paper's light as printed, instead of light among surfaces
   std::optional<int> bounces = {};  // of light among surfaces, at most; 0: sun and sky alone
+  std::function<bool()> stops = {};  // asked before each tile, from any thread
+  RenderWatcher* watcher = nullptr;  // null: nobody looks on
 
   void Check() const;  // throws CheckError that names the field that is wrong
 };
@@ -44,18 +48,31 @@ struct RenderSiteReport {
   double seconds = 0;                             // rendering, files apart
   std::optional<UncertaintySummary> uncertainty;  // of the building's image; nullopt: no building
                                                   // in the frame, or no covariances
-  std::vector<std::string> remarks;               // what of the photograph could not be delivered
+  // What of the photograph could not be delivered, what of it is clipped and changed all the same.
+  std::vector<std::string> remarks;
+  // Taken from within a solid of the building: nothing was rendered, and montages/ has none of it.
+  bool is_within_building = false;
+};
+
+// It was asked to stop: what() tells how far it was. The same call goes on there.
+class RenderStopped : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
 };
 
 // Reads work/environment.json and the input images that it names, work/building.json and its
-// textures, the photographs to render into and survey/foreground/, of the rest of
+// textures, the photographs to render into, survey/foreground/ and survey/shadows/, of the rest of
 // survey/ only the hash; writes montages/<photo>.exr, .png and .jpg, .tif of a TIFF
 // (montage_files.h); in <photo>.layers.exr which share of each pixel is the
-// photograph's (red), computed (green), in front by the matte (blue); and how well the building's
-// corners are known in <photo>.uncertainty.csv. Keeps the
-// textures in linear light in work/textures/. Throws InputError: a stage before is missing, an
+// photograph's (red), computed (green), in front by the matte (blue); in <photo>.shadows.exr which
+// share of the sun it shows to arrive (red), and its standard deviation (green); and how well the
+// building's outline and sharp corners are known in <photo>.uncertainty.csv. Keeps the textures in
+// linear light in work/textures/, and finished tiles in work/render/<photo>.partial until all
+// photographs are written: whatever ends the program, the next run of the same inputs and options
+// goes on there and comes to the same bytes. Throws InputError: a stage before is missing, an
 // unknown photo, a texture that is not there, a photograph or matte whose size is not its camera's,
-// a matte that is not grey.
+// a matte that is not grey, a photograph that another program is rendering; RenderStopped;
+// std::runtime_error: the disk is full.
 std::vector<RenderSiteReport> RenderSite(const SitePaths& site, const RenderSiteOptions& options);
 
 }  // namespace insitu

@@ -25,6 +25,9 @@ install(FILES scripts/completion.bash RENAME insitu
 install(FILES LICENSE RENAME copyright DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/insitu)
 install(FILES README.md CHANGELOG.md CONVENTIONS.md DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/insitu)
 
+# The material library, for people to read and to copy from, too.
+install(DIRECTORY radiometry/library/data/ DESTINATION ${CMAKE_INSTALL_DATADIR}/insitu/library)
+
 # What reads IFC, as scripts/setup has fetched it; without it IFC is refused.
 install(FILES build/web-ifc/web-ifc-api-node.js build/web-ifc/web-ifc-node.wasm
     build/web-ifc/LICENSE.md build/web-ifc/package.json

@@ -11,6 +11,7 @@
 #include "calibration/files/csv_file.h"
 #include "calibration/files/error.h"
 #include "calibration/files/json_file.h"
+#include "calibration/files/wording.h"
 
 namespace insitu {
 namespace {
@@ -51,12 +52,15 @@ Eigen::MatrixXd DesignOf(const std::vector<Eigen::Vector2d>& from, const Eigen::
   return design;
 }
 
-// One Gauss-Newton step on the first `count` of the map's elements; false: singular.
+// One Gauss-Newton step on the first `count` of the map's elements; false: singular. `root_weights`
+// of the coordinates.
 bool Improve(const std::vector<Eigen::Vector2d>& from, const std::vector<Eigen::Vector2d>& to,
-             int count, Eigen::Matrix3d* map) {
+             const Eigen::VectorXd& root_weights, int count, Eigen::Matrix3d* map) {
   Eigen::VectorXd rest(2 * from.size());
   for (size_t i = 0; i < from.size(); ++i) rest.segment<2>(2 * i) = to[i] - Mapped(*map, from[i]);
-  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> solver(DesignOf(from, *map, count));
+  rest.array() *= root_weights.array();
+  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> solver(root_weights.asDiagonal() *
+                                                     DesignOf(from, *map, count));
   solver.setThreshold(1e-9);
   if (solver.rank() < count) return false;
   const Eigen::VectorXd step = solver.solve(rest);
@@ -121,6 +125,14 @@ void CheckSame(const CsvRow& row, const std::map<std::string, Eigen::Vector2d>& 
                   " has other millimetres than further up, expected those of one camera");
 }
 
+// Of a mark that is switched off the line is a comment, so nothing else can stand there.
+double SigmaTimes(const CsvRow& row) {
+  const std::string* state = row.Find("state");
+  if (state == nullptr || *state == "on") return 1;
+  if (*state == "dubious") return kDubiousFiducial;
+  throw row.Error("state is " + Quoted(*state) + ", expected dubious or nothing");
+}
+
 }  // namespace
 
 std::map<std::string, std::vector<Fiducial>> ReadFiducials(const std::filesystem::path& path) {
@@ -129,7 +141,8 @@ std::map<std::string, std::vector<Fiducial>> ReadFiducials(const std::filesystem
   for (const CsvRow& row : ReadCsv(path, {"mark", "x_mm", "y_mm", "photo", "x", "y"})) {
     const Fiducial fiducial{row.Text("mark"),
                             {row.Number("x_mm"), row.Number("y_mm")},
-                            {row.Number("x"), row.Number("y")}};
+                            {row.Number("x"), row.Number("y")},
+                            SigmaTimes(row)};
     calibrated.emplace(fiducial.mark, fiducial.image_mm);
     CheckSame(row, calibrated, fiducial);
     std::vector<Fiducial>& marks = marks_of_photo[row.Text("photo")];
@@ -149,7 +162,10 @@ std::optional<FilmMap> FitFilmMap(const std::vector<Fiducial>& marks,
   const auto observations = static_cast<int>(2 * marks.size());
   if (observations < count) return std::nullopt;
   std::vector<Eigen::Vector2d> image, bitmap;
+  Eigen::VectorXd root_weights(observations);
   for (const Fiducial& fiducial : marks) {
+    root_weights.segment<2>(2 * static_cast<Eigen::Index>(image.size()))
+        .setConstant(1 / fiducial.sigma_times);
     image.push_back(fiducial.image_mm);
     bitmap.push_back(fiducial.bitmap_px);
   }
@@ -157,10 +173,10 @@ std::optional<FilmMap> FitFilmMap(const std::vector<Fiducial>& marks,
   for (Eigen::Vector2d& point : image) point = Mapped(to_image, point);
   for (Eigen::Vector2d& point : bitmap) point = Mapped(to_bitmap, point);
   Eigen::Matrix3d map = Eigen::Matrix3d::Identity();
-  if (!Improve(image, bitmap, 6, &map)) return std::nullopt;
+  if (!Improve(image, bitmap, root_weights, 6, &map)) return std::nullopt;
   constexpr int kSteps = 12;  // of a problem that is nearly linear
   for (int i = 0; count > 6 && i < kSteps; ++i) {
-    if (!Improve(image, bitmap, count, &map)) return std::nullopt;
+    if (!Improve(image, bitmap, root_weights, count, &map)) return std::nullopt;
   }
   FilmMap result{.transformation = transformation};
   result.bitmap_from_image = to_bitmap.inverse() * map * to_image;
@@ -169,9 +185,9 @@ std::optional<FilmMap> FitFilmMap(const std::vector<Fiducial>& marks,
   for (const Fiducial& fiducial : marks) {
     result.residuals_px.push_back(Mapped(result.bitmap_from_image, fiducial.image_mm) -
                                   fiducial.bitmap_px);
-    sum += result.residuals_px.back().squaredNorm();
+    sum += (result.residuals_px.back() / fiducial.sigma_times).squaredNorm();
   }
-  result.redundancies = RedundanciesOf(DesignOf(image, map, count));
+  result.redundancies = RedundanciesOf(root_weights.asDiagonal() * DesignOf(image, map, count));
   if (observations > count) result.sigma_px = std::sqrt(sum / (observations - count));
   return result;
 }

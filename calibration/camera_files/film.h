@@ -21,11 +21,16 @@ struct Fiducial {
   std::string mark;
   Eigen::Vector2d image_mm = Eigen::Vector2d::Zero();
   Eigen::Vector2d bitmap_px = Eigen::Vector2d::Zero();
+  double sigma_times = 1;  // of the other marks' sigma
 };
 
+// What `sigma_times` is of a mark whose column `state` says dubious: it counts a ninth.
+inline constexpr double kDubiousFiducial = 3;
+
 // fiducials.csv with the columns mark, x_mm, y_mm (as calibrated), photo (file name without its
-// ending), x, y (of the bitmap, px): the marks of each photo. Throws InputError, also where a mark
-// has other millimetres in another photo or stands twice.
+// ending), x, y (of the bitmap, px), and if it likes state (dubious or nothing): the marks of each
+// photo. Throws InputError, also where a mark has other millimetres in another photo or stands
+// twice.
 std::map<std::string, std::vector<Fiducial>> ReadFiducials(const std::filesystem::path& path);
 
 enum class FilmTransformation { kAffine, kProjective };
@@ -37,11 +42,11 @@ struct FilmMap {
   std::vector<Eigen::Vector2d> residuals_px = {};  // of each mark, mapped - measured
   std::vector<Eigen::Vector2d> redundancies = {};  // of each coordinate, 0..1: shown of its error
   std::optional<double> sigma_px =
-      {};  // of a measured coordinate; nullopt: no mark more than needed
+      {};  // of a coordinate that is not dubious; nullopt: no mark more than needed
 };
 
-// Least squares of the bitmap positions. nullopt: fewer than three marks (projective: four), or
-// marks on one line.
+// Least squares of the bitmap positions, each weighted by its sigma. nullopt: fewer than three
+// marks (projective: four), or marks on one line.
 std::optional<FilmMap> FitFilmMap(const std::vector<Fiducial>& marks,
                                   FilmTransformation transformation);
 

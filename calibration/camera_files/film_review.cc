@@ -86,7 +86,7 @@ class Reviewer {
     Predict();
     if (!review_.map) {
       if (static_cast<int>(marks_.size()) >= review_.needed) {
-        Suspect("the marks lie on one line: place one away from it");
+        Suspect(Sentence("filmOnLine", "the marks lie on one line: place one away from it"));
       }
       return std::move(review_);
     }
@@ -99,14 +99,16 @@ class Reviewer {
   }
 
  private:
-  void Suspect(const std::string& text) { review_.suspicions.push_back(text); }
+  void Suspect(const Sentence& sentence) { review_.suspicions.push_back(sentence); }
 
   void SamePlaces() {
     for (size_t i = 0; i < marks_.size(); ++i) {
       for (size_t j = 0; j < i; ++j) {
         if ((marks_[i].bitmap_px - marks_[j].bitmap_px).norm() > kSamePlace_px) continue;
-        Suspect("marks " + marks_[j].mark + " and " + marks_[i].mark +
-                " stand at the same place: one of them belongs elsewhere");
+        Suspect(Sentence(
+            "filmSamePlace",
+            "marks {one} and {other} stand at the same place: one of them belongs elsewhere",
+            {{"one", marks_[j].mark}, {"other", marks_[i].mark}}));
       }
     }
   }
@@ -141,7 +143,8 @@ class Reviewer {
                           .residual_mm = marks_[i].image_mm - measured,
                           .redundancy = map.redundancies[i].minCoeff()};
       if (review_.redundancy > 0 && mark.redundancy > kUnchecked) {
-        const Eigen::Array2d sigma = kFiducialSigma_px * map.redundancies[i].array().sqrt();
+        const Eigen::Array2d sigma =
+            kFiducialSigma_px * marks_[i].sigma_times * map.redundancies[i].array().sqrt();
         mark.w = (map.residuals_px[i].array().abs() / sigma).maxCoeff();
       }
       if (const auto others = FitFilmMap(Without(i), transformation_)) {
@@ -178,9 +181,10 @@ class Reviewer {
 
   bool SuspectMirrored() {
     if (!IsMirrored(review_.map->bitmap_from_image)) return false;
-    Suspect(
+    Suspect(Sentence(
+        "filmMirrored",
         "the scan is mirrored against its marks: x and y of the certificate exchanged, y counted "
-        "down, two opposite marks exchanged, or the film scanned from its back");
+        "down, two opposite marks exchanged, or the film scanned from its back"));
     return true;
   }
 
@@ -196,21 +200,21 @@ class Reviewer {
     const Eigen::Vector2d scales = Eigen::JacobiSVD<Eigen::Matrix2d>(linear).singularValues();
     const double stretch = scales[0] / scales[1] - 1;
     if (stretch < 2 * kShrinks) return true;
-    Suspect(
-        Formatted("the scan would be stretched by %.1f %% or sheared, which scanners do not do: "
-                  "a mark stands on the wrong fiducial, or x or y of one is wrong",
-                  100 * stretch));
+    Suspect(Sentence("filmStretched",
+                     "the scan would be stretched by {percent} % or sheared, which scanners do not "
+                     "do: a mark stands on the wrong fiducial, or x or y of one is wrong",
+                     {{"percent", Number("%.1f", 100 * stretch)}}));
     return false;
   }
 
   // Takes an explanation if with it the marks fit far better, as a scan from the front does.
-  void Try(const Marks& marks, const std::string& text) {
+  void Try(const Marks& marks, const Sentence& text) {
     const auto map = FitFilmMap(marks, transformation_);
     if (!map || !map->sigma_px || IsMirrored(map->bitmap_from_image)) return;
     if (*map->sigma_px > *review_.map->sigma_px / kExplains || LargestResidual(*map) > limit_px_) {
       return;
     }
-    explained_.emplace_back(*map->sigma_px, text);
+    explained_.push_back({*map->sigma_px, text});
   }
 
   void Exchanged() {
@@ -218,7 +222,8 @@ class Reviewer {
       for (size_t j = 0; j < i; ++j) {
         Marks marks = marks_;
         std::swap(marks[i].bitmap_px, marks[j].bitmap_px);
-        Try(marks, "marks " + marks_[j].mark + " and " + marks_[i].mark + " are exchanged");
+        Try(marks, Sentence("filmExchanged", "marks {one} and {other} are exchanged",
+                            {{"one", marks_[j].mark}, {"other", marks_[i].mark}}));
       }
     }
   }
@@ -230,7 +235,8 @@ class Reviewer {
       for (size_t i = 0; !is_placed && i < marks_.size(); ++i) {
         Marks marks = marks_;
         marks[i].image_mm = image_mm;
-        Try(marks, "mark " + marks_[i].mark + " stands on mark " + name);
+        Try(marks, Sentence("filmWrongMark", "mark {one} stands on mark {other}",
+                            {{"one", marks_[i].mark}, {"other", name}}));
       }
     }
   }
@@ -238,15 +244,21 @@ class Reviewer {
   void WrongMillimetres() {
     for (size_t i = 0; i < marks_.size(); ++i) {
       const Eigen::Vector2d& given = marks_[i].image_mm;
-      const std::string whose = " of mark " + marks_[i].mark + " in the certificate";
+      const Sentence::Values mark = {{"mark", marks_[i].mark}};
+      const Sentence swapped("filmSwapped",
+                             "x and y are exchanged of mark {mark} in the certificate", mark);
+      const Sentence wrong_x("filmWrongX", "x has the wrong sign of mark {mark} in the certificate",
+                             mark);
+      const Sentence wrong_y("filmWrongY", "y has the wrong sign of mark {mark} in the certificate",
+                             mark);
       for (const auto& [image_mm, text] :
-           {std::pair(Eigen::Vector2d(given.y(), given.x()), "x and y are exchanged"),
-            std::pair(Eigen::Vector2d(-given.x(), given.y()), "x has the wrong sign"),
-            std::pair(Eigen::Vector2d(given.x(), -given.y()), "y has the wrong sign")}) {
+           {std::pair(Eigen::Vector2d(given.y(), given.x()), swapped),
+            std::pair(Eigen::Vector2d(-given.x(), given.y()), wrong_x),
+            std::pair(Eigen::Vector2d(given.x(), -given.y()), wrong_y)}) {
         if ((image_mm - given).norm() < kSameMark_mm) continue;
         Marks marks = marks_;
         marks[i].image_mm = image_mm;
-        Try(marks, text + whose);
+        Try(marks, text);
       }
     }
   }
@@ -257,9 +269,11 @@ class Reviewer {
       if (!others) continue;
       const double off =
           (At(others->bitmap_from_image, marks_[i].image_mm) - marks_[i].bitmap_px).norm();
-      Try(Without(i), "mark " + marks_[i].mark +
-                          Formatted(" lies %.1f px (%.2f mm) from where the others put it", off,
-                                    off / review_.px_per_mm));
+      Try(Without(i), Sentence("filmOffOthers",
+                               "mark {mark} lies {px} px ({mm} mm) from where the others put it",
+                               {{"mark", marks_[i].mark},
+                                {"px", Number("%.1f", off)},
+                                {"mm", Number("%.2f", off / review_.px_per_mm)}}));
     }
   }
 
@@ -267,37 +281,56 @@ class Reviewer {
   bool FitsUnexplained() {
     const FilmMap& map = *review_.map;
     if (LargestResidual(map) > limit_px_) {
-      const bool is_too_few = review_.redundancy < 3;
-      Suspect(Formatted("the marks do not fit, off by up to %.1f px: ", LargestResidual(map)) +
-              (is_too_few ? "with so few marks it cannot be told which is wrong; place more"
-                          : "several are wrong; begin with the worst"));
+      const Sentence::Values off = {{"px", Number("%.1f", LargestResidual(map))}};
+      constexpr int kTellsWhich = 3;  // redundancy from which a wrong mark stands out
+      Suspect(review_.redundancy < kTellsWhich
+                  ? Sentence("filmFewFit",
+                             "the marks do not fit, off by up to {px} px: with so few marks it "
+                             "cannot be told which is wrong; place more",
+                             off)
+                  : Sentence("filmSeveralWrong",
+                             "the marks do not fit, off by up to {px} px: several are wrong; begin "
+                             "with the worst",
+                             off));
       return false;
     }
     if (*map.sigma_px > kFits_px) {
-      Suspect(
-          Formatted("the marks fit to %.2f px only: measure them again; of old or buckled "
-                    "film try projective",
-                    *map.sigma_px));
+      Suspect(Sentence("filmBuckled",
+                       "the marks fit to {px} px only: measure them again; of old or buckled film "
+                       "try projective",
+                       {{"px", Number("%.2f", *map.sigma_px)}}));
     }
     return true;
   }
 
   void TellExplanations() {
-    std::sort(explained_.begin(), explained_.end());
-    const double alike = 2 * std::max(explained_.front().first, kFiducialSigma_px);
-    std::erase_if(explained_, [&](const auto& each) { return each.first > alike; });
+    std::stable_sort(explained_.begin(), explained_.end(),
+                     [](const auto& a, const auto& b) { return a.sigma_px < b.sigma_px; });
+    const double alike = 2 * std::max(explained_.front().sigma_px, kFiducialSigma_px);
+    std::erase_if(explained_, [&](const auto& each) { return each.sigma_px > alike; });
     if (explained_.size() > kMostExplanations) explained_.resize(kMostExplanations);
-    std::string text;
-    for (const auto& each : explained_) text += (text.empty() ? "" : ", or ") + each.second;
-    Suspect(text + Formatted(": without that they fit to %.2f px instead of %.2f px",
-                             explained_.front().first, *review_.map->sigma_px));
+    Sentence any = explained_.front().text;
+    for (size_t i = 1; i < explained_.size(); ++i) {
+      any = Sentence("filmOr", "{one}, or {other}",
+                     {{"one", any.ToJson()}, {"other", explained_[i].text.ToJson()}});
+    }
+    Suspect(Sentence("filmExplained",
+                     "{what}: without that they fit to {px} px instead of {now} px",
+                     {{"what", any.ToJson()},
+                      {"px", Number("%.2f", explained_.front().sigma_px)},
+                      {"now", Number("%.2f", *review_.map->sigma_px)}}));
   }
+
+  struct Explanation {
+    double sigma_px;  // with it
+    Sentence text;
+  };
 
   const Marks& marks_;
   const Certified& certified_;
   const FilmTransformation transformation_;
   const double limit_px_;
-  std::vector<std::pair<double, std::string>> explained_;  // sigma [px] with it, for people
+  std::vector<Explanation> explained_;
   ScanReview review_;
 };
 

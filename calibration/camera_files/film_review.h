@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "calibration/camera_files/film.h"
+#include "calibration/files/sentence.h"
 
 namespace insitu {
 
@@ -28,11 +29,12 @@ struct ScanReview {
   double px_per_mm = 0, turn_deg = 0;  // how the scan lay; counter-clockwise on the screen
   std::vector<FiducialReview> marks;   // worst first
   std::map<std::string, Eigen::Vector2d> predicted;  // [px], of certified marks not placed here
-  bool is_usable = false;               // no mistake is found, and insitu-calibrate takes it
-  std::vector<std::string> suspicions;  // with what to do, for people
+  bool is_usable = false;            // no mistake is found, and insitu-calibrate takes it
+  std::vector<Sentence> suspicions;  // with what to do, for people
 };
 
-// The sigma [px] of a coordinate that w refers to: a careful hand on a scan.
+// The sigma [px] of a coordinate that w refers to, times a dubious mark's: a careful hand on a
+// scan.
 inline constexpr double kFiducialSigma_px = 0.5;
 
 // `certified` are the camera's marks [mm], `size` the bitmap's [px]. From two marks on places of

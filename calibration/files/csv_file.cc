@@ -2,32 +2,14 @@
 #include "calibration/files/csv_file.h"
 
 #include <algorithm>
-#include <charconv>
-#include <cmath>
-#include <sstream>
+#include <utility>
 
-#include "calibration/files/text_table.h"
-#include "calibration/files/whole_file.h"
+#include "calibration/files/delimited_rows.h"
+#include "calibration/files/plain_text.h"
+#include "calibration/files/words.h"
 
 namespace insitu {
 namespace {
-
-std::string Trimmed(const std::string& text) { return std::string(TrimmedView(text)); }
-
-std::vector<std::string> SplitCells(const std::string& line) {
-  std::vector<std::string> cells;
-  size_t begin = 0;
-  for (size_t comma; (comma = line.find(',', begin)) != std::string::npos; begin = comma + 1) {
-    cells.push_back(Trimmed(line.substr(begin, comma - begin)));
-  }
-  cells.push_back(Trimmed(line.substr(begin)));
-  return cells;
-}
-
-bool IsSkipped(const std::string& line) {
-  const std::string text = Trimmed(line);
-  return text.empty() || text[0] == '#';
-}
 
 std::string Joined(const std::vector<std::string>& words) {
   std::string joined;
@@ -37,13 +19,6 @@ std::string Joined(const std::vector<std::string>& words) {
 
 void CheckHeader(const std::filesystem::path& path, int line,
                  const std::vector<std::string>& header, const std::vector<std::string>& columns) {
-  for (const char* separator : {";", "\t"}) {
-    if (header.size() > 1 || header[0].find(separator) == std::string::npos) continue;
-    throw InputError(path, line,
-                     std::string("columns are separated by ") +
-                         (*separator == ';' ? "semicolons" : "tabs") +
-                         ", expected commas, and points in numbers: " + Joined(columns));
-  }
   for (const std::string& column : columns) {
     const auto count = std::count(header.begin(), header.end(), column);
     if (count == 1) continue;
@@ -53,37 +28,65 @@ void CheckHeader(const std::filesystem::path& path, int line,
   }
 }
 
-CsvRow MakeRow(const std::filesystem::path& path, int line, const std::vector<std::string>& header,
-               const std::vector<std::string>& cells) {
-  if (cells.size() != header.size()) {
-    throw InputError(path, line,
-                     std::to_string(cells.size()) + " cells, expected " +
-                         std::to_string(header.size()) + " (" + Joined(header) + ")");
+// Without the empty cells behind what the header names: spreadsheets write them.
+std::vector<std::string> CheckedCells(const std::filesystem::path& path, DelimitedRow row,
+                                      const std::vector<std::string>& header) {
+  while (row.cells.size() > header.size() && row.cells.back().empty()) row.cells.pop_back();
+  if (row.cells.size() == header.size()) return std::move(row.cells);
+  throw InputError(path, row.line,
+                   std::to_string(row.cells.size()) + " cells, expected " +
+                       std::to_string(header.size()) + " (" + Joined(header) + ")");
+}
+
+// Of the first line that holds something and is no comment.
+char SeparatorOf(std::string_view content) {
+  const char stated = StatedSeparator(content);
+  if (stated != '\0') return stated;
+  while (!content.empty()) {
+    const size_t end = std::min(content.find('\n'), content.size());
+    const std::string_view line = TrimmedView(content.substr(0, end));
+    if (!line.empty() && line[0] != '#') {
+      const char separator = SeparatorOfLine(line);
+      return separator == ' ' ? ',' : separator;
+    }
+    content.remove_prefix(std::min(end + 1, content.size()));
   }
-  CsvRow row{path, line, {}};
-  for (size_t i = 0; i < header.size(); ++i) row.cells[header[i]] = cells[i];
-  return row;
+  return ',';
+}
+
+// Between commas a number without quotes has none within it: nothing is to be learned.
+NumberStyle StyleOf(const std::vector<DelimitedRow>& rows, std::string_view content,
+                    char separator) {
+  NumberStyle style;
+  if (separator == ',' && content.find('"') == std::string_view::npos) return style;
+  for (const DelimitedRow& row : rows) {
+    for (const std::string& cell : row.cells) style.Learn(cell);
+  }
+  return style;
 }
 
 }  // namespace
 
+const std::string* CsvRow::Find(const std::string& column) const {
+  const auto title = std::find(columns->begin(), columns->end(), column);
+  if (title == columns->end()) return nullptr;
+  const std::string& cell = cells[static_cast<size_t>(title - columns->begin())];
+  return cell.empty() ? nullptr : &cell;
+}
+
 const std::string& CsvRow::Text(const std::string& column) const {
-  const auto cell = cells.find(column);
-  if (cell == cells.end()) throw Error("column \"" + column + "\" is missing");
-  if (cell->second.empty()) throw Error("column \"" + column + "\" is empty");
-  return cell->second;
+  if (const std::string* cell = Find(column)) return *cell;
+  const bool is_there = std::ranges::find(*columns, column) != columns->end();
+  throw Error("column \"" + column + (is_there ? "\" is empty" : "\" is missing"));
 }
 
 double CsvRow::Number(const std::string& column) const {
   const std::string& text = Text(column);
-  const bool has_plus = text[0] == '+' && text[1] != '-';  // from_chars knows no plus sign
-  const char* end = text.data() + text.size();
-  double value = 0;
-  const auto parsed = std::from_chars(text.data() + has_plus, end, value);
-  if (parsed.ec != std::errc() || parsed.ptr != end || !std::isfinite(value)) {
-    throw Error("\"" + text + "\" in column \"" + column + "\", expected a finite number");
-  }
-  return value;
+  const auto value = style.Parse(text);
+  if (value) return *value;
+  throw Error(
+      "\"" + text + "\" in column \"" + column + "\", expected a finite number" +
+      (style.is_mixed() ? "; some numbers of the table have decimal commas, others points" : ""));
 }
 
 InputError CsvRow::Error(const std::string& message) const {
@@ -92,23 +95,20 @@ InputError CsvRow::Error(const std::string& message) const {
 
 std::vector<CsvRow> ReadCsv(const std::filesystem::path& path,
                             const std::vector<std::string>& columns) {
-  std::string content = ReadWhole(path);
-  if (content.starts_with("\xEF\xBB\xBF")) content.erase(0, 3);  // spreadsheets write this mark
-  std::istringstream stream(content);
-  std::vector<std::string> header;
+  const std::string content = ReadPlainText(path);
+  const char separator = SeparatorOf(content);
+  std::vector<DelimitedRow> lines = SplitDelimited(path, content, separator);
+  if (lines.empty()) throw InputError(path, "empty, expected the header " + Joined(columns));
+  CheckHeader(path, lines[0].line, lines[0].cells, columns);
+  const auto header = std::make_shared<const std::vector<std::string>>(std::move(lines[0].cells));
+  lines.erase(lines.begin());
+  const NumberStyle style = StyleOf(lines, content, separator);
   std::vector<CsvRow> rows;
-  std::string text;
-  for (int line = 1; std::getline(stream, text); ++line) {
-    if (IsSkipped(text)) continue;
-    const std::vector<std::string> cells = SplitCells(text);
-    if (header.empty()) {
-      CheckHeader(path, line, cells, columns);
-      header = cells;
-    } else {
-      rows.push_back(MakeRow(path, line, header, cells));
-    }
+  rows.reserve(lines.size());
+  for (DelimitedRow& line : lines) {
+    const int number = line.line;
+    rows.push_back({path, number, CheckedCells(path, std::move(line), *header), header, style});
   }
-  if (header.empty()) throw InputError(path, "empty, expected the header " + Joined(columns));
   return rows;
 }
 

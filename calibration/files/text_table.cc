@@ -2,87 +2,81 @@
 #include "calibration/files/text_table.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <limits>
 #include <sstream>
 
-#include "calibration/files/whole_file.h"
+#include "calibration/files/delimited_rows.h"
+#include "calibration/files/number_style.h"
+#include "calibration/files/plain_text.h"
 
 namespace insitu {
 namespace {
 
-constexpr std::string_view kBlanks = " \t\r\n";
-
-// "12,5" as "12.5", if that makes it a number.
-std::string WithDecimalPoint(const std::string& word) {
-  const size_t comma = word.find(',');
-  if (comma == std::string::npos) return word;
-  std::string number = word;
-  number[comma] = '.';
-  return ParseNumber(number) ? number : word;
+// Numbers with decimal commas or marks between thousands as ParseNumber wants them.
+void MakePlain(const NumberStyle& style, std::vector<std::string>* words) {
+  for (std::string& word : *words) {
+    const auto number = style.Parse(word), as_it_stands = ParseNumber(word);
+    if (number && number != as_it_stands) word = Digits(*number);
+  }
 }
 
-std::vector<std::string> SplitLine(std::string_view text, WordSeparator separator) {
-  if (separator == WordSeparator::kComma) return SplitAt(text, ',');
-  if (separator == WordSeparator::kSemicolon) {
-    std::vector<std::string> words = SplitAt(text, ';');
-    std::transform(words.begin(), words.end(), words.begin(), WithDecimalPoint);
-    return words;
+// Whether tabulators stand among blanks only to line columns up.
+bool AreAligned(const std::vector<std::string>& cells) {
+  return std::any_of(cells.begin(), cells.end(), [](const std::string& cell) {
+    const std::vector<std::string> words = SplitAtBlanks(cell);
+    return words.size() > 1 && std::all_of(words.begin(), words.end(), [](const auto& word) {
+             return ParseNumber(word).has_value();
+           });
+  });
+}
+
+std::vector<TextRow> SplitRowsAt(const std::filesystem::path& path, const std::string& content,
+                                 char separator) {
+  std::vector<TextRow> rows;
+  for (DelimitedRow& row : SplitDelimited(path, content, separator)) {
+    rows.push_back({path, row.line, std::move(row.cells)});
   }
-  if (separator == WordSeparator::kGuess) {
-    for (const char candidate : {',', ';', '\t'}) {
-      if (text.find(candidate) != std::string_view::npos) return SplitAt(text, candidate);
-    }
+  return rows;
+}
+
+std::vector<TextRow> SplitRowsAtBlanks(const std::filesystem::path& path,
+                                       const std::string& content) {
+  std::vector<TextRow> rows;
+  std::istringstream stream(content);
+  std::string text;
+  for (int line = 1; std::getline(stream, text); ++line) {
+    const std::string_view trimmed = TrimmedView(text);
+    if (trimmed.empty() || trimmed[0] == '#') continue;
+    rows.push_back({path, line, SplitAtBlanks(trimmed)});
   }
-  return SplitAtBlanks(text);
+  return rows;
+}
+
+// The separator of the table: of the first line that is neither empty nor a comment.
+char GuessedSeparator(const std::string& content) {
+  const char stated = StatedSeparator(content);
+  if (stated != '\0') return stated;
+  std::istringstream stream(content);
+  std::string text;
+  while (std::getline(stream, text)) {
+    const std::string_view trimmed = TrimmedView(text);
+    if (!trimmed.empty() && trimmed[0] != '#') return SeparatorOfLine(trimmed);
+  }
+  return ' ';
+}
+
+std::vector<TextRow> GuessedRows(const std::filesystem::path& path, const std::string& content) {
+  const char separator = GuessedSeparator(content);
+  if (separator == ' ') return SplitRowsAtBlanks(path, content);
+  std::vector<TextRow> rows = SplitRowsAt(path, content, separator);
+  if (separator == '\t' && !rows.empty() && AreAligned(rows[0].words)) {
+    return SplitRowsAtBlanks(path, content);
+  }
+  return rows;
 }
 
 }  // namespace
-
-std::optional<double> ParseNumber(std::string_view text) {
-  if (text.size() > 1 && text[0] == '+' && text[1] != '-') text.remove_prefix(1);
-  double value = 0;
-  const auto parsed = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (parsed.ec != std::errc() || parsed.ptr != text.data() + text.size()) return std::nullopt;
-  if (!std::isfinite(value)) return std::nullopt;
-  return value;
-}
-
-std::string Digits(double value) {
-  char buffer[32];
-  return {buffer, std::to_chars(buffer, buffer + sizeof buffer, value).ptr};
-}
-
-std::string_view TrimmedView(std::string_view text) {
-  const size_t first = text.find_first_not_of(kBlanks);
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(kBlanks) - first + 1);
-}
-
-std::vector<std::string> SplitAt(std::string_view text, char separator) {
-  std::vector<std::string> pieces;
-  text = TrimmedView(text);
-  if (text.empty()) return pieces;
-  for (size_t end; (end = text.find(separator)) != std::string_view::npos;) {
-    pieces.emplace_back(TrimmedView(text.substr(0, end)));
-    text.remove_prefix(end + 1);
-  }
-  pieces.emplace_back(TrimmedView(text));
-  return pieces;
-}
-
-std::vector<std::string> SplitAtBlanks(std::string_view text) {
-  std::vector<std::string> pieces;
-  for (text = TrimmedView(text); !text.empty(); text = TrimmedView(text)) {
-    const bool is_quoted = text[0] == '"' && text.find('"', 1) != std::string_view::npos;
-    const size_t end = is_quoted ? text.find('"', 1) : text.find_first_of(kBlanks);
-    pieces.emplace_back(is_quoted ? text.substr(1, end - 1) : text.substr(0, end));
-    if (end == std::string_view::npos) break;
-    text.remove_prefix(end + 1);
-  }
-  return pieces;
-}
 
 InputError TextRow::Error(const std::string& message) const {
   return InputError(path, line, message);
@@ -115,13 +109,23 @@ int TextRow::Integer(size_t index, const std::string& what) const {
 std::vector<TextRow> SplitTextRows(const std::filesystem::path& path, const std::string& content,
                                    WordSeparator separator) {
   std::vector<TextRow> rows;
-  std::istringstream stream(content);
-  std::string text;
-  for (int line = 1; std::getline(stream, text); ++line) {
-    const std::string_view trimmed = TrimmedView(text);
-    if (trimmed.empty() || trimmed[0] == '#') continue;
-    rows.push_back({path, line, SplitLine(trimmed, separator)});
+  switch (separator) {
+    case WordSeparator::kComma:
+      return SplitRowsAt(path, content, ',');
+    case WordSeparator::kBlanks:
+      return SplitRowsAtBlanks(path, content);
+    case WordSeparator::kSemicolon:
+      rows = SplitRowsAt(path, content, ';');
+      break;
+    case WordSeparator::kGuess:
+      rows = GuessedRows(path, content);
+      break;
   }
+  NumberStyle style;
+  for (const TextRow& row : rows) {
+    for (const std::string& word : row.words) style.Learn(word);
+  }
+  for (TextRow& row : rows) MakePlain(style, &row.words);
   return rows;
 }
 
@@ -129,13 +133,6 @@ std::vector<TextRow> ReadTextRows(const std::filesystem::path& path, WordSeparat
   return SplitTextRows(path, ReadTextFile(path), separator);
 }
 
-std::string ReadTextFile(const std::filesystem::path& path) {
-  std::string content = ReadWhole(path);
-  if (content.starts_with("\xEF\xBB\xBF")) content.erase(0, 3);
-  if (content.find('\0') != std::string::npos) {
-    throw InputError(path, "is not a text file (it holds a zero byte)");
-  }
-  return content;
-}
+std::string ReadTextFile(const std::filesystem::path& path) { return ReadPlainText(path); }
 
 }  // namespace insitu

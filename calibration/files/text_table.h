@@ -10,21 +10,9 @@
 #include <vector>
 
 #include "calibration/files/error.h"
+#include "calibration/files/words.h"
 
 namespace insitu {
-
-// nullopt: not a finite number as a whole.
-std::optional<double> ParseNumber(std::string_view text);
-
-std::string Digits(double value);  // the fewest that give the number back
-
-std::string_view TrimmedView(std::string_view text);  // without blanks at its ends
-
-// Pieces between separators, trimmed, empty ones included; none of an empty text.
-std::vector<std::string> SplitAt(std::string_view text, char separator);
-
-// Pieces between blanks; a piece in double quotes may hold blanks.
-std::vector<std::string> SplitAtBlanks(std::string_view text);
 
 struct TextRow {
   std::filesystem::path path;
@@ -39,9 +27,10 @@ struct TextRow {
   FilePlace place() const { return {path, line}; }
 };
 
-// How the words of a line are told apart; kGuess: by commas, else semicolons, else tabulators, else
-// blanks, whichever a line has. Between semicolons a number may have a decimal comma, as
-// spreadsheets of many countries write it; it becomes a point.
+// How the words of a line are told apart; kGuess: by what separates most of the first line,
+// tabulators, semicolons or commas, else blanks. Cells may be in quotes. Between semicolons, and
+// guessed, numbers may have decimal commas and marks between thousands, as spreadsheets of many
+// countries write them; they become plain.
 enum class WordSeparator { kGuess, kComma, kSemicolon, kBlanks };
 
 // The lines that hold something and do not begin with #. Throws InputError: unreadable, not text.
@@ -51,7 +40,7 @@ std::vector<TextRow> ReadTextRows(const std::filesystem::path& path, WordSeparat
 std::vector<TextRow> SplitTextRows(const std::filesystem::path& path, const std::string& content,
                                    WordSeparator separator);
 
-// The whole of a text file, without a byte order mark. Throws InputError: unreadable, holds NUL.
+// The whole of a text file, as plain_text.h has it. Throws InputError: unreadable, holds NUL.
 std::string ReadTextFile(const std::filesystem::path& path);
 
 }  // namespace insitu

@@ -100,6 +100,17 @@ ExifPlace ReadExifPlace(const std::filesystem::path& photo) {
           Degrees(exif, "Exif.GPSInfo.GPSLongitude", "W"), Altitude(exif), LocalTime(exif)};
 }
 
+std::optional<double> ExifExposure::Relative() const {
+  if (!time_s || !f_number || !iso) return std::nullopt;
+  return *time_s * *iso / (*f_number * *f_number);
+}
+
+ExifExposure ReadExifExposure(const std::filesystem::path& photo) {
+  const Exiv2::ExifData exif = ReadExif(photo);
+  return {Positive(exif, "Exif.Photo.ExposureTime"), Positive(exif, "Exif.Photo.FNumber"),
+          Positive(exif, "Exif.Photo.ISOSpeedRatings")};
+}
+
 void RequireNoPanorama(const std::filesystem::path& photo) {
   std::string projection;
   try {

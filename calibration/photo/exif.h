@@ -36,6 +36,18 @@ ExifPlace ReadExifPlace(const std::filesystem::path& photo);
 // All but the size is empty when the file holds no metadata. Throws InputError: not an image.
 ExifCamera ReadExifCamera(const std::filesystem::path& photo);
 
+// How long and how wide the shutter was open, as far as it is stated.
+struct ExifExposure {
+  std::optional<double> time_s, f_number, iso;  // > 0
+
+  // What a given radiance makes in the file, up to a factor of the camera: t ISO / N^2. nullopt:
+  // not all of it is stated.
+  std::optional<double> Relative() const;
+};
+
+// Nominal values: makers round them to thirds of a stop, some lenses are off by as much again.
+ExifExposure ReadExifExposure(const std::filesystem::path& photo);
+
 // Throws InputError if a photograph says that it is a panorama (GPano): no lens shows it.
 void RequireNoPanorama(const std::filesystem::path& photo);
 

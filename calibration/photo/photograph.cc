@@ -16,8 +16,10 @@
 #include <vector>
 
 #include "calibration/files/error.h"
+#include "calibration/files/error_at.h"
 #include "calibration/files/whole_file.h"
 #include "calibration/photo/copy_metadata.h"
+#include "calibration/photo/srgb_table.h"
 #include "calibration/photo/stated_color.h"
 
 namespace insitu {
@@ -39,7 +41,10 @@ std::unique_ptr<ImageInput> OpenAs(const fs::path& path, bool as_stored) {
   config.attribute("oiio:RawColor", as_stored ? 1 : 0);  // the codes as they stand in the file,
   config.attribute("oiio:UnassociatedAlpha", 1);         // not multiplied by alpha
   auto input = ImageInput::open(path.string(), &config);
-  if (!input) throw InputError(path, "not a readable image: " + FirstLine(OIIO::geterror()));
+  if (!input) {
+    throw ErrorAt({path}, Sentence("photoUnreadable", "not a readable image: {why}",
+                                   {{"why", FirstLine(OIIO::geterror())}}));
+  }
   return input;
 }
 
@@ -147,19 +152,6 @@ std::vector<Sample> ReadThreeChannels(ImageInput& input, const fs::path& path) {
     for (int c = 0; c < 3; ++c) three[3 * i + c] = samples[i * channels + (is_grey ? 0 : c)];
   }
   return three;
-}
-
-template <typename Code>
-const std::vector<float>& LinearTable() {
-  static const std::vector<float> table = [] {
-    constexpr int kHighest = std::numeric_limits<Code>::max();
-    std::vector<float> linear(kHighest + 1);
-    for (int code = 0; code <= kHighest; ++code) {
-      linear[code] = static_cast<float>(LinearFromSrgb(static_cast<double>(code) / kHighest));
-    }
-    return linear;
-  }();
-  return table;
 }
 
 // What stands for 1.
@@ -364,8 +356,10 @@ std::string SizeText(int width, int height) {
 void RequirePhotographSize(const fs::path& path, int width, int height) {
   const Eigen::Vector2i size = ReadPhotographSize(path);
   if (size == Eigen::Vector2i(width, height)) return;
-  throw InputError(path, "is " + SizeText(size.x(), size.y()) + ", expected " +
-                             SizeText(width, height) + " as its camera was calibrated");
+  throw ErrorAt(
+      {path},
+      Sentence("photoSize", "is {size}, expected {expected} as its camera was calibrated",
+               {{"size", SizeText(size.x(), size.y())}, {"expected", SizeText(width, height)}}));
 }
 
 bool IsClipped(const Photograph& photo, int x, int y) {

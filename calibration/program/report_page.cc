@@ -29,6 +29,8 @@ std::string Data(const Json::Value& report) {
   Json::StreamWriterBuilder writer;
   writer["indentation"] = "";
   writer["emitUTF8"] = true;
+  // A condensed report is rounded: digits behind that would only make the page large.
+  if (report.isMember("page_note")) writer["precision"] = 12;
   return Replaced(Json::writeString(writer, report), '<', "\\u003c");
 }
 

@@ -13,6 +13,7 @@
 #include <variant>
 
 #include "calibration/files/error.h"
+#include "calibration/files/error_at.h"
 #include "calibration/files/whole_file.h"
 #include "calibration/photo/photograph.h"
 
@@ -33,16 +34,21 @@ bool IsCutShort(std::string_view jpeg) {
 }
 
 cv::Mat DecodedJpeg(const std::filesystem::path& path, const std::string& content, int mode) {
-  if (IsCutShort(content)) throw InputError(path, "is cut short, expected a whole photograph");
+  if (IsCutShort(content)) {
+    throw ErrorAt({path}, Sentence("photoCut", "is cut short, expected a whole photograph"));
+  }
   cv::Mat image;
   try {
     const cv::Mat bytes(1, static_cast<int>(content.size()), CV_8U,
                         const_cast<char*>(content.data()));
     image = cv::imdecode(bytes, mode | cv::IMREAD_IGNORE_ORIENTATION);
   } catch (const cv::Exception& error) {
-    throw InputError(path, "cannot be decoded: " + error.err);
+    throw ErrorAt({path},
+                  Sentence("photoUndecoded", "cannot be decoded: {why}", {{"why", error.err}}));
   }
-  if (image.empty()) throw InputError(path, "cannot be decoded, expected a photograph");
+  if (image.empty()) {
+    throw ErrorAt({path}, Sentence("photoNone", "cannot be decoded, expected a photograph"));
+  }
   return image;
 }
 

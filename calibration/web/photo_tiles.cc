@@ -3,8 +3,7 @@
 
 #include <algorithm>
 #include <mutex>
-#include <opencv2/imgcodecs.hpp>
-#include <opencv2/imgproc.hpp>
+#include <opencv2/core.hpp>
 #include <optional>
 #include <utility>
 
@@ -12,44 +11,17 @@
 #include "calibration/photo/photograph.h"
 #include "calibration/web/overview_files.h"
 #include "calibration/web/photo_cache.h"
+#include "calibration/web/shown_image.h"
 
 namespace insitu {
 namespace {
 
-constexpr int kOverview = 3;  // the level that a JPEG's decoder makes by itself
-constexpr int kTileQuality = 85, kPatchCompression = 1;
+constexpr int kOverview = 3;      // the level that a JPEG's decoder makes by itself
 constexpr int kMostRadius = 512;  // [px]
-
-std::string Encoded(const char* ending, const cv::Mat& image, const std::vector<int>& parameters) {
-  std::vector<unsigned char> bytes;
-  INSITU_CHECK(cv::imencode(ending, image, bytes, parameters));
-  return {bytes.begin(), bytes.end()};
-}
 
 int TileCount(int size, int level) {
   const int level_size = static_cast<int>((int64_t{size} + (int64_t{1} << level) - 1) >> level);
   return (level_size + kTileSize - 1) / kTileSize;
-}
-
-// The pixels of `wanted`, as 8-bit sRGB; what lies beyond the image as `border` says.
-cv::Mat CutOut(const cv::Mat& image, const ColorSpace& color, const cv::Rect& wanted, int border) {
-  const cv::Rect inside = wanted & cv::Rect({0, 0}, image.size());
-  cv::Mat cut;
-  cv::copyMakeBorder(EightBit(image(inside), color), cut, inside.y - wanted.y,
-                     wanted.br().y - inside.br().y, inside.x - wanted.x,
-                     wanted.br().x - inside.br().x, border);
-  return cut;
-}
-
-double CodeAt(const cv::Mat& image, int x, int y, int channel) {
-  switch (image.depth()) {
-    case CV_8U:
-      return image.ptr<uint8_t>(y)[3 * x + channel] / 255.;
-    case CV_16U:
-      return image.ptr<uint16_t>(y)[3 * x + channel] / 65535.;
-    default:
-      return image.ptr<float>(y)[3 * x + channel];
-  }
 }
 
 }  // namespace
@@ -169,10 +141,9 @@ std::string PhotoTiles::Tile(int photo, int level, int x, int y) {
                                                 std::to_string(level));
   }
   const cv::Rect wanted(x * kTileSize, y * kTileSize, kTileSize, kTileSize);
-  return Encoded(
-      ".jpg",
+  return EncodedTile(
       CutOut(parts_->LevelOf(photo, level), parts_->ColorOf(photo), wanted, cv::BORDER_REPLICATE),
-      {cv::IMWRITE_JPEG_QUALITY, kTileQuality});
+      TileCoding::kJpeg);
 }
 
 std::string PhotoTiles::Patch(int photo, int x, int y, int radius) {
@@ -182,24 +153,14 @@ std::string PhotoTiles::Patch(int photo, int x, int y, int radius) {
                                                 ", expected 0 to " + std::to_string(kMostRadius));
   }
   const cv::Rect wanted(x - radius, y - radius, 2 * radius + 1, 2 * radius + 1);
-  return Encoded(
-      ".png",
+  return EncodedTile(
       CutOut(parts_->Whole(photo)->Level(0), parts_->ColorOf(photo), wanted, cv::BORDER_CONSTANT),
-      {cv::IMWRITE_PNG_COMPRESSION, kPatchCompression});
+      TileCoding::kPng);
 }
 
 PixelValue PhotoTiles::Value(int photo, int x, int y) {
   parts_->RequirePixel(photo, x, y);
-  const cv::Mat image = parts_->Whole(photo)->Level(0);
-  const ColorSpace color = parts_->ColorOf(photo);
-  const Eigen::Vector3d code(CodeAt(image, x, y, 2), CodeAt(image, x, y, 1),
-                             CodeAt(image, x, y, 0));
-  const bool is_linear = image.depth() == CV_32F && color.IsDefault();
-  PixelValue value;
-  value.linear = is_linear ? code : color.Linear(code);
-  value.encoded =
-      color.IsDefault() && !is_linear ? code : value.linear.unaryExpr(&SrgbFromLinear).eval();
-  return value;
+  return PixelValueAt(parts_->Whole(photo)->Level(0), parts_->ColorOf(photo), x, y);
 }
 
 }  // namespace insitu

@@ -2,12 +2,13 @@
 // Photographs to zoom into: tiles, patches and pixels, from memory and on demand.
 #pragma once
 
-#include <Eigen/Core>
 #include <cstddef>
 #include <filesystem>
 #include <memory>
 #include <string>
 #include <vector>
+
+#include "calibration/web/pixel_value.h"
 
 namespace insitu {
 
@@ -20,11 +21,6 @@ struct PyramidSize {
 };
 
 PyramidSize PyramidSizeOf(int width, int height);
-
-struct PixelValue {
-  Eigen::Vector3d linear;   // Rec. 709
-  Eigen::Vector3d encoded;  // sRGB, [0, 1]; beyond for an EXR and colours beyond sRGB
-};
 
 // Pixels are the file's, EXIF's orientation not applied; 16 bits and EXR are shown as 8-bit sRGB.
 // Any thread may ask; a photograph is decoded once, however many ask. Each throws InputError: the

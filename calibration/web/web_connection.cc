@@ -59,9 +59,9 @@ WebResponse AnswerOf(const LoopbackServerCallbacks& callbacks, const WebRequest&
   try {
     return callbacks.on_request(request);
   } catch (const InputError& error) {
-    return ErrorResponse(400, error.what());
+    return ErrorResponse(400, SentenceOf(error));
   } catch (const std::exception& error) {
-    return ErrorResponse(500, error.what());
+    return ErrorResponse(500, SentenceOf(error));
   }
 }
 

@@ -85,8 +85,12 @@ int QueryInteger(const WebRequest& request, const std::string& name) {
 }
 
 WebResponse ErrorResponse(int status, const std::string& text) {
+  return ErrorResponse(status, Sentence::Verbatim(text));
+}
+
+WebResponse ErrorResponse(int status, const Sentence& sentence) {
   Json::Value message;
-  message["error"] = text;
+  sentence.SayIn(&message, "error");
   Json::StreamWriterBuilder builder;
   builder["indentation"] = "";
   WebResponse response;

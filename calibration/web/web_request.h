@@ -7,6 +7,8 @@
 #include <string>
 #include <string_view>
 
+#include "calibration/files/sentence.h"
+
 namespace insitu {
 
 struct WebRequest {
@@ -31,7 +33,9 @@ std::optional<WebRequest> ParseTarget(std::string_view target);
 // Of the query. Throws InputError: not there, or no whole number.
 int QueryInteger(const WebRequest& request, const std::string& name);
 
-// {"error": text}
+// {"error": text}, in English alone.
 WebResponse ErrorResponse(int status, const std::string& text);
+// {"error": text, "error_said"}
+WebResponse ErrorResponse(int status, const Sentence& sentence);
 
 }  // namespace insitu

@@ -4,8 +4,10 @@
 
 #include <Eigen/Core>
 #include <functional>
+#include <optional>
 #include <vector>
 
+#include "radiometry/light/sky.h"
 #include "radiometry/spectrum/spectrum.h"
 
 namespace insitu {
@@ -24,6 +26,14 @@ struct Daylight {
   Eigen::Vector3d zenith_direction = Eigen::Vector3d::UnitZ();  // unit, world
   int polar_facets = 8;                                         // m_h, 1 to kMostPolarFacets
   Spectrum sky_radiance = Spectrum::Zero();                     // k_h L
+  // Departure: (5) has one weight for all facets. With the photographed surroundings, (k_u + k_h) L
+  // is the sky's mean by cosine over open ground, and this tells how it is spread.
+  SkyShape sky_shape = {};
+  // The level of that shape that the photographs themselves show, for mirrors; nullopt: uniform.
+  std::optional<Spectrum> photographed_sky = std::nullopt;
+
+  // Of the sky in every direction; 1 if it is uniform.
+  RelativeSky Sky() const { return {sky_shape, zenith_direction, sun_direction}; }
 };
 
 // The 4 m_h^2 directions to the centres of the sky facets, of equal solid angle, all above the

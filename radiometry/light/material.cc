@@ -3,17 +3,17 @@
 
 #include <filesystem>
 
-#include "calibration/files/json_file.h"
+#include "radiometry/library/material_library.h"
 
 namespace insitu {
 namespace {
 
-double NumberOr(const JsonNode& material, const std::string& key, double otherwise) {
+double NumberOr(const MaterialKeys& material, const std::string& key, double otherwise) {
   const auto found = material.Find(key);
   return found ? found->Number() : otherwise;
 }
 
-double Share(const JsonNode& material, const std::string& key, double otherwise) {
+double Share(const MaterialKeys& material, const std::string& key, double otherwise) {
   const double share = NumberOr(material, key, otherwise);
   if (share < 0 || share > 1) {
     throw material.At(key).Error("is out of range, expected 0 to 1");
@@ -21,20 +21,20 @@ double Share(const JsonNode& material, const std::string& key, double otherwise)
   return share;
 }
 
-double ReadIndex(const JsonNode& material) {
+double ReadIndex(const MaterialKeys& material) {
   const JsonNode ior = material.At("ior");
   if (ior.Number() <= 1) throw ior.Error("is not an index of refraction, expected above 1");
   return ior.Number();
 }
 
-FacetDistribution ReadDistribution(const JsonNode& material) {
+FacetDistribution ReadDistribution(const MaterialKeys& material) {
   const auto name = material.Find("distribution");
   if (!name || name->Text() == "ggx") return FacetDistribution::kGgx;
   if (name->Text() == "beckmann") return FacetDistribution::kBeckmann;
   throw name->Error("is \"" + name->Text() + "\", expected \"ggx\" or \"beckmann\"");
 }
 
-NaturalMaterial ReadMaterial(const JsonNode& material) {
+NaturalMaterial ReadMaterial(const MaterialKeys& material) {
   NaturalMaterial result;
   result.specular = ReadSpecular(material);
   result.diffuse_weight = NumberOr(material, "diffuse_weight", 1);
@@ -50,7 +50,7 @@ NaturalMaterial ReadMaterial(const JsonNode& material) {
 
 }  // namespace
 
-std::optional<Specular> ReadSpecular(const JsonNode& material, bool may_be_metal) {
+std::optional<Specular> ReadSpecular(const MaterialKeys& material, bool may_be_metal) {
   const auto node = material.Find("specular");
   const std::string kind = node ? node->Text() : "none";
   if (kind == "none") return std::nullopt;
@@ -86,8 +86,11 @@ std::map<std::string, NaturalMaterial> ReadNaturalMaterials(const SitePaths& sit
   const std::filesystem::path path = site.survey() / "materials.json";
   std::map<std::string, NaturalMaterial> materials;
   if (!std::filesystem::exists(path)) return materials;
+  const MaterialLibrary library(LibraryFolders(site));
   for (const auto& [name, material] : JsonNode::Load(path).At("materials").Members()) {
-    materials[name] = ReadMaterial(material);
+    MaterialKeys keys(material);
+    if (const auto use = material.Find("use")) keys.PutBelow(library.Material(*use).content);
+    materials[name] = ReadMaterial(keys);
   }
   return materials;
 }

@@ -8,6 +8,7 @@
 
 #include "calibration/files/json_file.h"
 #include "calibration/program/site.h"
+#include "radiometry/library/material_keys.h"
 #include "radiometry/light/microfacet.h"
 
 namespace insitu {
@@ -29,14 +30,14 @@ struct NaturalMaterial {
 // Of an entry of materials.json: specular (none, fresnel, mirror), specular_weight, ior, roughness
 // (0..1), distribution (ggx, the default, or beckmann). nullopt: purely diffuse. Throws InputError.
 // `may_be_metal`: conductor is taken, too, as a bare mirror whose colour the caller knows.
-std::optional<Specular> ReadSpecular(const JsonNode& material, bool may_be_metal = false);
+std::optional<Specular> ReadSpecular(const MaterialKeys& material, bool may_be_metal = false);
 
 // The same in the environment descriptions, which hold what was read.
 Json::Value SpecularJson(const Specular& specular);
 Specular SpecularOf(const JsonNode& node);
 
-// By name. A site without the file has no entries: every material is then purely diffuse.
-// Throws InputError (weights out of range).
+// By name; with use NAME the keys of a library's entry lie below. A site without the file has no
+// entries: every material is then purely diffuse. Throws InputError (weights out of range).
 std::map<std::string, NaturalMaterial> ReadNaturalMaterials(const SitePaths& site);
 
 }  // namespace insitu

@@ -119,16 +119,16 @@ EdgeFit FitEdge(const std::vector<EdgePixel>& pixels, double before, double behi
   EdgeModel model;
   model << 0, 0, std::log(0.5), before, behind - before, 0, 0;
   const EdgeResiduals problem{pixels};
-  ceres::TinySolver<EdgeResiduals> solver;
+  ceres::TinySolver<EdgeResiduals, Eigen::LDLT<Eigen::MatrixXd>> solver;
   solver.options.max_num_iterations = kIterations;
   solver.Solve(problem, &model);
   Eigen::VectorXd residuals(problem.NumResiduals());
   EdgeResiduals::Jacobian jacobian(problem.NumResiduals(), 7);
   problem(model.data(), residuals.data(), jacobian.data());
   const double variance = residuals.squaredNorm() / static_cast<double>(pixels.size() - 7);
-  const Eigen::Matrix<double, 7, 7> normal = jacobian.transpose() * jacobian;
-  const double cofactor = normal.ldlt().solve(EdgeModel(EdgeModel::Unit(2)))[2];
-  return {model, std::sqrt(variance), std::sqrt(variance * std::max(cofactor, 0.0))};
+  const Eigen::MatrixXd normal = jacobian.transpose() * jacobian;
+  const EdgeModel cofactors = normal.ldlt().solve(EdgeModel(EdgeModel::Unit(2)));
+  return {model, std::sqrt(variance), std::sqrt(variance * std::max(cofactors[2], 0.0))};
 }
 
 bool IsPlausible(const EdgeFit& fit, double contrast, double half_length) {

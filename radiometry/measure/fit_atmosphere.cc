@@ -156,6 +156,7 @@ AtmosphereFit FitAtmosphere(const std::vector<HazeSample>& samples, const Spectr
   }
   fit.rms = Eigen::VectorXd::Map(magnitudes.data(), magnitudes.size()).norm() /
             std::sqrt(static_cast<double>(magnitudes.size()));
+  fit.over_sigma = magnitudes;
   for (const HazeSample& sample : samples) {
     const Spectrum model = ApparentColor(fit.true_color, fit.air, sample.distance);
     const double measured = sample.apparent_color.head(bins.count).mean();

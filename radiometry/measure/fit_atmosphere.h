@@ -21,7 +21,8 @@ struct AtmosphereFit {
   Spectrum transmittance_sigma = Spectrum::Zero();  // per metre
   Spectrum condition = Spectrum::Zero();            // of the normal equations, per bin
   double rms = 0;                                   // of the residuals over their sigma
-  std::vector<double> residuals;  // one a sample: mean of (measured - model) / measured over bins
+  std::vector<double> residuals;   // one a sample: mean of (measured - model) / measured over bins
+  std::vector<double> over_sigma;  // one a sample: its RMS over the bins, in units of sigma
 };
 
 // Solves [Durisch92, Eq. (7)] per bin for tau and L_0 by Gauss-Newton from tau = 1 and the nearest

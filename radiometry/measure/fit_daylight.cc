@@ -46,7 +46,8 @@ Equations SetUp(const std::vector<DaylightSample>& samples, double brdf, bool ha
   for (int i = 0; i < n; ++i) {
     const LightGeometry& seen = samples[i].geometry;
     const double p = std::sqrt(weights[i]) / samples[i].sigma[bin];
-    equations.A.row(i) << (has_sun ? seen.sun : 0), AmbientFactor(samples[i]), seen.sky;
+    equations.A.row(i) << (has_sun ? seen.sun : 0), AmbientFactor(samples[i]),
+        seen.sky * samples[i].relative_sky[bin];
     equations.A.row(i) *= p * brdf;
     equations.y[i] = p * Unexplained(samples[i], brdf, bin);
   }
@@ -151,10 +152,13 @@ DaylightFit SolveBins(const std::vector<DaylightSample>& samples, const Spectrum
   return fit;
 }
 
-// The paper's k, one for all wavelengths, times its L, which is D65 as in §7. The mean over the
-// spectrum is weighted by what the eye makes of D65, so that the luminance stays as measured.
-Spectrum AverageOverWavelength(const Spectrum& radiance, const SpectralBins& bins) {
-  return WeightOfD65(radiance, bins) * IlluminantD65(bins);
+// The paper's k, one for all wavelengths, times its L, which is D65 as in §7 unless another is
+// given. The mean over the spectrum is weighted by what the eye makes of L, so that the luminance
+// stays as measured.
+Spectrum AverageOverWavelength(const Spectrum& radiance, const Spectrum& relative_spectrum,
+                               const SpectralBins& bins) {
+  return relative_spectrum *
+         (Tristimulus(radiance, bins).y() / Tristimulus(relative_spectrum, bins).y());
 }
 
 Spectrum ModelRadiance(const DaylightFit& fit, const Spectrum& brdf, const DaylightSample& sample) {
@@ -162,7 +166,7 @@ Spectrum ModelRadiance(const DaylightFit& fit, const Spectrum& brdf, const Dayli
                                ? *sample.surroundings
                                : Spectrum(fit.ambient_radiance * sample.geometry.ambient);
   return brdf * (fit.sun_radiance * sample.geometry.sun + ambient +
-                 fit.sky_radiance * sample.geometry.sky);
+                 fit.sky_radiance * sample.geometry.sky * sample.relative_sky);
 }
 
 // Per sample: root mean square over the bins, in units of sigma.
@@ -182,6 +186,7 @@ void SetResiduals(const std::vector<DaylightSample>& samples, const Spectrum& br
   const std::vector<double> magnitudes = ResidualMagnitudes(samples, *fit, brdf, bins);
   fit->rms = Eigen::VectorXd::Map(magnitudes.data(), magnitudes.size()).norm() /
              std::sqrt(static_cast<double>(magnitudes.size()));
+  fit->over_sigma = magnitudes;
   for (const DaylightSample& sample : samples) {
     const Spectrum model = ModelRadiance(*fit, brdf, sample);
     const double measured = sample.true_color.head(bins.count).mean();
@@ -228,9 +233,10 @@ DaylightFit FitDaylight(const std::vector<DaylightSample>& samples, const Spectr
   SetResiduals(samples, brdf, bins, &fit);
   if (has_surroundings) SpreadSurroundings(samples, &fit);
   if (options.average_over_wavelength) {
+    const Spectrum relative = options.relative_spectrum.value_or(IlluminantD65(bins));
     for (Spectrum* part : {&fit.sun_radiance, &fit.ambient_radiance, &fit.sky_radiance,
                            &fit.sun_sigma, &fit.ambient_sigma, &fit.sky_sigma}) {
-      *part = AverageOverWavelength(*part, bins);
+      *part = AverageOverWavelength(*part, relative, bins);
     }
   }
   return fit;

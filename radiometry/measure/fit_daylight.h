@@ -17,18 +17,22 @@ struct DaylightSample {
   // Irradiance from the surroundings as photographed (Interreflection::At); with all samples or
   // with none.
   std::optional<Spectrum> surroundings = std::nullopt;
+  // Mean radiance of what it sees of the sky over the open sky's (GatheredLight::relative_sky).
+  Spectrum relative_sky = Spectrum::Ones();
 };
 
 struct DaylightFitOptions {
   bool average_over_wavelength = false;  // the paper's one spectrum for all three components
+  std::optional<Spectrum> relative_spectrum = std::nullopt;  // that one; nullopt: D65
 };
 
 struct DaylightFit {
   Spectrum sun_radiance, ambient_radiance, sky_radiance;  // >= 0
   Spectrum sun_sigma, ambient_sigma, sky_sigma;
-  double condition = 0;           // of the scaled design matrix, 1 = best
-  double rms = 0;                 // of the residuals over their sigma
-  std::vector<double> residuals;  // one a sample: (measured - model) / measured, bins averaged
+  double condition = 0;            // of the scaled design matrix, 1 = best
+  double rms = 0;                  // of the residuals over their sigma
+  std::vector<double> residuals;   // one a sample: (measured - model) / measured, bins averaged
+  std::vector<double> over_sigma;  // one a sample: its RMS over the bins, in units of sigma
 };
 
 // Solves [Durisch92, Eq. (9)] per bin by non-negative weighted least squares for the radiances

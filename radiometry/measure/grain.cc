@@ -27,22 +27,21 @@ struct Block {
 
 using Pixels = Eigen::Matrix<double, kBlock * kBlock, 3>;
 
-using BlockMatrix = Eigen::Matrix<double, kBlock * kBlock, kBlock * kBlock>;
-
 // Takes a block's mean and gradients away: light falls off, too.
-BlockMatrix MakeRemovePlane() {
-  Eigen::Matrix<double, kBlock * kBlock, kPlane> plane;
+Eigen::MatrixXd MakeRemovePlane() {
+  Eigen::MatrixXd plane(kBlock * kBlock, kPlane);
   for (int i = 0; i < kBlock * kBlock; ++i) {
     const int column = i % kBlock, row = i / kBlock;
     const double x = column - (kBlock - 1) / 2.0, y = row - (kBlock - 1) / 2.0;
     plane.row(i) << 1, x, y, x * y;
   }
-  const Eigen::Matrix4d normal = plane.transpose() * plane;
-  return BlockMatrix::Identity() - plane * normal.inverse() * plane.transpose();
+  const Eigen::Matrix4d cofactor = Eigen::Matrix4d(plane.transpose() * plane).inverse();
+  const Eigen::MatrixXd scaled = plane * cofactor;
+  return Eigen::MatrixXd::Identity(kBlock * kBlock, kBlock * kBlock) - scaled * plane.transpose();
 }
 
-const BlockMatrix& RemovePlane() {
-  static const BlockMatrix remove = MakeRemovePlane();
+const Eigen::MatrixXd& RemovePlane() {
+  static const Eigen::MatrixXd remove = MakeRemovePlane();
   return remove;
 }
 
@@ -161,14 +160,14 @@ struct Left {
 Left LeftInBlock(double length) {
   std::array<double, kBlock> along;
   for (int lag = 0; lag < kBlock; ++lag) along[lag] = Autocorrelation(length, lag);
-  BlockMatrix noise;
+  Eigen::MatrixXd noise(kBlock * kBlock, kBlock * kBlock);
   for (int a = 0; a < kBlock * kBlock; ++a) {
     for (int b = 0; b < kBlock * kBlock; ++b) {
       noise(a, b) =
           along[std::abs(a % kBlock - b % kBlock)] * along[std::abs(a / kBlock - b / kBlock)];
     }
   }
-  const BlockMatrix left = RemovePlane() * noise * RemovePlane();
+  const Eigen::MatrixXd across = RemovePlane() * noise, left = across * RemovePlane();
   return {left.trace() / (kBlock * kBlock - kPlane),
           MeanOverNeighbours([&](int a, int b) { return left(a, b); })};
 }

@@ -3,8 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <exception>
 
 #include "calibration/files/json_file.h"
+#include "radiometry/library/material_library.h"
 #include "reconstruction/geometry/ray_scene.h"
 
 namespace insitu {
@@ -119,6 +121,45 @@ void MeasureColor(const PhotographedScene& scene, const JsonNode& node, int radi
       sigma_of_mean.max(kRelativeFloor * sample->rgb.array()).max(kAbsoluteFloor).matrix();
 }
 
+// What is wrong with samples.json, gathered so that one run tells all of it.
+class SampleFaults {
+ public:
+  // `listed`, if given, takes the faults, and none is thrown.
+  explicit SampleFaults(std::vector<Sentence>* listed) : listed_(listed) {}
+
+  bool is_listed() const { return listed_ != nullptr; }
+
+  // Whether `read` went well.
+  template <typename Read>
+  bool Try(const Read& read) {
+    try {
+      read();
+      return true;
+    } catch (const InputError& fault) {
+      if (listed_) {
+        listed_->push_back(SentenceOf(fault));
+      } else {
+        if (texts_.empty()) first_ = std::current_exception();
+        texts_.emplace_back(fault.what());
+      }
+      return false;
+    }
+  }
+
+  void ThrowIfAny(const std::filesystem::path& file) const {
+    if (texts_.empty()) return;
+    if (texts_.size() == 1) std::rethrow_exception(first_);
+    std::string all = std::to_string(texts_.size()) + " faults:";
+    for (const std::string& text : texts_) all += "\n" + text;
+    throw InputError(file, all);
+  }
+
+ private:
+  std::vector<Sentence>* listed_;
+  std::vector<std::string> texts_;
+  std::exception_ptr first_;
+};
+
 PixelSample ReadPixel(const JsonNode& node, const PhotographedScene& scene) {
   PixelSample sample;
   sample.photo = FindPhoto(node.At("photo"), scene.geometry());
@@ -179,23 +220,29 @@ PixelSample ReadHorizonSample(const JsonNode& node, const PhotographedScene& sce
 
 using ReadSample = PixelSample(const JsonNode&, const PhotographedScene&, int radius);
 
+// Whether photo and polygon are known, where they are stated; each unknown one is a fault.
+bool HasKnownNames(const JsonNode& node, const SceneGeometry& scene, SampleFaults* faults) {
+  const bool knows_photo = faults->Try([&] { FindPhoto(node.At("photo"), scene); });
+  return faults->Try([&] {
+    if (const auto polygon = node.Find("polygon")) FindPolygon(*polygon, scene);
+  }) && knows_photo;
+}
+
 // The samples of one list, read one by one.
 std::vector<PixelSample> ReadList(const JsonNode& list, size_t at_least, ReadSample* read,
                                   const PhotographedScene& scene, int radius,
-                                  std::vector<Sentence>* faults) {
+                                  SampleFaults* faults) {
   std::vector<PixelSample> samples;
   const std::vector<JsonNode> nodes = list.Items();
-  if (!faults && nodes.size() < at_least) {
-    throw list.Error("has " + std::to_string(nodes.size()) + " samples, expected at least " +
-                     std::to_string(at_least));
+  if (!faults->is_listed() && nodes.size() < at_least) {
+    faults->Try([&] {
+      throw list.Error("has " + std::to_string(nodes.size()) + " samples, expected at least " +
+                       std::to_string(at_least));
+    });
   }
   for (const JsonNode& node : nodes) {
-    try {
-      samples.push_back(read(node, scene, radius));
-    } catch (const InputError& fault) {
-      if (!faults) throw;
-      faults->push_back(SentenceOf(fault));
-    }
+    if (!HasKnownNames(node, scene.geometry(), faults)) continue;
+    faults->Try([&] { samples.push_back(read(node, scene, radius)); });
   }
   return samples;
 }
@@ -206,6 +253,7 @@ std::optional<JsonNode> FindList(const JsonNode& file, const std::string& name, 
 }
 
 void CheckDistancesDiffer(const JsonNode& nodes, const std::vector<PixelSample>& samples) {
+  if (samples.size() < 2) return;  // the others are at fault
   const auto [nearest, farthest] =
       std::minmax_element(samples.begin(), samples.end(),
                           [](const auto& a, const auto& b) { return a.distance < b.distance; });
@@ -222,6 +270,31 @@ Eigen::Vector3d ReadReflectance(const JsonNode& node) {
   return rgb;
 }
 
+SpectralTable ReadMaterialTable(const MaterialLibrary& library, const JsonNode& name) {
+  const LibraryEntry& entry = library.Material(name);
+  SpectralTable table = ReflectanceOf(entry);
+  RequireVisibleRange(table, name);
+  const auto is_dark = [](const Eigen::Vector2d& row) { return row.y() <= 0; };
+  if (std::ranges::any_of(table, is_dark)) {
+    throw name.Error("reflects nothing at some wavelength, expected values above 0");
+  }
+  return table;
+}
+
+// What the file says of the samples' material and of the light on it.
+void ReadSpectra(const SitePaths& site, const JsonNode& file, LightSamples* samples) {
+  const auto rgb = file.Find("daylight_reflectance_rgb"), material = file.Find("daylight_material");
+  const auto spectrum = file.Find("daylight_spectrum");
+  if (rgb && material) {
+    throw material->Error("stands beside daylight_reflectance_rgb, expected one of them");
+  }
+  if (rgb) samples->daylight_reflectance = ReadReflectance(*rgb);
+  if (!material && !spectrum) return;
+  const MaterialLibrary library(LibraryFolders(site));
+  if (material) samples->reflectance_table = ReadMaterialTable(library, *material);
+  if (spectrum) samples->daylight_spectrum = SpectrumOfLamp(library, *spectrum);
+}
+
 }  // namespace
 
 void SampleOptions::Check() const { INSITU_CHECK(radius >= 0); }
@@ -234,22 +307,26 @@ LightSamples ReadSamples(const SitePaths& site, const SceneGeometry& scene,
   const PhotographedScene photographed(scene, photos);
   const JsonNode file = JsonNode::Load(site.survey() / "samples.json");
   LightSamples samples;
+  SampleFaults gathered(faults);
   const auto read = [&](const JsonNode& list, size_t at_least, ReadSample* read_sample) {
-    return ReadList(list, at_least, read_sample, photographed, options.radius, faults);
+    return ReadList(list, at_least, read_sample, photographed, options.radius, &gathered);
   };
-  if (const auto horizon = FindList(file, "horizon", faults)) {
-    samples.horizon = read(*horizon, 1, ReadHorizonSample);
-  }
-  if (const auto haze = file.Find("haze")) {
+  gathered.Try([&] {
+    const auto horizon = FindList(file, "horizon", faults);
+    if (horizon) samples.horizon = read(*horizon, 1, ReadHorizonSample);
+  });
+  gathered.Try([&] {
+    const auto haze = file.Find("haze");
+    if (!haze) return;
     samples.haze = read(*haze, 2, ReadSurfaceSample);
     if (!faults) CheckDistancesDiffer(*haze, samples.haze);
-  }
-  if (const auto daylight = FindList(file, "daylight", faults)) {
-    samples.daylight = read(*daylight, 3, ReadSurfaceSample);
-  }
-  if (const auto reflectance = file.Find("daylight_reflectance_rgb")) {
-    samples.daylight_reflectance = ReadReflectance(*reflectance);
-  }
+  });
+  gathered.Try([&] {
+    const auto daylight = FindList(file, "daylight", faults);
+    if (daylight) samples.daylight = read(*daylight, 3, ReadSurfaceSample);
+  });
+  gathered.Try([&] { ReadSpectra(site, file, &samples); });
+  gathered.ThrowIfAny(site.survey() / "samples.json");
   return samples;
 }
 

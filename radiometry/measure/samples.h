@@ -12,6 +12,7 @@
 #include "calibration/files/sentence.h"
 #include "calibration/photo/photograph.h"
 #include "calibration/program/site.h"
+#include "radiometry/spectrum/spectral_table.h"
 #include "reconstruction/geometry/scene_geometry.h"
 
 namespace insitu {
@@ -35,15 +36,20 @@ struct SampleOptions {
 
 struct LightSamples {
   std::vector<PixelSample> horizon, haze, daylight;
-  std::optional<Eigen::Vector3d> daylight_reflectance;  // linear Rec. 709, 0..1
+  // Of the daylight samples' material: as a colour, linear Rec. 709, 0..1, or as that of an entry
+  // of the library, > 0; at most one of them.
+  std::optional<Eigen::Vector3d> daylight_reflectance;
+  std::optional<SpectralTable> reflectance_table;
+  std::optional<SpectralTable> daylight_spectrum;  // the paper's L, relative; nullopt: D65
 };
 
-// Throws InputError at the sample's line: unknown photo or polygon, outside the frame, clipped,
-// a polygon sample whose sight misses its polygon or meets another one before it, a horizon sample
-// on a polygon, haze samples that are fewer than two, daylight samples fewer than three.
-// samples.json may lack "haze" (air stays clear) but not "horizon" or "daylight".
-// With `faults`, for samples that are still being chosen, the samples at fault are left out and
-// listed there instead, and there may be any number of the others.
+// Throws InputError that names every fault with its line: unknown photo or polygon, outside the
+// frame, clipped, a polygon sample whose sight misses its polygon or meets another one before it, a
+// horizon sample on a polygon, haze samples that are fewer than two, daylight samples fewer than
+// three. samples.json may lack "haze" (air stays clear) but not "horizon" or "daylight". It may
+// state "daylight_reflectance_rgb" or, by the library's names, "daylight_material", and
+// "daylight_spectrum". With `faults`, for samples that are still being chosen, the samples at fault
+// are left out and listed there instead, and there may be any number of the others.
 LightSamples ReadSamples(const SitePaths& site, const SceneGeometry& scene,
                          const std::vector<Photograph>& photos, const SampleOptions& options = {},
                          std::vector<Sentence>* faults = nullptr);

@@ -77,6 +77,7 @@ Interreflection::Interreflection(const TransportScene& scene, const Daylight& li
       planned_box_(BoxOf(scene.planned.mesh)),
       clear_box_(scene.planned.clear ? BoxOf(scene.planned.clear->mesh) : Eigen::AlignedBox3d()),
       zenith_(light.zenith_direction),
+      sky_pieces_(light.Sky(), light.sky_shape.IsUniform(), light.zenith_direction),
       ground_(GroundOf(scene.site.scene, grid)),
       patches_(grid) {
   options_.Check();
@@ -86,14 +87,16 @@ Interreflection::Interreflection(const TransportScene& scene, const Daylight& li
 
 void Interreflection::MeetSite(const Ray& ray, const std::optional<RayHit>& hit,
                                Meeting* meeting) const {
-  meeting->before = ray.direction.dot(zenith_) > 0 ? kSky : kBeyond;
+  meeting->before = kBeyond;
   if (hit) {
     const int polygon = scene_.site.polygon_of_triangle[hit->triangle];
     meeting->is_back = scene_.site.scene.polygons[polygon].normal.dot(ray.direction) > 0;
     meeting->distance = hit->distance;
     meeting->before =
         patches_.OfPolygon(polygon, meeting->is_back, ray.origin + hit->distance * ray.direction);
-  } else if (meeting->before == kBeyond && ground_) {
+  } else if (ray.direction.dot(zenith_) > 0) {
+    meeting->before = kSky - sky_pieces_.Of(ray.direction);
+  } else if (ground_) {
     meeting->before = GroundBeyond(ray);
   }
   meeting->after = meeting->before;
@@ -180,7 +183,7 @@ void Interreflection::GatherMeetings() {
 }
 
 Spectrum Interreflection::RadianceBefore(int patch) const {
-  if (patch == kSky) return sky_;
+  if (IsSky(patch)) return sky_ * sky_pieces_.At(kSky - patch);
   if (patch == kDark) return Spectrum::Zero();
   return patch == kBeyond ? beyond_ : before_[patch];
 }
@@ -259,8 +262,8 @@ void Interreflection::SumSeen() {
     if (patches_.all()[i].polygon < 0) return;
     SeenFromPiece& seen = seen_[i];
     for (const Meeting& meeting : meetings_[i]) {
-      if (meeting.before == kSky) {
-        ++seen.sky;
+      if (IsSky(meeting.before)) {
+        seen.sky += sky_pieces_.At(kSky - meeting.before);
       } else if (meeting.before == kBeyond) {
         ++seen.beyond;
       } else if (meeting.before != kDark && IsUnseen(meeting.before)) {
@@ -354,12 +357,17 @@ void Interreflection::SolveAfter(const Daylight& light) {
 GatheredLight Interreflection::At(const SurfacePoint& surface) const {
   GatheredLight light;
   int skies = 0, unseen = 0, backs = 0;
+  Spectrum relative_sky = Spectrum::Zero();
   for (const Meeting& meeting : Meet(surface, point_directions_)) {
     if (meeting.distance > 0) light.nearness += 1 / meeting.distance;
     backs += meeting.is_back;
-    skies += meeting.before == kSky;
     unseen += IsUnseen(meeting.before);
-    if (meeting.before != kSky) light.surroundings_before += RadianceBefore(meeting.before);
+    if (IsSky(meeting.before)) {
+      ++skies;
+      relative_sky += sky_pieces_.At(kSky - meeting.before);
+    } else {
+      light.surroundings_before += RadianceBefore(meeting.before);
+    }
     light.change += ChangeAlong(meeting);
   }
   const double count = options_.point_directions;
@@ -367,7 +375,8 @@ GatheredLight Interreflection::At(const SurfacePoint& surface) const {
   light.inside = backs / count;
   light.sky = kPi * skies / count;
   light.unseen = kPi * unseen / count;
-  light.sky_before = light.sky * sky_;
+  if (skies > 0) light.relative_sky = relative_sky / skies;
+  light.sky_before = light.sky * light.relative_sky * sky_;
   light.surroundings_before *= kPi / count;
   light.change *= kPi / count;
   return light;

@@ -43,7 +43,9 @@ struct GatheredLight {
   Spectrum surroundings_before = Spectrum::Zero();
   Spectrum change = Spectrum::Zero();  // what the building adds and takes; exactly zero without any
   double sky = 0;                      // projected solid angle of the sky before [sr], at most pi
-  double unseen = 0;                   // of what no photograph shows, before [sr]
+  // Mean radiance of the sky that is seen before, over the open sky's; 1 if that is uniform.
+  Spectrum relative_sky = Spectrum::Ones();
+  double unseen = 0;    // of what no photograph shows, before [sr]
   double inside = 0;    // share of directions that end on the back of a face: 1 within a solid
   double nearness = 0;  // mean of 1 / distance over all directions, the sky's 0 [1/m]
 };
@@ -55,7 +57,8 @@ class Interreflection {
   Interreflection(const TransportScene& scene, const Daylight& light, const PatchGrid& grid,
                   const InterreflectionOptions& options = {});
 
-  // The radiance of every piece under a daylight of the geometry given at first. What no photograph
+  // The radiance of every piece under a daylight of the geometry and of the sky's shape given at
+  // first; its sky_radiance is the open sky's. What no photograph
   // shows reflects as the mean of its material does, or of the whole site.
   void Solve(const Daylight& light);
 
@@ -68,9 +71,10 @@ class Interreflection {
   int patches() const { return static_cast<int>(patches_.all().size()); }
 
  private:
-  // What a ray from a surface meets: a piece, no object above or below the horizon, or, where only
-  // the sky counts, something that sends nothing.
-  static constexpr int kDark = -1, kSky = -2, kBeyond = -3;
+  // What a ray from a surface meets: a piece, no object below the horizon or above it, from where
+  // the sky's pieces are counted down, or, where only the sky counts, something that sends nothing.
+  static constexpr int kDark = -1, kBeyond = -2, kSky = -3;
+  static bool IsSky(int met) { return met <= kSky; }
   struct Meeting {
     int before = kDark, after = kDark;
     int material = -1;    // of the planned face met after; -1: none is met
@@ -79,11 +83,11 @@ class Interreflection {
     uint16_t panes = 0;  // the kinds of glass before it, four bits each, counted from 1
   };
 
-  // What is met from a piece before: the photographed radiances' sum, how often sky and ground
-  // beyond, and which pieces no photograph shows.
+  // What is met from a piece before: the sums of photographed radiances and of the sky's, how often
+  // ground beyond, and which pieces no photograph shows.
   struct SeenFromPiece {
-    Spectrum photographed = Spectrum::Zero();
-    int sky = 0, beyond = 0;
+    Spectrum photographed = Spectrum::Zero(), sky = Spectrum::Zero();  // sky: relative radiance
+    int beyond = 0;
     std::vector<int> unseen;
   };
 
@@ -114,6 +118,7 @@ class Interreflection {
   CosineDirections patch_directions_, point_directions_;
   Eigen::AlignedBox3d planned_box_, clear_box_;
   Eigen::Vector3d zenith_;
+  SkyPieces sky_pieces_;
   std::optional<GroundPlane> ground_;
   Patches patches_;
   std::vector<std::vector<Meeting>> meetings_;  // of each piece

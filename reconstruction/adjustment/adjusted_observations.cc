@@ -7,6 +7,7 @@
 
 #include "calibration/files/error.h"
 #include "calibration/lens/lens_residual.h"
+#include "reconstruction/network/variance_factor.h"
 
 namespace insitu {
 namespace {
@@ -197,8 +198,8 @@ std::vector<PointComparison> LeaveOneOut(const SurveyNetwork& survey_network,
     comparison.name = point.name;
     comparison.difference = (inverse * residual).cwiseProduct(control.sigma);
     // What is predicted has the network's sigma0 and its lens in it, as a check point's sigma has.
-    const Eigen::Vector3d of_network =
-        solution.sigma0 * solution.sigma0 * (inverse.diagonal().array() - 1).max(0).matrix();
+    const Eigen::Vector3d of_network = VarianceFactor(solution.sigma0, solution.redundancy) *
+                                       (inverse.diagonal().array() - 1).max(0).matrix();
     const Eigen::Matrix3d by_lens = inverse * weight.asDiagonal() *
                                     LensCovariance(network, solution, column) *
                                     weight.asDiagonal() * inverse.transpose();

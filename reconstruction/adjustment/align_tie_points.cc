@@ -57,6 +57,15 @@ double Extent(const std::vector<Located>& located, Eigen::Vector3d Located::*pos
   return std::sqrt(squares / static_cast<double>(std::max<size_t>(located.size(), 1)));
 }
 
+// Of opposite directions any half turn.
+Eigen::Quaterniond ShortestTurn(const Eigen::Vector3d& from, const Eigen::Vector3d& to) {
+  const Eigen::Vector3d a = from.normalized(), b = to.normalized();
+  const bool opposite = a.dot(b) < -1 + 1e-12;
+  const Eigen::Vector3d axis = opposite ? a.unitOrthogonal() : a.cross(b);
+  const double cosine = opposite ? 0 : 1 + a.dot(b);
+  return Eigen::Quaterniond(cosine, axis.x(), axis.y(), axis.z()).normalized();
+}
+
 // Fewer than three pairs: position, and with two of them scale and the direction between them.
 Similarity3 AsFarAsKnown(const std::vector<SimilarityPair>& pairs) {
   Similarity3 world_from_model;
@@ -66,7 +75,7 @@ Similarity3 AsFarAsKnown(const std::vector<SimilarityPair>& pairs) {
     const Eigen::Vector3d target = pairs[1].target - pairs[0].target;
     if (source.norm() > 0 && target.norm() > 0) {
       world_from_model.scale = target.norm() / source.norm();
-      world_from_model.rotation.setFromTwoVectors(source, target);
+      world_from_model.rotation = ShortestTurn(source, target);
     }
   }
   world_from_model.translation = pairs[0].target - world_from_model * pairs[0].source;

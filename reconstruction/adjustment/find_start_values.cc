@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "calibration/files/wording.h"
 #include "reconstruction/adjustment/start_growth.h"
 
 namespace insitu {
@@ -78,7 +79,7 @@ class StartFinder {
     }
   }
 
-  // Returns whether three points left several poses to choose from.
+  // Returns whether the points left several poses to choose from.
   bool ResectFromControl(size_t photo) {
     const std::string& name = NameOf(photo);
     const auto [points, first_known, first] = growth_.MarksOf(photo);
@@ -97,24 +98,49 @@ class StartFinder {
                        "the " + std::to_string(points.size()) + " control points on photo '" +
                            name + "' lie on one line, expected one well beside it");
     }
-    return Resect(photo, points, first_known->place).ambiguous;
+    const Resections resections = Resect(photo, points, first_known->place);
+    return resections.best.ambiguous || !resections.seconds.empty();
   }
 
   void ResectAgain(size_t photo) {
     const StartGrowth::PhotoMarks marks = growth_.MarksOf(photo);
-    if (Resect(photo, marks.known, marks.first_known->place).ambiguous) {
+    const Resections resections = Resect(photo, marks.known, marks.first_known->place);
+    if (resections.best.ambiguous) {
       growth_.values().warnings.push_back(
           "photo '" + NameOf(photo) +
           "' fits its three control points from several places; the most "
           "upright was taken: mark a fourth or give an estimate");
     }
+    if (!resections.seconds.empty()) WarnOfSecondPose(photo, marks.known.size(), resections);
     growth_.SetPosed(photo);
   }
 
-  ResectionResult Resect(size_t photo, const std::vector<ResectionPoint>& points,
-                         const FilePlace& place) {
-    const auto resection = growth_.Resect(photo, points);
-    if (resection) return *resection;
+  void WarnOfSecondPose(size_t photo, size_t points, const Resections& resections) {
+    const auto place = [](const Rigid3& cam_from_world) {
+      const Eigen::Vector3d center = Center(cam_from_world);
+      return Formatted("(%.2f, %.2f, %.2f)", center.x(), center.y(), center.z());
+    };
+    const SecondPose& second = resections.seconds[0];
+    const double apart =
+        (Center(second.cam_from_world) - Center(resections.best.cam_from_world)).norm();
+    std::string decides = "give its place by --start or camera_positions.csv";
+    if (resections.deciding_m) {
+      decides = "mark a known point " + ShortNumber(*resections.deciding_m) +
+                " m or more off the plane of the " + "others, or " + decides;
+    }
+    growth_.values().warnings.push_back(
+        "photo '" + NameOf(photo) + "' fits its " + std::to_string(points) + " known points" +
+        (resections.are_coplanar ? ", which lie nearly in one plane," : "") +
+        " from two places: " + place(resections.best.cam_from_world) + ", which was taken, with " +
+        ShortNumber(resections.best.rms_px) + " px (RMS), and " + place(second.cam_from_world) +
+        ", " + ShortNumber(apart) + " m away, with " + ShortNumber(second.rms_px) +
+        " px; the marks do not decide between them: " + decides);
+  }
+
+  Resections Resect(size_t photo, const std::vector<ResectionPoint>& points,
+                    const FilePlace& place) {
+    const auto resections = growth_.Resect(photo, points);
+    if (resections) return *resections;
     throw InputError(place.path, place.line,
                      "photo '" + NameOf(photo) + "' cannot be resected from its " +
                          std::to_string(points.size()) +

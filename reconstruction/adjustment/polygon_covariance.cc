@@ -5,6 +5,8 @@
 #include <map>
 #include <optional>
 
+#include "reconstruction/network/variance_factor.h"
+
 namespace insitu {
 namespace {
 
@@ -50,8 +52,8 @@ Eigen::MatrixXd VertexCovariance(const Network& network, const NetworkSolution& 
     const Eigen::Index width = std::min(kBatch, count - first);
     Eigen::MatrixXd units = Eigen::MatrixXd::Zero(solution.columns.count, width);
     for (Eigen::Index i = 0; i < width; ++i) units(columns[first + i], i) = 1;
-    covariance.middleCols(first, width) =
-        solution.sigma0 * solution.sigma0 * VertexRows(solution.cofactor.Times(units), places);
+    covariance.middleCols(first, width) = VarianceFactor(solution.sigma0, solution.redundancy) *
+                                          VertexRows(solution.cofactor.Times(units), places);
   }
   for (size_t i = 0; i < network.cameras.size(); ++i) {
     if (solution.lens_sensitivity[i].size() == 0) continue;

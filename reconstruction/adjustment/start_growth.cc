@@ -123,7 +123,9 @@ StartGrowth::PhotoMarks StartGrowth::MarksOf(size_t photo) const {
     const auto known = values_.points.find(mark->point);
     if (known == values_.points.end()) continue;
     if (marks.first_known == nullptr) marks.first_known = mark;
-    marks.known.push_back({known->second.position, mark->pixel, mark->sigma_px});
+    const double sigma_m = known->second.sigma;
+    marks.known.push_back({known->second.position, mark->pixel, mark->sigma_px,
+                           std::isfinite(sigma_m) ? sigma_m : 0});
   }
   return marks;
 }
@@ -134,17 +136,22 @@ bool StartGrowth::CanResect(size_t photo) const {
   return !AreCollinear(positions);
 }
 
-std::optional<ResectionResult> StartGrowth::Resect(size_t photo,
-                                                   const std::vector<ResectionPoint>& points) {
+std::optional<Resections> StartGrowth::Resect(size_t photo,
+                                              const std::vector<ResectionPoint>& points) {
   PosedCamera& posed = values_.cameras[photo];
   std::optional<Rigid3> initial;
   if (const auto given = initial_cam_from_world_.find(posed.photo);
       given != initial_cam_from_world_.end()) {
     initial = given->second;
   }
-  auto resection = insitu::Resect(posed.camera, points, initial);
-  if (resection) posed.cam_from_world = resection->cam_from_world;
-  return resection;
+  std::optional<SurveyedCenter> place;
+  for (const CameraPosition& position : survey_.camera_positions) {
+    if (position.photo != posed.photo || position.role == PositionRole::kFree) continue;
+    place = SurveyedCenter{position.position, position.sigma.maxCoeff()};
+  }
+  auto resections = ResectAll(posed.camera, points, initial, place);
+  if (resections) posed.cam_from_world = resections->best.cam_from_world;
+  return resections;
 }
 
 void StartGrowth::SetPosed(size_t photo) {

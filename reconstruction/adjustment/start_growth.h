@@ -50,8 +50,8 @@ class StartGrowth {
   bool CanResect(size_t photo) const;
 
   // The pose that explains the marks becomes the photo's, which does not count as posed yet; a
-  // user's estimate picks among several.
-  std::optional<ResectionResult> Resect(size_t photo, const std::vector<ResectionPoint>& points);
+  // user's estimate or a surveyed camera position picks among several.
+  std::optional<Resections> Resect(size_t photo, const std::vector<ResectionPoint>& points);
 
   void SetPosed(size_t photo);
   bool IsPosed(size_t photo) const { return is_posed_[photo]; }

@@ -4,7 +4,8 @@
 #include <algorithm>
 #include <iterator>
 
-#include "calibration/files/error.h"
+#include "calibration/files/delimited_rows.h"
+#include "calibration/files/error_at.h"
 #include "calibration/files/text_table.h"
 
 namespace insitu {
@@ -13,15 +14,34 @@ namespace {
 constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
 constexpr std::string_view kOff = "#off";
 
-// The cells of a line with the blanks about them.
+// The cells of a line with the blanks and quotes about them. A cell in quotes may hold commas [RFC
+// 4180].
 std::vector<std::string_view> RawCells(std::string_view text) {
   std::vector<std::string_view> cells;
-  for (size_t comma; (comma = text.find(',')) != std::string_view::npos;) {
-    cells.push_back(text.substr(0, comma));
-    text.remove_prefix(comma + 1);
+  size_t begin = 0;
+  bool is_quoted = false;
+  for (size_t i = 0; i < text.size(); ++i) {
+    const bool is_opening = text[i] == '"' && TrimmedView(text.substr(begin, i - begin)).empty();
+    if (text[i] == '"' && (is_quoted || is_opening)) is_quoted = !is_quoted;
+    if (text[i] != ',' || is_quoted) continue;
+    cells.push_back(text.substr(begin, i - begin));
+    begin = i + 1;
   }
-  cells.push_back(text);
+  cells.push_back(text.substr(begin));
   return cells;
+}
+
+// What a cell says, without quotes.
+std::string CellOf(std::string_view raw) {
+  const std::string_view trimmed = TrimmedView(raw);
+  if (trimmed.size() < 2 || trimmed.front() != '"' || trimmed.back() != '"')
+    return std::string(trimmed);
+  std::string text;
+  for (size_t i = 1; i + 1 < trimmed.size(); ++i) {
+    text += trimmed[i];
+    if (trimmed[i] == '"' && i + 2 < trimmed.size() && trimmed[i + 1] == '"') ++i;
+  }
+  return text;
 }
 
 // How long "#off" is with the blanks about it; 0: the line is none that is switched off.
@@ -106,33 +126,46 @@ std::string CsvSurveyText::JoinedColumns() const {
 
 void CsvSurveyText::ReadHeader(const Line& line, int number) {
   columns_.clear();
-  for (const std::string_view cell : RawCells(line.text)) columns_.emplace_back(TrimmedView(cell));
+  for (const std::string_view cell : RawCells(line.text)) columns_.push_back(CellOf(cell));
+  if (columns_.size() == 1 && SeparatorOfLine(line.text) != ' ') {
+    throw InputError(path_, number,
+                     "its cells stand between semicolons or tabulators: programs read them, but "
+                     "only tables between "
+                     "commas are edited here, save it as one: " +
+                         JoinedColumns());
+  }
   for (const std::string& column : table_.columns) {
     const auto count = std::count(columns_.begin(), columns_.end(), column);
     if (count == 1) continue;
-    throw InputError(path_, number,
-                     "column \"" + column + (count == 0 ? "\" is missing" : "\" stands twice") +
-                         ", expected the header " + JoinedColumns());
+    const Sentence::Values values = {{"column", column}, {"header", JoinedColumns()}};
+    throw ErrorAt(
+        {path_, number},
+        count == 0
+            ? Sentence("columnMissing",
+                       "column \"{column}\" is missing, expected the header {header}", values)
+            : Sentence("columnTwice",
+                       "column \"{column}\" stands twice, expected the header {header}", values));
   }
 }
 
 Json::Value CsvSurveyText::RowOfCells(const std::vector<std::string_view>& cells,
                                       int number) const {
   if (cells.size() != columns_.size()) {
-    throw InputError(
-        path_, number,
-        std::to_string(cells.size()) + " cells, expected " + std::to_string(columns_.size()));
+    throw ErrorAt({path_, number}, Sentence("cellCount", "{count} cells, expected {expected}",
+                                            {{"count", static_cast<int>(cells.size())},
+                                             {"expected", static_cast<int>(columns_.size())}}));
   }
   Json::Value row(Json::objectValue);
   for (size_t i = 0; i < cells.size(); ++i) {
-    const std::string text(TrimmedView(cells[i]));
+    const std::string text = CellOf(cells[i]);
     const std::string& column = columns_[i];
     if (Holds(table_.numbers, column)) {
       const auto value = ParseNumber(text);
       if (!value) {
-        std::string message = "\"" + text;
-        message += "\" in column \"" + column;
-        throw InputError(path_, number, message += "\", expected a finite number");
+        throw ErrorAt(
+            {path_, number},
+            Sentence("cellNumber", "\"{text}\" in column \"{column}\", expected a finite number",
+                     {{"text", text}, {"column", column}}));
       }
       row[column] = *value;
     } else if (!text.empty() && !column.empty() && !row.isMember(column)) {
@@ -348,7 +381,7 @@ void CsvSurveyText::DropColumns(const Json::Value& columns) {
 
 std::string CsvSurveyText::CellText(const std::string& column, std::string_view old,
                                     const Json::Value& row) const {
-  const std::string was(TrimmedView(old));
+  const std::string was = CellOf(old);
   if (Holds(table_.numbers, column)) {
     const auto number = ParseNumber(was);
     const bool is_same = number && *number == row[column].asDouble();
@@ -358,7 +391,7 @@ std::string CsvSurveyText::CellText(const std::string& column, std::string_view 
   if (table_.has_state && column == "state" && text != "dubious") {
     text = was == "dubious" ? "" : was;
   }
-  return text == was ? std::string(old) : InPlaceOf(old, text);
+  return text == was ? std::string(old) : InPlaceOf(old, QuotedCell(text));
 }
 
 // The line `text` with the cells of `row`; a cell that means the same stays as it is.

@@ -13,14 +13,24 @@
 #include <system_error>
 
 #include "calibration/files/error.h"
+#include "calibration/files/error_at.h"
 #include "calibration/files/whole_file.h"
 #include "reconstruction/editing/edited_tables.h"
 
 namespace insitu {
 namespace {
 
+// What the system says, of the faults that people meet in their language.
+Sentence ReasonOf(const std::string& reason) {
+  if (reason == std::strerror(ENOSPC)) return Sentence("diskFull", "No space left on device");
+  if (reason == std::strerror(EROFS)) return Sentence("diskReadOnly", "Read-only file system");
+  if (reason == std::strerror(EACCES)) return Sentence("noAccess", "Permission denied");
+  return Sentence::Verbatim(reason);
+}
+
 [[noreturn]] void RefuseJournal(const std::filesystem::path& path, const std::string& reason) {
-  throw InputError(path, "cannot be written (" + reason + ")");
+  throw ErrorAt({path}, Sentence("notWritable", "cannot be written ({reason})",
+                                 {{"reason", ReasonOf(reason).ToJson()}}));
 }
 
 class EntryReader {
@@ -89,8 +99,9 @@ void Journal::Read() {
         throw InputError(path_, line,
                          "is no entry; move the file away to go on without what it holds");
       }
-      remark_ = path_.string() + ":" + std::to_string(line) +
-                ": the last line was torn and is cut off; it was never confirmed";
+      remark_ = Sentence("journalTorn",
+                         "{place}: the last line was torn and is cut off; it was never confirmed",
+                         {{"place", path_.filename().string() + ":" + std::to_string(line)}});
       break;
     }
     entries_.push_back(std::move(*entry));
@@ -128,7 +139,8 @@ void Journal::Replace(const std::vector<Json::Value>& entries) {
     });
   } catch (const std::exception& error) {
     if (descriptor >= 0) close(descriptor);
-    throw InputError(path_, std::string("cannot be made shorter: ") + error.what());
+    throw ErrorAt({path_}, Sentence("journalLong", "cannot be made shorter: {why}",
+                                    {{"why", SentenceOf(error).ToJson()}}));
   }
   close(descriptor_);
   descriptor_ = descriptor;

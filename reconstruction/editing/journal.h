@@ -7,8 +7,9 @@
 
 #include <filesystem>
 #include <optional>
-#include <string>
 #include <vector>
+
+#include "calibration/files/sentence.h"
 
 namespace insitu {
 
@@ -25,7 +26,7 @@ class Journal {
   const std::vector<Json::Value>& entries() const { return entries_; }
 
   // What was cut off, for people; nullopt: nothing.
-  const std::optional<std::string>& remark() const { return remark_; }
+  const std::optional<Sentence>& remark() const { return remark_; }
 
   // On return the entry is on disk. Throws InputError: it is not, and the file is as it was.
   void Append(const Json::Value& entry);
@@ -43,7 +44,7 @@ class Journal {
   off_t size_ = 0;
   bool is_name_on_disk_ = true;  // else a power failure would bring back what was replaced
   std::vector<Json::Value> entries_;
-  std::optional<std::string> remark_;
+  std::optional<Sentence> remark_;
 };
 
 // Puts a file or folder on disk, names and all. Throws InputError.

@@ -33,11 +33,6 @@ std::string OrList(const Texts& texts) {
 Fault FaultOfName(const std::string& what, const std::string& name) {
   if (name.empty()) return what + " is empty";
   if (TrimmedView(name) != name) return what + " " + Quoted(name) + " begins or ends with a blank";
-  if (name[0] == '#') return what + " " + Quoted(name) + " begins with #, which marks a comment";
-  if (name[0] == '"') return what + " " + Quoted(name) + " begins with a quotation mark";
-  if (name.find(',') != std::string::npos) {
-    return what + " " + Quoted(name) + " has a comma, which separates cells";
-  }
   const bool has_control = std::any_of(name.begin(), name.end(), [](char c) {
     return static_cast<unsigned char>(c) < 0x20 || c == 0x7F;
   });

@@ -98,7 +98,7 @@ std::string SiteEdit::RefusalOf(const std::vector<RowEdit>& edits, bool is_new) 
     const EditedTable* table = FindEditedTable(edit.table);
     if (!table) return "there is no table \"" + edit.table + "\"";
     if (const auto& fault = FileOf(*table).fault) {
-      return fault->file + ":" + std::to_string(fault->line) + ": " + fault->text +
+      return fault->file + ":" + std::to_string(fault->line) + ": " + fault->text.text() +
              "; the table is read-only until that is mended";
     }
     const std::string refusal = is_new && !edit.after.isNull() ? RefusalOfRow(edit) : "";
@@ -186,12 +186,12 @@ SiteEdit::MergeReport SiteEdit::Merge(const SitePaths& other, const std::string&
         if (refusal.empty()) {
           operation.edits.push_back(std::move(edit));
         } else {
-          report.remarks.push_back(theirs.path.string() + ": " + OneLineJson(edit.after) +
-                                   " is left out: " + refusal);
+          report.remarks.push_back(Sentence::Verbatim(
+              theirs.path.string() + ": " + OneLineJson(edit.after) + " is left out: " + refusal));
         }
       }
     } catch (const InputError& error) {
-      report.remarks.emplace_back(error.what());
+      report.remarks.push_back(SentenceOf(error));
     }
   }
   report.outcome.revision = revision();

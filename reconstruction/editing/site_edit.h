@@ -43,7 +43,7 @@ struct OutsideChanges {
   std::vector<RowConflict> conflicts = {};  // theirs (`current`) stands, ours (`after`) is kept in
                                             // the journal
   std::vector<std::string> reread = {};     // files that could not be read before
-  std::vector<std::string> remarks = {};    // for people
+  std::vector<Sentence> remarks = {};       // for people
 };
 
 struct SaveReport {
@@ -91,7 +91,7 @@ class SiteEdit {
   struct MergeReport {
     EditOutcome outcome = {};
     std::vector<RowConflict> conflicts = {};  // `current` ours, `after` theirs
-    std::vector<std::string> remarks = {};
+    std::vector<Sentence> remarks = {};
   };
   MergeReport Merge(const SitePaths& other, const std::string& id);
 
@@ -107,7 +107,7 @@ class SiteEdit {
   void Remember(const SiteFile& file, const std::string& text,
                 const std::vector<RowEdit>& pending = {});
   void RememberOnDisk(const SiteFile& file, const std::vector<RowEdit>& pending = {});
-  void ShortenJournal();
+  void ShortenJournal(OutsideChanges* told);
   void SaveFile(SiteFile& file, SaveReport* report);
   SiteFile& FileOf(const EditedTable& table);
   const SiteFile& FileOf(const EditedTable& table) const;

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "calibration/files/error.h"
+#include "calibration/files/error_at.h"
 #include "calibration/files/sha256.h"
 #include "calibration/files/whole_file.h"
 #include "reconstruction/editing/make_survey_text.h"
@@ -59,12 +60,12 @@ SiteEdit::SiteEdit(SitePaths site, std::vector<std::string> photos, const Histor
   for (SiteFile& file : files_) Open(file);
   history_.ForgetDone();
   if (is_saved()) saved_revision_ = revision();
-  ShortenJournal();
+  ShortenJournal(&found_);
 }
 
 // Once all is in the files and their copies, the journal need not tell how it came there. A journal
 // that stays long is as good: what prevents it is said once.
-void SiteEdit::ShortenJournal() {
+void SiteEdit::ShortenJournal(OutsideChanges* told) {
   if (!history_.IsLong() || !can_shorten_) return;
   try {
     const bool is_settled = std::all_of(files_.begin(), files_.end(), [](const SiteFile& file) {
@@ -73,7 +74,7 @@ void SiteEdit::ShortenJournal() {
     if (is_settled) history_.Shorten();
   } catch (const std::exception& error) {
     can_shorten_ = false;
-    found_.remarks.emplace_back(error.what());
+    told->remarks.push_back(SentenceOf(error));
   }
 }
 
@@ -140,7 +141,8 @@ void SiteEdit::TakeIn(SiteFile& file, const std::string& on_disk, OutsideChanges
   if (on_disk.empty() && file.was_read) {
     file.on_disk.clear();
     file.is_changed = true;
-    changes->remarks.push_back(file.told + " was removed; it is written again");
+    changes->remarks.push_back(
+        Sentence("fileRemoved", "{file} was removed; it is written again", {{"file", file.told}}));
     return;
   }
   if (!file.was_read) {
@@ -181,7 +183,7 @@ void SiteEdit::RememberOnDisk(const SiteFile& file, const std::vector<RowEdit>& 
   const std::string copy = ReadIfThere(file.copy);
   if (copy == file.on_disk) return;
   if (ReplaceFile(file.copy, file.on_disk, copy)) {
-    throw InputError(file.copy, "is written by another program");
+    throw ErrorAt({file.copy}, Sentence("fileContended", "is written by another program"));
   }
 }
 
@@ -202,7 +204,7 @@ OutsideChanges SiteEdit::Refresh() {
       if (!on_disk) continue;
       TakeIn(file, *on_disk, &changes);
     } catch (const std::exception& error) {
-      changes.remarks.emplace_back(error.what());
+      changes.remarks.push_back(SentenceOf(error));
     }
   }
   return changes;
@@ -230,7 +232,8 @@ void SiteEdit::SaveFile(SiteFile& file, SaveReport* report) {
     }
   }
   if (file.now->text() != file.on_disk) {
-    throw InputError(file.path, "is written by another program all the time");
+    throw ErrorAt({file.path},
+                  Sentence("fileContendedLong", "is written by another program all the time"));
   }
   file.is_changed = false;
   file.seen = {};
@@ -249,7 +252,7 @@ SaveReport SiteEdit::Save() {
     }
   }
   if (report.is_saved()) saved_revision_ = revision();
-  ShortenJournal();
+  ShortenJournal(&report.outside);
   return report;
 }
 

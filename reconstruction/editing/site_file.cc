@@ -35,14 +35,18 @@ void RequireWritable(const fs::path& path) {
   const fs::file_status status = fs::status(path, none);
   if (!fs::exists(status)) return;
   const bool is_writable = (status.permissions() & fs::perms::owner_write) != fs::perms::none;
-  if (!is_writable) throw InputError(path, "is read-only, expected a file that may be written");
+  if (is_writable) return;
+  throw ErrorAt({path},
+                Sentence("fileReadOnly", "is read-only, expected a file that may be written"));
 }
 
 void WriteOnDisk(const fs::path& temporary, const fs::path& target, const std::string& text) {
   std::ofstream stream(temporary, std::ios::binary);
   stream << text;
   stream.close();
-  if (!stream) throw InputError(target, "cannot be written; is the disk full?");
+  if (!stream) {
+    throw ErrorAt({target}, Sentence("fileNotWritten", "cannot be written; is the disk full?"));
+  }
   if (fs::exists(target)) fs::permissions(temporary, fs::status(target).permissions());
   SyncToDisk(temporary);
 }
@@ -92,18 +96,18 @@ std::optional<std::string> ReadIfWritten(SiteFile& file) {
 }
 
 FileFault FaultOf(const SiteFile& file, const std::exception& error) {
+  const Sentence message = MessageOf(error);
   std::string text = error.what();
   int line = 0;
   const std::string path = file.path.string() + ":";
-  if (text.starts_with(path)) {
-    const char* end = text.data() + text.size();
-    const auto parsed = std::from_chars(text.data() + path.size(), end, line);
-    const size_t used = parsed.ec == std::errc() && *parsed.ptr == ':'
-                            ? static_cast<size_t>(parsed.ptr - text.data()) + 1
-                            : path.size();
-    text = text.substr(std::min(used + 1, text.size()));
-  }
-  return {file.told, line, text};
+  if (!text.starts_with(path)) return {file.told, line, message};
+  const char* end = text.data() + text.size();
+  const auto parsed = std::from_chars(text.data() + path.size(), end, line);
+  const size_t used = parsed.ec == std::errc() && *parsed.ptr == ':'
+                          ? static_cast<size_t>(parsed.ptr - text.data()) + 1
+                          : path.size();
+  text = text.substr(std::min(used + 1, text.size()));
+  return {file.told, line, message.text() == text ? message : Sentence::Verbatim(text)};
 }
 
 std::optional<std::string> ReplaceFile(const fs::path& path, const std::string& text,

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "calibration/files/sentence.h"
 #include "reconstruction/editing/survey_text.h"
 
 namespace insitu {
@@ -17,7 +18,7 @@ namespace insitu {
 struct FileFault {
   std::string file;  // below the site's folder
   int line = 0;      // 0: the file as a whole
-  std::string text;
+  Sentence text;
 };
 
 // The tables of a file, as they stand now and as the file was when it was last read.

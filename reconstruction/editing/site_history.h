@@ -50,7 +50,7 @@ class SiteHistory {
   explicit SiteHistory(const std::filesystem::path& journal, const HistoryLimits& limits = {});
 
   int revision() const { return revision_; }
-  const std::optional<std::string>& remark() const { return journal_.remark(); }
+  const std::optional<Sentence>& remark() const { return journal_.remark(); }
   const HistoryStep* ToUndo() const { return done_.empty() ? nullptr : &done_.back(); }
   const HistoryStep* ToRedo() const { return undone_.empty() ? nullptr : &undone_.back(); }
 

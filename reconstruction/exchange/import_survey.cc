@@ -3,7 +3,9 @@
 
 #include <algorithm>
 
+#include "calibration/files/delimited_rows.h"
 #include "calibration/files/error.h"
+#include "calibration/files/plain_text.h"
 #include "calibration/files/text_table.h"
 #include "calibration/files/whole_file.h"
 #include "calibration/photo/photograph.h"
@@ -26,8 +28,7 @@ std::string Counted(size_t count, const std::string& what) {
 }
 
 void CheckName(const std::string& name, const FilePlace& place) {
-  const bool is_plain =
-      !name.empty() && name.find_first_of(",\"\n\r") == std::string::npos && name[0] != '#';
+  const bool is_plain = !name.empty() && name.find_first_of("\n\r") == std::string::npos;
   if (!is_plain) throw ErrorAt(place, "\"" + name + "\" cannot be a name in our tables");
 }
 
@@ -73,6 +74,29 @@ std::vector<ControlPoint> MergePoints(const std::vector<SurveyFile>& files,
 std::string SitePhoto(const std::string& name, const SurveyImportOptions& options) {
   const auto renamed = options.photo_names.find(name);
   return renamed == options.photo_names.end() ? name : renamed->second;
+}
+
+// The files' photos under other names of the same letters: case, composed or decomposed accents.
+// Each where one photo of the site alone is meant.
+std::map<std::string, std::string> NamesOfOtherCase(const std::vector<SurveyFile>& files,
+                                                    const std::set<std::string>& photos,
+                                                    std::vector<std::string>* report) {
+  std::map<std::string, std::vector<std::string>> photos_of_letters;
+  for (const std::string& photo : photos)
+    photos_of_letters[Folded(Composed(photo))].push_back(photo);
+  std::map<std::string, std::string> names;
+  const auto take = [&](const std::string& name) {
+    if (photos.contains(name) || names.contains(name)) return;
+    const auto same = photos_of_letters.find(Folded(Composed(name)));
+    if (same == photos_of_letters.end() || same->second.size() > 1) return;
+    names[name] = same->second[0];
+    report->push_back("photo \"" + name + "\" is taken for the site's \"" + same->second[0] + "\"");
+  };
+  for (const SurveyFile& file : files) {
+    for (const SurveyedMark& mark : file.marks) take(mark.photo);
+    for (const SurveyedPoint& center : file.centers) take(center.name);
+  }
+  return names;
 }
 
 std::vector<CameraPosition> MergeCenters(const std::vector<SurveyFile>& files,
@@ -195,7 +219,7 @@ std::string DigitsOf(const Eigen::Vector3d& v) {
 std::string PointsTable(const std::vector<ControlPoint>& points) {
   std::string table = "name,x,y,z,sigma_x,sigma_y,sigma_z,role\n";
   for (const ControlPoint& point : points) {
-    table += point.name + "," + DigitsOf(point.position) + "," + DigitsOf(point.sigma) +
+    table += QuotedCell(point.name) + "," + DigitsOf(point.position) + "," + DigitsOf(point.sigma) +
              (point.role == ControlRole::kCheck ? ",check\n" : ",control\n");
   }
   return table;
@@ -204,8 +228,8 @@ std::string PointsTable(const std::vector<ControlPoint>& points) {
 std::string MarksTable(const std::vector<ImageObservation>& marks) {
   std::string table = "photo,point,x,y,sigma\n";
   for (const ImageObservation& mark : marks) {
-    table += mark.photo + "," + mark.point + "," + Digits(mark.pixel.x()) + "," +
-             Digits(mark.pixel.y()) + "," + Digits(mark.sigma_px) + "\n";
+    table += QuotedCell(mark.photo) + "," + QuotedCell(mark.point) + "," + Digits(mark.pixel.x()) +
+             "," + Digits(mark.pixel.y()) + "," + Digits(mark.sigma_px) + "\n";
   }
   return table;
 }
@@ -213,8 +237,8 @@ std::string MarksTable(const std::vector<ImageObservation>& marks) {
 std::string CentersTable(const std::vector<CameraPosition>& centers) {
   std::string table = "photo,x,y,z,sigma_x,sigma_y,sigma_z,role\n";
   for (const CameraPosition& center : centers) {
-    table += center.photo + "," + DigitsOf(center.position) + "," + DigitsOf(center.sigma) +
-             ",weighted\n";
+    table += QuotedCell(center.photo) + "," + DigitsOf(center.position) + "," +
+             DigitsOf(center.sigma) + ",weighted\n";
   }
   return table;
 }
@@ -228,17 +252,19 @@ void SurveyImportOptions::Check() const {
 
 SurveyImport ImportSurvey(const std::vector<std::filesystem::path>& paths,
                           const std::set<std::string>& photos, const PhotoSize& photo_size,
-                          const SurveyImportOptions& options) {
-  options.Check();
+                          const SurveyImportOptions& given) {
+  given.Check();
+  SurveyImportOptions options = given;
   SurveyImport import;
   std::vector<SurveyFile> files;
   for (const std::filesystem::path& path : paths) {
-    files.push_back(ReadSurveyFile(path, photo_size));
+    files.push_back(ReadSurveyFile(path, photo_size, options.reading));
     ReportFile(files.back(), &import.report);
   }
   for (std::string& line : ConvertToOneSystem(options.file_crs, options.crs, &files)) {
     import.report.push_back(std::move(line));
   }
+  options.photo_names.merge(NamesOfOtherCase(files, photos, &import.report));
   import.control_points = MergePoints(files, options);
   import.camera_positions = MergeCenters(files, photos, options);
   LeftOut left_out;
@@ -262,10 +288,13 @@ SurveyImport ImportSurveyInto(const SitePaths& site,
     photographs[path.stem().string()] = path;
     photos.insert(path.stem().string());
   }
+  std::map<std::string, Eigen::Vector2i> sizes;  // each photograph is opened once
   const PhotoSize photo_size = [&](const std::string& name) -> std::optional<Eigen::Vector2i> {
     const auto photograph = photographs.find(SitePhoto(name, options));
     if (photograph == photographs.end()) return std::nullopt;
-    return ReadPhotographSize(photograph->second);
+    const auto known = sizes.find(photograph->first);
+    if (known != sizes.end()) return known->second;
+    return sizes[photograph->first] = ReadPhotographSize(photograph->second);
   };
   SurveyImport import = ImportSurvey(files, photos, photo_size, options);
   std::vector<std::pair<std::filesystem::path, std::string>> tables;

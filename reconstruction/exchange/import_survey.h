@@ -21,6 +21,7 @@ struct SurveyImportOptions {
   std::optional<double> mark_sigma_px;  // of marks whose file states none
   std::optional<std::string> file_crs;  // the system of files that name none
   std::optional<std::string> crs;  // to convert to; nullopt: as read, or the UTM zone of degrees
+  SurveyReading reading;           // of tables with a header
   std::map<std::string, std::string> photo_names;  // the files' name -> the site's
   std::set<std::string> check_points;              // kept out of the adjustment
   bool keeps_unsurveyed = false;  // marks of points without coordinates: polygons' vertices

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "reconstruction/exchange/read_survey_file.h"
 
+#include "calibration/files/plain_text.h"
 #include "reconstruction/exchange/survey_file_formats.h"
 
 namespace insitu {
@@ -13,13 +14,15 @@ SurveyFile ReadXml(const std::filesystem::path& path) {
   return ReadMicMacXml(root);
 }
 
-SurveyFile ReadText(const SurveyText& text) {
+SurveyFile ReadText(const SurveyText& text, const SurveyReading& reading) {
   if (text.rows.empty()) throw InputError(text.path, "is empty");
   if (IsOdmList(text)) return ReadOdmList(text);
-  if (IsHeaderTable(text)) return ReadHeaderTable(text);
+  if (IsHeaderTable(text, reading)) return ReadHeaderTable(text, reading);
+  if (HasMarksBelowSystem(text)) return ReadOdmList(text);
   if (IsAicon(text)) return ReadAicon(text);
   if (IsMarkList(text)) return ReadMarkList(text);
   if (IsPointList(text)) return ReadPointList(text);
+  if (const auto fault = FaultOfHeader(text)) throw text.rows[0].Error(*fault);
   throw text.rows[0].Error(
       "is of no format that we know, expected for example a coordinate system and lines \"X Y Z px "
       "py image name\" (OpenDroneMap), a header \"name,x,y,z\", lines \"name X Y Z\", lines "
@@ -28,8 +31,9 @@ SurveyFile ReadText(const SurveyText& text) {
 
 }  // namespace
 
-SurveyFile ReadSurveyFile(const std::filesystem::path& path, const PhotoSize& photo_size) {
-  const std::string content = ReadTextFile(path);
+SurveyFile ReadSurveyFile(const std::filesystem::path& path, const PhotoSize& photo_size,
+                          const SurveyReading& reading) {
+  const std::string content = ReadPlainText(path);
   const std::string_view start = TrimmedView(content);
   SurveyFile file;
   if (start.starts_with("<")) {
@@ -37,7 +41,7 @@ SurveyFile ReadSurveyFile(const std::filesystem::path& path, const PhotoSize& ph
   } else if (start.starts_with("{")) {
     file = ReadOpenSfmJson(path, photo_size);
   } else {
-    file = ReadText({path, content, SplitTextRows(path, content, WordSeparator::kGuess)});
+    file = ReadText({path, content, SplitTextRows(path, content, WordSeparator::kGuess)}, reading);
   }
   file.path = path;
   if (file.points.empty() && file.marks.empty() && file.centers.empty()) {

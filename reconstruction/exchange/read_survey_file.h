@@ -19,7 +19,9 @@
 
 namespace insitu {
 
-// Throws InputError at the offending line: unreadable, of no known format, cut short, senseless.
-SurveyFile ReadSurveyFile(const std::filesystem::path& path, const PhotoSize& photo_size);
+// Throws InputError at the offending line: unreadable, of no known format, cut short, senseless, or
+// a table whose titles leave open what is meant and `reading` does not say.
+SurveyFile ReadSurveyFile(const std::filesystem::path& path, const PhotoSize& photo_size,
+                          const SurveyReading& reading = {});
 
 }  // namespace insitu

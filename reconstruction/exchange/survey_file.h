@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "reconstruction/survey/survey.h"
+#include "reconstruction/survey/survey_columns.h"
 
 namespace insitu {
 
@@ -36,6 +37,7 @@ struct SurveyFile {
   std::optional<std::string> crs;  // as the file names it
   bool has_axes_of_crs = false;    // x and y stand in the order of the system's definition
   bool has_degrees = false;        // the file says so, even if it names no system
+  bool has_units = false;  // the file says so: its coordinates are metres, whatever the system
   std::vector<SurveyedPoint> points;
   std::vector<SurveyedPoint> centers;  // camera positions
   std::vector<SurveyedMark> marks;

@@ -25,6 +25,8 @@ bool IsPhotoFileName(const std::string& text);
 // survey_lists.cc; of what format a text is tell its first lines.
 bool IsOdmList(const SurveyText& text);
 SurveyFile ReadOdmList(const SurveyText& text);  // gcp_list.txt of OpenDroneMap and OpenSfM
+bool HasMarksBelowSystem(
+    const SurveyText& text);  // the same below words for a system that name none of its own
 bool IsAicon(const SurveyText& text);
 SurveyFile ReadAicon(const SurveyText& text);  // .obc, .phc (with its .ior beside it)
 bool IsMarkList(const SurveyText& text);
@@ -33,8 +35,11 @@ bool IsPointList(const SurveyText& text);
 SurveyFile ReadPointList(const SurveyText& text);  // Pix4D, JAG3D, COLMAP: name x y z [sigmas]
 
 // survey_header_table.cc
-bool IsHeaderTable(const SurveyText& text);
-SurveyFile ReadHeaderTable(const SurveyText& text);  // Metashape's reference CSV, any with names
+bool IsHeaderTable(const SurveyText& text, const SurveyReading& reading);
+SurveyFile ReadHeaderTable(const SurveyText& text,  // Metashape's reference CSV, any with names
+                           const SurveyReading& reading);
+std::optional<std::string> FaultOfHeader(
+    const SurveyText& text);  // what a header of no such table lacks
 
 // opensfm_survey.cc
 SurveyFile ReadOpenSfmJson(const std::filesystem::path& path, const PhotoSize& photo_size);

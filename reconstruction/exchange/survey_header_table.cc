@@ -2,143 +2,72 @@
 // Tables whose first line names their columns, in whose words ever: Metashape's reference export,
 // GCP Editor Pro, spreadsheets.
 #include <algorithm>
-#include <map>
-#include <set>
+#include <array>
+#include <cmath>
 #include <sstream>
 
+#include "calibration/files/delimited_rows.h"
+#include "calibration/files/number_style.h"
+#include "calibration/files/plain_text.h"
 #include "reconstruction/exchange/survey_file_formats.h"
+#include "reconstruction/survey/survey_columns.h"
 
 namespace insitu {
 namespace {
 
-enum class Column {
-  kName,
-  kPhoto,
-  kX,
-  kY,
-  kZ,
-  kSigmaX,
-  kSigmaY,
-  kSigmaZ,
-  kSigmaXy,
-  kSigmaXyz,
-  kEnabled,
-  kRole,
-  kOther
-};
-
-using Words = std::set<std::string>;
-
-bool HasAny(const Words& words, const Words& wanted) {
-  return std::any_of(wanted.begin(), wanted.end(),
-                     [&](const auto& word) { return words.contains(word); });
-}
-
-Words WordsOf(const std::string& title) {
-  std::string text;
-  for (const char letter : title) {
-    text += std::isalnum(static_cast<unsigned char>(letter))
-                ? static_cast<char>(std::tolower(static_cast<unsigned char>(letter)))
-                : ' ';
-  }
-  const std::vector<std::string> words = SplitAtBlanks(text);
-  return {words.begin(), words.end()};
-}
-
-const Words kXWords = {"x", "easting", "east", "longitude", "lon", "lng", "u", "px"};
-const Words kYWords = {"y", "northing", "north", "latitude", "lat", "v", "py"};
-const Words kZWords = {"z", "altitude", "alt", "elevation", "height"};
-
-Column SigmaColumn(const Words& words) {
-  if (HasAny(words, {"xyz", "sxyz"})) return Column::kSigmaXyz;
-  const bool has_both = HasAny(words, kXWords) && HasAny(words, kYWords);  // "Accuracy_X/Y_(m)"
-  if (has_both && HasAny(words, kZWords)) return Column::kSigmaXyz;        // "Accuracy_X/Y/Z_(m)"
-  if (has_both || HasAny(words, {"xy", "sxy", "horz", "horizontal"})) return Column::kSigmaXy;
-  if (HasAny(words, kXWords) || HasAny(words, {"sx", "se"})) return Column::kSigmaX;
-  if (HasAny(words, kYWords) || HasAny(words, {"sy", "sn"})) return Column::kSigmaY;
-  if (HasAny(words, kZWords) || HasAny(words, {"sz", "sh", "vert", "vertical"})) {
-    return Column::kSigmaZ;
-  }
-  return Column::kSigmaXyz;
-}
-
-// Residuals and estimates, which Metashape writes beside what was measured, are kOther.
-Column ColumnOf(const std::string& title) {
-  const Words words = WordsOf(title);
-  if (HasAny(words, {"error", "errors", "est", "estimated", "var", "variance", "projections"})) {
-    return Column::kOther;
-  }
-  if (HasAny(words, {"accuracy", "sigma", "std", "precision", "sx", "sy", "sz", "se", "sn", "sh",
-                     "sxy", "sxyz"})) {
-    return SigmaColumn(words);
-  }
-  if (HasAny(words, {"enable", "enabled"})) return Column::kEnabled;
-  if (HasAny(words, {"role", "type"})) return Column::kRole;
-  if (HasAny(words, kXWords)) return Column::kX;
-  if (HasAny(words, kYWords)) return Column::kY;
-  if (HasAny(words, kZWords)) return Column::kZ;
-  if (HasAny(words, {"photo", "image", "filename", "file", "img"})) return Column::kPhoto;
-  if (HasAny(words, {"name", "label", "id", "point", "gcp", "marker", "target", "station"})) {
-    return Column::kName;
-  }
-  return Column::kOther;
-}
-
 struct Header {
   int line = 0;
   char separator = ',';
-  std::map<Column, size_t> columns;
-  bool has_degrees = false;
+  std::vector<std::string> titles;
 };
 
-char SeparatorOf(const std::string& line) {
-  for (const char separator : {',', ';', '\t'}) {
-    if (line.find(separator) != std::string::npos) return separator;
-  }
-  return ' ';
+std::vector<std::string> Split(const std::filesystem::path& path, const std::string& line,
+                               char separator) {
+  if (separator == ' ') return SplitAtBlanks(line);
+  std::vector<DelimitedRow> rows = SplitDelimited(path, line, separator);
+  return rows.empty() ? std::vector<std::string>() : rows[0].cells;
 }
 
-std::vector<std::string> Split(const std::string& line, char separator) {
-  return separator == ' ' ? SplitAtBlanks(line) : SplitAt(line, separator);
+// Whether a comment names the columns; prose does not, whatever it holds.
+bool NamesColumns(const SurveyText& text, const std::string& titles, Header* header,
+                  const SurveyReading& reading) {
+  try {
+    header->titles = Split(text.path, titles, header->separator);
+    return DecideColumns(header->titles, {text.path, header->line}, reading).has_value();
+  } catch (const InputError&) {
+    return false;
+  }
 }
 
-std::optional<Header> ParseHeader(const std::string& text, int line) {
-  std::string titles = text;
-  while (!titles.empty() && (titles[0] == '#' || titles[0] == ' ')) titles.erase(0, 1);
-  Header header{line, SeparatorOf(titles), {}, false};
-  const std::vector<std::string> words = Split(titles, header.separator);
-  for (size_t i = 0; i < words.size(); ++i) {
-    if (ParseNumber(words[i])) return std::nullopt;
-    const Column column = ColumnOf(words[i]);
-    if (column != Column::kOther) header.columns.emplace(column, i);
-    if (column == Column::kX && HasAny(WordsOf(words[i]), {"longitude", "lon", "lng"})) {
-      header.has_degrees = true;
-    }
-  }
-  for (const Column needed : {Column::kName, Column::kX, Column::kY}) {
-    if (!header.columns.contains(needed)) return std::nullopt;
-  }
-  if (!header.columns.contains(Column::kPhoto) && !header.columns.contains(Column::kZ)) {
-    return std::nullopt;
-  }
-  return header;
+bool HasNumber(const std::vector<std::string>& words) {
+  return std::any_of(words.begin(), words.end(),
+                     [](const auto& word) { return ParseNumber(word).has_value(); });
 }
 
-// The header stands before the first line of data, perhaps behind a #.
-std::optional<Header> FindHeader(const SurveyText& text) {
+// The header stands before the first line of data, perhaps behind a #; it holds no number.
+std::optional<Header> FindTitles(const SurveyText& text, const SurveyReading& reading) {
+  const char stated = StatedSeparator(text.content);
   std::istringstream stream(text.content);
   std::string line;
   for (int number = 1; std::getline(stream, line); ++number) {
-    const std::string_view trimmed = TrimmedView(line);
-    if (trimmed.empty()) continue;
-    if (auto header = ParseHeader(std::string(trimmed), number)) return header;
-    if (trimmed[0] != '#') return std::nullopt;
+    std::string titles(TrimmedView(line));
+    if (titles.empty() || (number == 1 && stated != '\0')) continue;
+    const bool is_comment = titles[0] == '#';
+    while (!titles.empty() && (titles[0] == '#' || titles[0] == ' ')) titles.erase(0, 1);
+    Header header{number, stated != '\0' ? stated : SeparatorOfLine(titles), {}};
+    if (is_comment) {
+      if (NamesColumns(text, titles, &header, reading) && !HasNumber(header.titles)) return header;
+      continue;
+    }
+    header.titles = Split(text.path, titles, header.separator);
+    if (HasNumber(header.titles) || header.titles.empty()) return std::nullopt;
+    return header;
   }
   return std::nullopt;
 }
 
 // "#CoordinateSystem: WKT" or "# CoordinateSystem: WKT", as versions of Metashape write it.
-std::optional<std::string> NamedSystem(const std::string& content) {
+std::optional<std::string> SystemInComment(const std::string& content) {
   const std::string key = "CoordinateSystem:";
   const size_t start = content.find(key);
   if (start == std::string::npos || content.find_last_of("#\n", start) == std::string::npos ||
@@ -150,21 +79,55 @@ std::optional<std::string> NamedSystem(const std::string& content) {
       TrimmedView(std::string_view(content).substr(start + key.size(), end - start - key.size())));
 }
 
-// One line of data by the header's columns.
+// 47°22'18.5"N, "47 22 18.5 S", -8:30:00, N47 22.5: degrees; nullopt: no such angle.
+std::optional<double> ParseAngle(const std::string& cell) {
+  double sign = 1;
+  std::string text;
+  for (const char letter : Folded(cell)) {
+    const bool is_hemisphere = letter == 'n' || letter == 's' || letter == 'e' || letter == 'w';
+    if (letter == '-' && !text.empty()) return std::nullopt;
+    if (letter == '-' || letter == 's' || letter == 'w') sign = -sign;
+    const bool is_part = (letter >= '0' && letter <= '9') || letter == '.';
+    if (std::isalpha(static_cast<unsigned char>(letter)) && !is_hemisphere) return std::nullopt;
+    text += is_part ? letter : ' ';
+  }
+  const std::vector<std::string> words = SplitAtBlanks(text);
+  if (words.empty() || words.size() > 3) return std::nullopt;
+  double degrees = 0, unit = 1;
+  for (size_t i = 0; i < words.size(); ++i, unit /= 60) {
+    const auto value = ParseNumber(words[i]);
+    const bool is_whole = value && *value == std::floor(*value);
+    if (!value || (i > 0 && *value >= 60) || (i + 1 < words.size() && !is_whole))
+      return std::nullopt;
+    degrees += *value * unit;
+  }
+  return sign * degrees;
+}
+
+// One line of data by the table's columns, in metres, degrees and pixels.
 class Line {
  public:
-  Line(const Header& header, const TextRow& row) : header_(header), row_(row) {}
+  Line(const SurveyColumns& columns, const NumberStyle& style, const TextRow& row)
+      : columns_(columns), style_(style), row_(row) {}
 
   bool Has(Column column) const {
-    const auto place = header_.columns.find(column);
-    return place != header_.columns.end() && place->second < row_.words.size() &&
+    const auto place = columns_.index.find(column);
+    return place != columns_.index.end() && place->second < row_.words.size() &&
            !row_.words[place->second].empty();
   }
   const std::string& Text(Column column, const char* what) const {
-    return row_.Text(header_.columns.at(column), what);
+    return row_.Text(columns_.index.at(column), what);
   }
   double Number(Column column, const char* what) const {
-    return row_.Number(header_.columns.at(column), what);
+    const std::string& text = Text(column, what);
+    auto value = style_.Parse(text);
+    const bool is_angle = (column == Column::kX || column == Column::kY) && columns_.has_degrees;
+    if (!value && is_angle) value = ParseAngle(text);
+    if (value) return *value * FactorOf(column);
+    throw row_.Error("\"" + text + "\" for " + what + ", expected a finite number" +
+                     (style_.is_mixed()
+                          ? "; some numbers of the table have decimal commas, others points"
+                          : ""));
   }
   std::optional<double> Sigma(Column column) const {
     if (!Has(column)) return std::nullopt;
@@ -179,9 +142,9 @@ class Line {
     Eigen::Vector3d sigma;
     for (size_t axis = 0; axis < 3; ++axis) {  // of two, plan and height
       const std::string& part = parts[parts.size() == 3 ? axis : axis / 2];
-      const auto value = ParseNumber(part);
+      const auto value = style_.Parse(part);
       if (!value) throw row_.Error("\"" + part + "\" for the accuracy, expected a finite number");
-      sigma[static_cast<Eigen::Index>(axis)] = Positive(*value);
+      sigma[static_cast<Eigen::Index>(axis)] = Positive(*value * FactorOf(Column::kSigmaXyz));
     }
     return sigma;
   }
@@ -189,11 +152,16 @@ class Line {
   const TextRow& row() const { return row_; }
 
  private:
+  double FactorOf(Column column) const {
+    const auto unit = columns_.unit.find(column);
+    return unit == columns_.unit.end() ? 1 : unit->second.factor;
+  }
   double Positive(double sigma) const {
     if (!(sigma > 0)) throw row_.Error("an accuracy that is not positive");
     return sigma;
   }
-  const Header& header_;
+  const SurveyColumns& columns_;
+  const NumberStyle& style_;
   const TextRow& row_;
 };
 
@@ -241,35 +209,98 @@ SurveyedMark MarkOf(const Line& line) {
           line.Place()};
 }
 
+// The lines below the header, as they stand.
+std::vector<TextRow> RowsOf(const SurveyText& text, const Header& header) {
+  std::vector<TextRow> rows;
+  if (header.separator == ' ') {
+    rows = SplitTextRows(text.path, text.content, WordSeparator::kBlanks);
+  } else {
+    for (DelimitedRow& row : SplitDelimited(text.path, text.content, header.separator)) {
+      rows.push_back({text.path, row.line, std::move(row.cells)});
+    }
+  }
+  std::erase_if(rows, [&](const TextRow& row) { return row.line <= header.line; });
+  return rows;
+}
+
+NumberStyle StyleOf(const std::vector<TextRow>& rows, const SurveyColumns& columns) {
+  NumberStyle style;
+  for (const TextRow& row : rows) {
+    for (const auto& [column, index] : columns.index) {
+      const bool is_number = column >= Column::kX && column <= Column::kSigmaXyz;
+      if (is_number && index < row.words.size()) style.Learn(row.words[index]);
+    }
+  }
+  return style;
+}
+
+// Marks that all lie within a pixel of the corner are shares of the picture's sides.
+void RequirePixels(const SurveyFile& file) {
+  if (file.marks.size() < 3) return;
+  const bool are_shares =
+      std::all_of(file.marks.begin(), file.marks.end(),
+                  [](const SurveyedMark& mark) { return mark.pixel.cwiseAbs().maxCoeff() <= 1; });
+  if (!are_shares) return;
+  const FilePlace& place = file.marks[0].place;
+  throw InputError(
+      place.path, place.line,
+      "all marks are between -1 and 1: shares of the picture's sides, expected pixels of the "
+      "original photograph");
+}
+
+void AddRemarks(const SurveyColumns& columns, const std::vector<std::string>& titles,
+                SurveyFile* file) {
+  std::string units, left_out;
+  for (const auto& [column, unit] : columns.unit) {
+    if (unit.factor == 1) continue;
+    units += (units.empty() ? "" : ", ") + titles[columns.index.at(column)] + " from " + unit.name;
+  }
+  if (!units.empty()) file->remarks.push_back("converted to metres or degrees: " + units);
+  for (const std::string& title : columns.left_out)
+    left_out += (left_out.empty() ? "" : ", ") + title;
+  if (!left_out.empty())
+    file->remarks.push_back("left out beside the columns that are taken: " + left_out);
+  if (!columns.has_marks) {
+    file->has_units = columns.unit.contains(Column::kX) && columns.unit.contains(Column::kZ);
+    return;
+  }
+  file->remarks.push_back(
+      "it does not say where its pixels count from: taken from the centre of the top-left pixel");
+}
+
 }  // namespace
 
-bool IsHeaderTable(const SurveyText& text) { return FindHeader(text).has_value(); }
+bool IsHeaderTable(const SurveyText& text, const SurveyReading& reading) {
+  const auto header = FindTitles(text, reading);
+  return header && DecideColumns(header->titles, {text.path, header->line}, reading);
+}
 
-SurveyFile ReadHeaderTable(const SurveyText& text) {
-  const auto header = FindHeader(text);
+std::optional<std::string> FaultOfHeader(const SurveyText& text) {
+  const auto header = FindTitles(text, {});
+  return header ? MissingColumn(header->titles) : std::nullopt;
+}
+
+SurveyFile ReadHeaderTable(const SurveyText& text, const SurveyReading& reading) {
+  const auto header = FindTitles(text, reading);
   INSITU_CHECK(header.has_value());
-  const bool has_marks = header->columns.contains(Column::kPhoto);
+  const auto columns = DecideColumns(header->titles, {text.path, header->line}, reading);
+  INSITU_CHECK(columns.has_value());
   SurveyFile file;
-  file.crs = NamedSystem(text.content);
-  file.has_degrees = header->has_degrees;
+  file.crs = SystemInComment(text.content);
+  file.has_degrees = columns->has_degrees;
   file.format = file.crs ? "reference table of Metashape (CSV)" : "table with a header";
-  const std::vector<TextRow> rows =
-      header->separator == ';' ? SplitTextRows(text.path, text.content, WordSeparator::kSemicolon)
-                               : text.rows;
+  const std::vector<TextRow> rows = RowsOf(text, *header);
+  const NumberStyle style = StyleOf(rows, *columns);
   for (const TextRow& row : rows) {
-    if (row.line <= header->line) continue;
-    const Line line(*header, row);
-    if (has_marks) {
+    const Line line(*columns, style, row);
+    if (columns->has_marks) {
       file.marks.push_back(MarkOf(line));
     } else {
       file.points.push_back(PointOf(line));
     }
   }
-  if (has_marks) {
-    file.remarks.push_back(
-        "it does not say where its pixels count from: taken from the centre of "
-        "the top-left pixel");
-  }
+  if (columns->has_marks) RequirePixels(file);
+  AddRemarks(*columns, header->titles, &file);
   return file;
 }
 

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <sstream>
 
 #include "calibration/camera_files/aicon_camera.h"
 #include "reconstruction/exchange/survey_file_formats.h"
@@ -44,6 +45,22 @@ bool HasCommas(const SurveyText& text) { return text.content.find(',') != std::s
 
 // ---- OpenDroneMap, OpenSfM -----------------------------------------------------------------
 
+constexpr size_t kOdmPhoto = 5;  // the column of the photo's name
+
+void JoinPhotoName(TextRow* row) {
+  const auto first = row->words.begin() + kOdmPhoto;
+  const auto end =
+      std::find_if(first, row->words.end(), [](const auto& word) { return IsPhotoFileName(word); });
+  if (end == row->words.end() || end == first) return;
+  for (auto word = first + 1; word <= end; ++word) *first += " " + *word;
+  row->words.erase(first + 1, end + 1);
+}
+
+bool IsOdmMark(const TextRow& row) {
+  return row.words.size() > kOdmPhoto && AreNumbers(row, 0, 1) && AreNumbers(row, 3, 4) &&
+         IsPhotoAt(row, kOdmPhoto);
+}
+
 // Points without a name are those of one place; they are named gcp_1, gcp_2 ... in their order.
 class OdmPoints {
  public:
@@ -83,8 +100,23 @@ class OdmPoints {
   int without_height_ = 0;
 };
 
+// Between tabulators where a line has any, since names may hold blanks; else between blanks. The
+// words of a photo's name are put together again: it ends where its ending stands.
 std::vector<TextRow> OdmRows(const SurveyText& text) {
-  return SplitTextRows(text.path, text.content, WordSeparator::kBlanks);
+  std::vector<TextRow> rows = SplitTextRows(text.path, text.content, WordSeparator::kBlanks);
+  std::istringstream stream(text.content);
+  std::string line;
+  int number = 0;
+  for (TextRow& row : rows) {
+    while (number < row.line && std::getline(stream, line)) ++number;
+    const std::vector<std::string> cells = SplitAt(line, '\t');
+    if (cells.size() >= kOdmPhoto + 1) {
+      row.words = cells;
+    } else if (row.words.size() > kOdmPhoto) {
+      JoinPhotoName(&row);
+    }
+  }
+  return rows;
 }
 
 std::string Joined(const std::vector<std::string>& words) {
@@ -163,10 +195,21 @@ bool IsOdmList(const SurveyText& text) {
   return names_system && (rows.size() == 1 || rows[1].words.size() >= 4);
 }
 
+bool HasMarksBelowSystem(const SurveyText& text) {
+  const std::vector<TextRow> rows = OdmRows(text);
+  return rows.size() > 1 && !IsOdmMark(rows[0]) &&
+         std::all_of(rows.begin() + 1, rows.end(), IsOdmMark);
+}
+
 SurveyFile ReadOdmList(const SurveyText& text) {
   SurveyFile file;
   file.format = "gcp_list.txt of OpenDroneMap or OpenSfM";
   const std::vector<TextRow> rows = OdmRows(text);
+  if (rows[0].words.size() > kOdmPhoto && AreNumbers(rows[0], 1, 4)) {
+    throw rows[0].Error("the coordinate system and the first point stand in one line (" +
+                        rows[0].words[0].substr(0, 20) +
+                        "...), expected a line end behind the system's code");
+  }
   if (rows[0].words[0] != "NONE") file.crs = Joined(rows[0].words);
   OdmPoints points(&file);
   for (size_t i = 1; i < rows.size(); ++i) {

@@ -36,7 +36,8 @@ std::optional<ImageUncertainty> ProjectBoth(const PosedCamera& posed,
 
   ImageUncertainty result;
   result.pixel = *pixel;
-  result.covariance_px = jacobian * covariance * jacobian.transpose();
+  const Eigen::MatrixXd with_pose = jacobian * covariance;
+  result.covariance_px = with_pose * jacobian.transpose();
   if (uncertain != nullptr) {
     const Eigen::Matrix<double, 2, 3> by_world = by_point * cam_from_world;
     result.covariance_px += by_world * uncertain->covariance * by_world.transpose();
@@ -45,7 +46,8 @@ std::optional<ImageUncertainty> ProjectBoth(const PosedCamera& posed,
       result.covariance_px += common + common.transpose();
     }
   }
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes(result.covariance_px);
+  Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes;
+  axes.computeDirect(result.covariance_px, Eigen::EigenvaluesOnly);
   const Eigen::Vector2d variances = axes.eigenvalues().cwiseMax(0);
   result.minor_px = std::sqrt(variances[0]);
   result.major_px = std::sqrt(variances[1]);

@@ -24,28 +24,46 @@ struct Candidate {
   double rms_px = 0;
 };
 
-// The solvers see directions as (x/z, y/z), useless near 90 degrees off the axis.
+constexpr double kReach =
+    20;  // of the weighted square sum: odds of 1 to 20 000 against the worse pose
+constexpr double kFlat =
+    0.1;  // spread across a plane against that along it, up to which both its poses are tried
+constexpr size_t kFewPoints = 10;  // up to which triples of points are asked for further poses
+constexpr size_t kMostTriples = 8;
+constexpr double kSamePose = 1e-3;  // of the distance, between two centres of one minimum
+constexpr double kFarCenter = 5;    // [sigma], of a surveyed centre of projection
+constexpr double kDecides =
+    6;  // [px], between the images by two poses of what decides between them
 
-std::vector<Rigid3> StartPoses(const Camera& camera, const std::vector<ResectionPoint>& points,
-                               const Eigen::Vector3d& origin) {
+// What OpenCV's solvers see: directions as (x/z, y/z), useless near 90 degrees off the axis.
+struct PnpPoints {
   std::vector<cv::Point3d> objects;
   std::vector<cv::Point2d> tangents;
+};
+
+PnpPoints ForSolvers(const Camera& camera, const std::vector<ResectionPoint>& points,
+                     const Eigen::Vector3d& origin) {
+  PnpPoints seen;
   for (const ResectionPoint& point : points) {
     const Eigen::Vector3d sight = camera.Unproject(point.pixel);
     if (sight.head<2>().norm() > kLargestTangent * sight.z()) continue;
     const Eigen::Vector3d local = point.world - origin;
-    objects.emplace_back(local.x(), local.y(), local.z());
-    tangents.emplace_back(sight.x() / sight.z(), sight.y() / sight.z());
+    seen.objects.emplace_back(local.x(), local.y(), local.z());
+    seen.tangents.emplace_back(sight.x() / sight.z(), sight.y() / sight.z());
   }
+  return seen;
+}
+
+std::vector<Rigid3> SolvedPoses(const PnpPoints& seen, int method) {
   std::vector<cv::Mat> rotations, translations;
   const cv::Matx33d identity = cv::Matx33d::eye();
   try {
-    if (objects.size() == 3) {
-      cv::solveP3P(objects, tangents, identity, cv::noArray(), rotations, translations,
-                   cv::SOLVEPNP_P3P);
-    } else if (objects.size() > 3) {
-      cv::solvePnPGeneric(objects, tangents, identity, cv::noArray(), rotations, translations,
-                          false, cv::SOLVEPNP_SQPNP);
+    if (method == cv::SOLVEPNP_P3P) {
+      cv::solveP3P(seen.objects, seen.tangents, identity, cv::noArray(), rotations, translations,
+                   method);
+    } else {
+      cv::solvePnPGeneric(seen.objects, seen.tangents, identity, cv::noArray(), rotations,
+                          translations, false, static_cast<cv::SolvePnPMethod>(method));
     }
   } catch (const cv::Exception&) {
     return {};  // OpenCV's word for marks that coincide
@@ -61,6 +79,13 @@ std::vector<Rigid3> StartPoses(const Camera& camera, const std::vector<Resection
     if (rotation.allFinite() && pose.translation.allFinite()) poses.push_back(pose);
   }
   return poses;
+}
+
+std::vector<Rigid3> StartPoses(const Camera& camera, const std::vector<ResectionPoint>& points,
+                               const Eigen::Vector3d& origin) {
+  const PnpPoints seen = ForSolvers(camera, points, origin);
+  if (seen.objects.size() < 3) return {};
+  return SolvedPoses(seen, seen.objects.size() == 3 ? cv::SOLVEPNP_P3P : cv::SOLVEPNP_SQPNP);
 }
 
 // Least squares over the pixel residuals; nullopt if a point ends behind the camera.
@@ -108,7 +133,8 @@ class Refinement {
       }
     }
     jacobian.leftCols<3>() /= 2;  // Ceres' increment of a quaternion is half the angle
-    return (jacobian.transpose() * jacobian).inverse();
+    const Eigen::MatrixXd normal = jacobian.transpose() * jacobian;
+    return normal.ldlt().solve(Eigen::MatrixXd::Identity(6, 6));
   }
 
  private:
@@ -163,6 +189,118 @@ const Candidate& Choose(const std::vector<Candidate>& candidates, bool every_can
                            [&](const auto& a, const auto& b) { return cost(a) < cost(b); });
 }
 
+std::vector<Eigen::Vector3d> PlacesOf(const std::vector<ResectionPoint>& points) {
+  std::vector<Eigen::Vector3d> places;
+  for (const ResectionPoint& point : points) places.push_back(point.world);
+  return places;
+}
+
+// The points' centroid, near which nothing is lost.
+Eigen::Vector3d OriginOf(const std::vector<ResectionPoint>& points) {
+  Eigen::Vector3d offset = Eigen::Vector3d::Zero();
+  for (const ResectionPoint& point : points) {
+    offset += (point.world - points[0].world) / static_cast<double>(points.size());
+  }
+  return points[0].world + offset;
+}
+
+// The axes of the points' scatter, that across their plane first, and whether they are nearly flat.
+struct Flatness {
+  Eigen::Vector3d normal;
+  double extent = 0;  // [m], rms along the plane's longer axis
+  bool is_flat = false;
+};
+
+Flatness FlatnessOf(const std::vector<ResectionPoint>& points, const Eigen::Vector3d& origin) {
+  Eigen::Matrix3d scatter = Eigen::Matrix3d::Zero();
+  for (const ResectionPoint& point : points) {
+    const Eigen::Vector3d offset = point.world - origin;
+    scatter += offset * offset.transpose() / static_cast<double>(points.size());
+  }
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(scatter);
+  const Eigen::Vector3d spread = solver.eigenvalues().cwiseMax(0).cwiseSqrt();
+  return {solver.eigenvectors().col(0), spread[2], spread[0] <= kFlat * spread[1]};
+}
+
+// Both poses of points that are flattened onto their plane.
+void AddPlanePoses(PnpPoints seen, const Flatness& flatness, std::vector<Rigid3>* starts) {
+  if (seen.objects.size() < 4) return;
+  const cv::Point3d normal(flatness.normal.x(), flatness.normal.y(), flatness.normal.z());
+  for (cv::Point3d& object : seen.objects) object -= normal * object.dot(normal);
+  const std::vector<Rigid3> poses = SolvedPoses(seen, cv::SOLVEPNP_IPPE);
+  starts->insert(starts->end(), poses.begin(), poses.end());
+}
+
+// Up to four poses of each of some triples, spread over the points.
+void AddTriplePoses(const PnpPoints& seen, std::vector<Rigid3>* starts) {
+  const size_t count = seen.objects.size();
+  if (count < 4 || count > kFewPoints) return;
+  for (size_t k = 0; k < std::min(kMostTriples, count); ++k) {
+    PnpPoints three;
+    for (const size_t step : {size_t{0}, count / 3, 2 * count / 3}) {
+      three.objects.push_back(seen.objects[(k + step) % count]);
+      three.tangents.push_back(seen.tangents[(k + step) % count]);
+    }
+    const std::vector<Rigid3> poses = SolvedPoses(three, cv::SOLVEPNP_P3P);
+    starts->insert(starts->end(), poses.begin(), poses.end());
+  }
+}
+
+// sum |v|^2 / sigma^2 with the points' own sigmas seen from the pose; nullopt: a point behind the
+// camera.
+std::optional<double> SquareSum(const Camera& camera, const std::vector<ResectionPoint>& points,
+                                const Eigen::Vector3d& origin, const Rigid3& cam_from_local) {
+  double sum = 0;
+  for (const ResectionPoint& point : points) {
+    const Eigen::Vector3d in_cam = cam_from_local * (point.world - origin);
+    const auto pixel = camera.Project(in_cam);
+    if (!pixel) return std::nullopt;
+    const double sigma =
+        std::hypot(point.sigma_px, camera.focal_px() * point.sigma_m / in_cam.norm());
+    sum += (*pixel - point.pixel).squaredNorm() / (sigma * sigma);
+  }
+  return sum;
+}
+
+struct Minimum {
+  Candidate candidate;
+  double square_sum = 0;
+};
+
+// The distinct minima, best first.
+std::vector<Minimum> Minima(const Camera& camera, const std::vector<ResectionPoint>& points,
+                            const Eigen::Vector3d& origin, const std::vector<Rigid3>& starts) {
+  std::vector<Minimum> minima;
+  for (const Candidate& candidate : Refine(camera, points, origin, starts)) {
+    const auto sum = SquareSum(camera, points, origin, candidate.cam_from_local);
+    if (sum) minima.push_back({candidate, *sum});
+  }
+  std::stable_sort(minima.begin(), minima.end(),
+                   [](const auto& a, const auto& b) { return a.square_sum < b.square_sum; });
+  std::vector<Minimum> distinct;
+  for (const Minimum& minimum : minima) {
+    const Eigen::Vector3d center = Center(minimum.candidate.cam_from_local);
+    const bool is_new = std::none_of(distinct.begin(), distinct.end(), [&](const Minimum& other) {
+      return (Center(other.candidate.cam_from_local) - center).norm() < kSamePose * center.norm();
+    });
+    if (is_new) distinct.push_back(minimum);
+  }
+  return distinct;
+}
+
+// How far off the plane a point's images by the two poses are kDecides apart.
+std::optional<double> DecidingDistance(const Camera& camera, const Flatness& flatness,
+                                       const Rigid3& a, const Rigid3& b) {
+  for (double distance = flatness.extent / 64; distance < 64 * flatness.extent; distance *= 1.25) {
+    for (const double side : {1.0, -1.0}) {
+      const Eigen::Vector3d place = side * distance * flatness.normal;
+      const auto in_a = camera.Project(a * place), in_b = camera.Project(b * place);
+      if (in_a && in_b && (*in_a - *in_b).norm() > kDecides) return distance;
+    }
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 bool AreCollinear(const std::vector<Eigen::Vector3d>& points, double tolerance) {
@@ -182,13 +320,8 @@ bool AreCollinear(const std::vector<Eigen::Vector3d>& points, double tolerance) 
 std::optional<ResectionResult> Resect(const Camera& camera,
                                       const std::vector<ResectionPoint>& points,
                                       const std::optional<Rigid3>& initial) {
-  std::vector<Eigen::Vector3d> places;
-  for (const ResectionPoint& point : points) places.push_back(point.world);
-  if (AreCollinear(places)) return std::nullopt;
-  Eigen::Vector3d offset = Eigen::Vector3d::Zero();
-  for (const auto& place : places)
-    offset += (place - places[0]) / static_cast<double>(places.size());
-  const Eigen::Vector3d origin = places[0] + offset;
+  if (AreCollinear(PlacesOf(points))) return std::nullopt;
+  const Eigen::Vector3d origin = OriginOf(points);
   const Rigid3 world_from_local{Eigen::Quaterniond::Identity(), origin};
 
   std::vector<Rigid3> starts = StartPoses(camera, points, origin);
@@ -207,6 +340,59 @@ std::optional<ResectionResult> Resect(const Camera& camera,
   result.covariance = Refinement(camera, points, origin, best.cam_from_local).Covariance();
   result.ambiguous = every_candidate_fits && candidates.size() > 1 && !initial;
   return result;
+}
+
+std::optional<Resections> ResectAll(const Camera& camera, const std::vector<ResectionPoint>& points,
+                                    const std::optional<Rigid3>& initial,
+                                    const std::optional<SurveyedCenter>& place) {
+  const auto plain = Resect(camera, points, initial);
+  if (points.size() < 4) {
+    return plain ? std::optional(Resections{*plain, {}, false, std::nullopt}) : std::nullopt;
+  }
+  if (AreCollinear(PlacesOf(points))) return std::nullopt;
+  const Eigen::Vector3d origin = OriginOf(points);
+  const Rigid3 world_from_local{Eigen::Quaterniond::Identity(), origin};
+  const Flatness flatness = FlatnessOf(points, origin);
+  const PnpPoints seen = ForSolvers(camera, points, origin);
+  std::vector<Rigid3> starts;
+  if (plain) starts.push_back(plain->cam_from_world * world_from_local);
+  if (flatness.is_flat) AddPlanePoses(seen, flatness, &starts);
+  AddTriplePoses(seen, &starts);
+  std::vector<Minimum> minima = Minima(camera, points, origin, starts);
+  if (minima.empty()) return std::nullopt;
+  const auto redundancy = static_cast<double>(2 * points.size() - 6);
+  const double unit = std::max(1.0, minima[0].square_sum / redundancy);
+  const double least = minima[0].square_sum;
+  std::erase_if(minima,
+                [&](const Minimum& each) { return each.square_sum - least > kReach * unit; });
+  const auto center_of = [&](const Minimum& each) {
+    return Center(each.candidate.cam_from_local * Inverse(world_from_local));
+  };
+  if (initial || place) {
+    const Eigen::Vector3d wanted = place ? place->position : Center(*initial);
+    std::stable_sort(minima.begin(), minima.end(), [&](const Minimum& a, const Minimum& b) {
+      return (center_of(a) - wanted).norm() < (center_of(b) - wanted).norm();
+    });
+    const double nearest = (center_of(minima[0]) - wanted).norm();
+    const double allowed = place ? std::max(kFarCenter * place->sigma_m, nearest) : nearest;
+    std::erase_if(minima,
+                  [&](const Minimum& each) { return (center_of(each) - wanted).norm() > allowed; });
+  }
+  const Candidate& best = minima[0].candidate;
+  const ResectionResult result{best.cam_from_local * Inverse(world_from_local), best.rms_px,
+                               Refinement(camera, points, origin, best.cam_from_local).Covariance(),
+                               false};
+  Resections all{result, {}, flatness.is_flat, std::nullopt};
+  for (size_t i = 1; i < minima.size(); ++i) {
+    all.seconds.push_back({minima[i].candidate.cam_from_local * Inverse(world_from_local),
+                           minima[i].candidate.rms_px,
+                           (minima[i].square_sum - minima[0].square_sum) / unit});
+  }
+  if (!all.seconds.empty()) {
+    all.deciding_m =
+        DecidingDistance(camera, flatness, best.cam_from_local, minima[1].candidate.cam_from_local);
+  }
+  return all;
 }
 
 }  // namespace insitu

@@ -111,12 +111,9 @@ std::vector<Triple> Triples(size_t count, int max_trials) {
   return triples;
 }
 
-using Matrix7 = Eigen::Matrix<double, 7, 7>;
-using Vector7 = Eigen::Matrix<double, 7, 1>;
-
 struct NormalEquations {
-  Matrix7 normal = Matrix7::Zero();
-  Vector7 right = Vector7::Zero();
+  Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(7, 7);
+  Eigen::VectorXd right = Eigen::VectorXd::Zero(7);
 };
 
 // d (s R x + t) = [-[s R x]x, I, s R x] (rotation increment, translation, relative scale)
@@ -132,17 +129,22 @@ NormalEquations Normal(const std::vector<SimilarityPair>& pairs, const std::vect
     jacobian.col(6) = turned;
     const Eigen::Vector3d weights = pairs[i].sigma.array().square().inverse();
     const Eigen::Vector3d misclosure = pairs[i].target - turned - fit.translation;
-    equations.normal += jacobian.transpose() * weights.asDiagonal() * jacobian;
-    equations.right += jacobian.transpose() * weights.asDiagonal() * misclosure;
+    const Eigen::Matrix<double, 7, 3> weighted = jacobian.transpose() * weights.asDiagonal();
+    equations.normal += weighted * jacobian;
+    equations.right += weighted * misclosure;
   }
   return equations;
+}
+
+Eigen::MatrixXd Cofactor(const NormalEquations& equations) {
+  return equations.normal.ldlt().solve(Eigen::MatrixXd::Identity(7, 7));
 }
 
 Similarity3 LeastSquares(const std::vector<SimilarityPair>& pairs,
                          const std::vector<size_t>& indices, Similarity3 fit) {
   for (int iteration = 0; iteration < 50; ++iteration) {
     const NormalEquations equations = Normal(pairs, indices, fit);
-    const Vector7 step = equations.normal.ldlt().solve(equations.right);
+    const Eigen::VectorXd step = equations.normal.ldlt().solve(equations.right);
     const double angle = step.head<3>().norm();
     if (angle > 0) {
       fit.rotation = (Eigen::AngleAxisd(angle, step.head<3>() / angle) * fit.rotation).normalized();
@@ -285,7 +287,7 @@ std::optional<SimilarityFit> FitSimilarity(const std::vector<SimilarityPair>& pa
     if (result.is_inlier[i]) squares += result.residuals[i].squaredNorm();
   }
   result.rms = std::sqrt(squares / result.inliers);
-  result.covariance = Normal(centered.pairs, *inliers, fit).normal.inverse();
+  result.covariance = Cofactor(Normal(centered.pairs, *inliers, fit));
   const int redundancy = 3 * result.inliers - 7;
   if (redundancy > 0) {
     result.sigma0 = std::sqrt(WeightedSquares(centered.pairs, *inliers, fit) / redundancy);
@@ -315,7 +317,7 @@ std::optional<AdjustedSimilarity> AdjustSimilarity(const std::vector<SimilarityP
   result.redundancy = 3 * static_cast<int>(pairs.size()) - (adjust_scale ? 7 : 6);
   result.sigma0 = std::sqrt(WeightedSquares(centered.pairs, all, *fit) / result.redundancy);
   // About the weighted centroids nothing ties the scale to the other six.
-  result.covariance = Normal(centered.pairs, all, *fit).normal.inverse();
+  result.covariance = Cofactor(Normal(centered.pairs, all, *fit));
   if (!adjust_scale) {
     result.covariance.row(6).setZero();
     result.covariance.col(6).setZero();

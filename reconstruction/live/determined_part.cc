@@ -157,12 +157,12 @@ class PartFinder {
     if (is_left_out_[photo] || !growth->CanResect(photo)) return;
     const auto resection = growth->Resect(photo, growth->MarksOf(photo).known);
     if (!resection) return;
-    if (resection->ambiguous && ambiguous != nullptr) {
+    if (resection->best.ambiguous && ambiguous != nullptr) {
       ambiguous->insert(photo);
       return;
     }
     if (ambiguous != nullptr) ambiguous->erase(photo);
-    if (resection->ambiguous) {
+    if (resection->best.ambiguous) {
       growth->values().warnings.push_back(
           "photo '" + photos_[photo] +
           "' fits its three known points from several places; the most upright was taken: mark a "

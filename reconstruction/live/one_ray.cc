@@ -251,7 +251,8 @@ ImageUncertainty UncertaintyOf(const Value2& image, const Eigen::Matrix2d& covar
   ImageUncertainty result;
   result.pixel = image.value;
   result.covariance_px = covariance;
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes(covariance, Eigen::EigenvaluesOnly);
+  Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes;
+  axes.computeDirect(covariance, Eigen::EigenvaluesOnly);
   const Vector2d sigmas = axes.eigenvalues().cwiseMax(0).cwiseSqrt();
   result.minor_px = sigmas[0];
   result.major_px = sigmas[1];

@@ -247,7 +247,7 @@ void MoveToStart(const NetworkColumns& columns, const std::vector<Eigen::Vector3
       if (!columns.point[i]) continue;
       away.segment<3>(*columns.point[i]) = network->points[i].position - start_points[i];
     }
-    const Eigen::VectorXd back = (b.transpose() * b).inverse() * (b.transpose() * away);
+    const Eigen::VectorXd back = b.colPivHouseholderQr().solve(away);
     Move(ExtentOf(*network), -amounts * back, network);
     datum->motions = SimilarityMotions(*network, columns) * amounts;
   }

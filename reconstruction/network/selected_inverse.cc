@@ -111,7 +111,8 @@ Eigen::MatrixXd SelectedInverse::Times(const Eigen::MatrixXd& b) const {
 void SelectedInverse::ChangeDatum(const Eigen::MatrixXd& g, const Eigen::MatrixXd& b) {
   INSITU_CHECK(motion_.cols() == 0);
   const Eigen::MatrixXd response = Times(b);
-  const Eigen::MatrixXd motion = g * (b.transpose() * g).inverse();
+  const Eigen::MatrixXd mixed = b.transpose() * g, inverse = mixed.inverse();
+  const Eigen::MatrixXd motion = g * inverse;
   shift_ = response - motion * (b.transpose() * response) / 2;
   motion_ = motion;
 }

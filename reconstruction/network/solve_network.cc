@@ -10,6 +10,7 @@
 #include "calibration/lens/lens_residual.h"
 #include "reconstruction/network/datum.h"
 #include "reconstruction/network/network_problem.h"
+#include "reconstruction/network/variance_factor.h"
 
 namespace insitu {
 namespace {
@@ -138,8 +139,8 @@ NetworkSolution SolveNetwork(Network* network) {
 
 Eigen::MatrixXd Covariance(const Network& network, const NetworkSolution& solution, int row,
                            int rows, int column, int columns) {
-  Eigen::MatrixXd covariance =
-      solution.sigma0 * solution.sigma0 * solution.cofactor.Block(row, rows, column, columns);
+  Eigen::MatrixXd covariance = VarianceFactor(solution.sigma0, solution.redundancy) *
+                               solution.cofactor.Block(row, rows, column, columns);
   for (size_t i = 0; i < network.cameras.size(); ++i) {
     const Eigen::MatrixXd& by_lens = solution.lens_sensitivity[i];
     if (by_lens.size() == 0) continue;
@@ -151,7 +152,7 @@ Eigen::MatrixXd Covariance(const Network& network, const NetworkSolution& soluti
 
 Eigen::MatrixXd CovarianceOf(const Network& network, const NetworkSolution& solution,
                              const Eigen::MatrixXd& by_unknowns) {
-  Eigen::MatrixXd covariance = solution.sigma0 * solution.sigma0 * by_unknowns *
+  Eigen::MatrixXd covariance = VarianceFactor(solution.sigma0, solution.redundancy) * by_unknowns *
                                solution.cofactor.Times(by_unknowns.transpose());
   for (size_t i = 0; i < network.cameras.size(); ++i) {
     if (solution.lens_sensitivity[i].size() == 0) continue;

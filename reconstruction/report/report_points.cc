@@ -19,7 +19,8 @@ double AzimuthDeg(const Eigen::Vector3d& axis) { return std::atan2(axis.x(), axi
 // for the ellipse in plan to the east half.
 Json::Value Ellipsoid(const Eigen::Matrix3d& covariance) {
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> space(covariance);
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> plan(covariance.topLeftCorner<2, 2>());
+  Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> plan;
+  plan.computeDirect(covariance.topLeftCorner<2, 2>());
   Eigen::Vector3d longest = space.eigenvectors().col(2);
   if (longest.z() < 0) longest = -longest;
   Eigen::Vector3d in_plan(plan.eigenvectors()(0, 1), plan.eigenvectors()(1, 1), 0);

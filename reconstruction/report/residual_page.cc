@@ -2,12 +2,13 @@
 #include "reconstruction/report/residual_page.h"
 
 #include "calibration/program/report_page.h"
+#include "reconstruction/report/page_report.h"
 #include "reconstruction/report/residual_page_script.h"
 
 namespace insitu {
 
 std::string ResidualPage(const Json::Value& report) {
-  return ReportPage("Residual report", report, kResidualPageScript);
+  return ReportPage("Residual report", ForPage(report), kResidualPageScript);
 }
 
 }  // namespace insitu

@@ -4,7 +4,8 @@
 #include <algorithm>
 #include <cctype>
 #include <cstddef>
-#include <iterator>
+
+#include "calibration/files/plain_text.h"
 
 namespace insitu {
 namespace {
@@ -13,14 +14,16 @@ constexpr size_t kMostNames = 3;  // more than these help nobody
 constexpr size_t kLongName = 6;   // [letters], two slips are likely in one
 
 // Lower-case letters and digits, numbers without leading zeros.
-std::string Essence(const std::string& name) {
+std::string Essence(const std::string& text) {
+  const std::string name = Composed(text);
   std::string essence;
+  bool is_in_number = false;
   for (size_t i = 0; i < name.size(); ++i) {
     const auto letter = static_cast<unsigned char>(name[i]);
-    const bool follows_digit = i > 0 && std::isdigit(static_cast<unsigned char>(name[i - 1]));
     const bool leads_digit =
         i + 1 < name.size() && std::isdigit(static_cast<unsigned char>(name[i + 1]));
-    if (letter == '0' && !follows_digit && leads_digit) continue;
+    if (letter == '0' && !is_in_number && leads_digit) continue;
+    is_in_number = std::isdigit(letter);
     if (std::isalnum(letter) || letter >= 0x80) essence += static_cast<char>(std::tolower(letter));
   }
   return essence;
@@ -65,15 +68,20 @@ std::vector<std::string> NearNames(const std::string& name, const std::set<std::
   return names;
 }
 
+std::string EssenceOf(const std::string& name) { return Essence(name); }
+
+std::string DigitsWithin(const std::string& name) {
+  std::string digits;
+  for (const char letter : Essence(name)) {
+    if (letter >= '0' && letter <= '9') digits += letter;
+  }
+  return digits;
+}
+
 std::set<std::string> WithDigitsOf(const std::string& name, const std::set<std::string>& known) {
-  const auto digits_of = [](const std::string& text) {
-    std::string digits;
-    std::copy_if(text.begin(), text.end(), std::back_inserter(digits),
-                 [](char c) { return c >= '0' && c <= '9'; });
-    return digits;
-  };
+  const std::string digits = DigitsWithin(name);
   std::set<std::string> alike = known;
-  std::erase_if(alike, [&](const auto& each) { return digits_of(each) != digits_of(name); });
+  std::erase_if(alike, [&](const auto& each) { return DigitsWithin(each) != digits; });
   return alike;
 }
 

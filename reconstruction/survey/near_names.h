@@ -16,6 +16,13 @@ namespace insitu {
 // more. Empty if there are none, or more than three.
 std::vector<std::string> NearNames(const std::string& name, const std::set<std::string>& known);
 
+// What names have in common that differ only in case, blanks, signs, leading zeros or Unicode's
+// form.
+std::string EssenceOf(const std::string& name);
+
+// The digits of a name, its numbers without leading zeros.
+std::string DigitsWithin(const std::string& name);
+
 // Those of the same digits: 'P8' is another point than 'P7', not a slip of its name.
 std::set<std::string> WithDigitsOf(const std::string& name, const std::set<std::string>& known);
 

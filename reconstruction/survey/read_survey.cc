@@ -4,18 +4,46 @@
 #include <filesystem>
 #include <utility>
 
+#include "calibration/files/plain_text.h"
 #include "reconstruction/survey/survey_names.h"
 #include "reconstruction/survey/survey_shapes.h"
 #include "reconstruction/survey/survey_tables.h"
 
 namespace insitu {
+namespace {
+
+// JSON hands names out as they stand, tables in composed form.
+void ComposeNames(Survey* survey) {
+  const auto compose = [](std::vector<std::string>* names) {
+    for (std::string& name : *names) name = Composed(name);
+  };
+  for (PolygonOutline& polygon : survey->polygons) {
+    polygon.name = Composed(polygon.name);
+    compose(&polygon.vertices);
+    for (auto& hole : polygon.holes) compose(&hole);
+  }
+  for (auto* pairs : {&survey->sun_pairs, &survey->zenith_pairs}) {
+    for (DirectionPair& pair : *pairs) {
+      pair.from = Composed(pair.from);
+      pair.to = Composed(pair.to);
+    }
+  }
+  for (GeometricConstraint& constraint : survey->constraints) {
+    compose(&constraint.points);
+    compose(&constraint.polygons);
+  }
+}
+
+}  // namespace
 
 Survey ReadSurvey(const SitePaths& site, const std::vector<std::string>& photos,
                   SurveyFolder files) {
   const std::filesystem::path folder = site.survey();
   const auto has = [&](const char* file) { return std::filesystem::exists(folder / file); };
   const auto is_to_be_read = [&](const char* file) {
-    return files == SurveyFolder::kRequired || has(file);
+    if (has(file)) return true;
+    if (files == SurveyFolder::kRequired) throw InputError(folder / file, "is missing");
+    return false;
   };
   Survey survey;
   if (is_to_be_read("control_points.csv")) {
@@ -24,7 +52,7 @@ Survey ReadSurvey(const SitePaths& site, const std::vector<std::string>& photos,
   if (is_to_be_read("observations.csv")) {
     survey.observations = ReadObservations(folder / "observations.csv", photos);
   }
-  if (is_to_be_read("polygons.json")) {
+  if (has("polygons.json")) {  // poses alone need none
     survey.polygons = ReadPolygons(folder / "polygons.json", photos);
   }
   if (has("directions.json")) {
@@ -39,6 +67,7 @@ Survey ReadSurvey(const SitePaths& site, const std::vector<std::string>& photos,
   if (has("constraints.json")) {
     survey.constraints = ReadConstraints(folder / "constraints.json", survey.polygons);
   }
+  ComposeNames(&survey);
   RequireKnownPoints(survey);
   RequireNoNamesOfTiePoints(survey);
   LeaveOutLoneMarks(&survey);
@@ -74,6 +103,7 @@ SurveySoFar ReadSurveySoFar(const SitePaths& site, const std::vector<std::string
   try_file("edges.csv", [&](const Path& file) { survey.edges = ReadEdges(file, photos); });
   try_file("constraints.json",
            [&](const Path& file) { survey.constraints = ReadConstraints(file, survey.polygons); });
+  ComposeNames(&survey);
   return read;
 }
 

@@ -18,8 +18,8 @@ enum class SurveyFolder { kRequired, kOptional };
 // and whose name is near to one that does, a pair, edge or constraint of a point that is neither
 // surveyed nor marked nor a vertex, a mark outside any sensible frame, sigma <= 0, a polygon with
 // fewer than three distinct vertices, an unknown role, kind or key, a pair or edge of one point.
-// Unknown names come with the nearest known ones. control_points.csv, observations.csv and
-// polygons.json must be there unless `files` says otherwise, the other files may. Points of a
+// Unknown names come with the nearest known ones. control_points.csv and
+// observations.csv must be there unless `files` says otherwise, the other files may. Points of a
 // single mark are left out: lone_marks. tie_points stays empty: reconstruct_site.h sets it.
 Survey ReadSurvey(const SitePaths& site, const std::vector<std::string>& photos,
                   SurveyFolder files = SurveyFolder::kRequired);

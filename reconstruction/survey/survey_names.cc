@@ -4,8 +4,12 @@
 #include <algorithm>
 #include <map>
 #include <set>
+#include <unordered_map>
+#include <unordered_set>
+#include <utility>
 
 #include "calibration/files/error.h"
+#include "calibration/files/plain_text.h"
 #include "reconstruction/survey/near_names.h"
 #include "reconstruction/survey/tie_points.h"
 
@@ -28,13 +32,31 @@ Names Surveyed(const Survey& survey) {
   return names;
 }
 
-// Without those that the photo shows already: a point has one mark a photo.
-Names NotMarkedOn(const std::string& photo, Names names, const Survey& survey) {
-  for (const ImageObservation& mark : survey.observations) {
-    if (mark.photo == photo) names.erase(mark.point);
+// Which of some names a photo lacks, since a point has one mark a photo: by index, for a million
+// marks.
+class NamesByDigits {
+ public:
+  NamesByDigits(const Names& names, const Survey& survey) {
+    for (const std::string& name : names) of_digits_[DigitsWithin(name)].insert(name);
+    for (const ImageObservation& mark : survey.observations) marked_[mark.photo].insert(mark.point);
   }
-  return names;
-}
+
+  // Those of the digits of the mark's point, without what its photo shows already.
+  Names MissingLike(const ImageObservation& mark) const {
+    const auto group = of_digits_.find(DigitsWithin(mark.point));
+    if (group == of_digits_.end()) return {};
+    const auto& shown = marked_.at(mark.photo);
+    Names missing;
+    for (const std::string& name : group->second) {
+      if (!shown.contains(name)) missing.insert(missing.end(), name);
+    }
+    return missing;
+  }
+
+ private:
+  std::unordered_map<std::string, Names> of_digits_;
+  std::unordered_map<std::string, std::unordered_set<std::string>> marked_;
+};
 
 // Surveyed, vertices, or joined by pairs.
 Names NamedBesidesMarks(const Survey& survey) {
@@ -49,10 +71,11 @@ Names NamedBesidesMarks(const Survey& survey) {
 // A point of marks alone needs no other file. But a name near to one that the photo lacks is rather
 // a slip.
 void RequireKnownMarks(const Survey& survey, const Names& known) {
+  const NamesByDigits by_digits(known, survey);
   for (const ImageObservation& mark : survey.observations) {
     if (known.contains(mark.point)) continue;
-    const Names missing = NotMarkedOn(mark.photo, known, survey);
-    if (NearNames(mark.point, WithDigitsOf(mark.point, missing)).empty()) continue;
+    const Names missing = by_digits.MissingLike(mark);
+    if (NearNames(mark.point, missing).empty()) continue;
     throw InputError(mark.place.path, mark.place.line,
                      "point '" + mark.point +
                          "' is unknown, expected a point of control_points.csv, polygons.json, "
@@ -60,6 +83,33 @@ void RequireKnownMarks(const Survey& survey, const Names& known) {
                          "near to that of one" +
                          DidYouMean(mark.point, missing));
   }
+}
+
+// A control point that nothing shows, beside a point without coordinates whose name has the same
+// letters: "1" and "001", as spreadsheets drop zeros.
+void RequireOneSpelling(const Survey& survey) {
+  const Names used = PointsInUse(survey), surveyed = Surveyed(survey);
+  std::map<std::string, std::string> unsurveyed_of_essence;
+  for (const std::string& name : used) {
+    if (!surveyed.contains(name)) unsurveyed_of_essence.emplace(EssenceOf(name), name);
+  }
+  std::vector<std::pair<const ControlPoint*, std::string>> found;
+  for (const ControlPoint& point : survey.control_points) {
+    if (used.contains(point.name)) continue;
+    const auto other = unsurveyed_of_essence.find(EssenceOf(point.name));
+    if (other != unsurveyed_of_essence.end()) found.emplace_back(&point, other->second);
+  }
+  if (found.empty()) return;
+  const auto& [point, other] = found[0];
+  const size_t more = found.size() - 1;
+  throw InputError(
+      point->place.path, point->place.line,
+      "control point '" + point->name + "' is marked nowhere, but '" + other +
+          "' is and has no coordinates: the names differ only in leading zeros, case, blanks or "
+          "signs" +
+          (more == 0 ? ""
+                     : ", and so do " + std::to_string(more) + (more == 1 ? " other" : " others")) +
+          "; expected one name for one point");
 }
 
 void RequireFoundEnds(const std::vector<JoinedPoints>& joined, const Names& found) {
@@ -77,6 +127,15 @@ void RequireFoundEnds(const std::vector<JoinedPoints>& joined, const Names& foun
 
 }  // namespace
 
+std::string SitePhotoName(const std::string& photo, const std::vector<std::string>& photos) {
+  if (std::find(photos.begin(), photos.end(), photo) != photos.end()) return photo;
+  const std::string composed = Composed(photo);
+  const auto same = std::find_if(photos.begin(), photos.end(), [&](const std::string& each) {
+    return Composed(each) == composed;
+  });
+  return same == photos.end() ? photo : *same;
+}
+
 std::optional<std::string> FaultOfPhoto(const std::string& photo,
                                         const std::vector<std::string>& photos) {
   if (std::find(photos.begin(), photos.end(), photo) != photos.end()) return std::nullopt;
@@ -91,6 +150,7 @@ void RequireKnownPoints(const Survey& survey) {
   const std::vector<JoinedPoints> joined = JoinedByPairs(survey);
   Names found = Surveyed(survey);
   found.merge(Vertices(survey));
+  RequireOneSpelling(survey);
   RequireKnownMarks(survey, NamedBesidesMarks(survey));
   for (const ImageObservation& mark : survey.observations) found.insert(mark.point);
   RequireFoundEnds(joined, found);
@@ -107,10 +167,10 @@ void LeaveOutLoneMarks(Survey* survey) {
   const auto is_lone = [&](const ImageObservation& mark) {
     return marks_of_point.at(mark.point) == 1 && !known.contains(mark.point);
   };
+  const NamesByDigits by_digits(all, *survey);
   for (const ImageObservation& mark : survey->observations) {
     if (!is_lone(mark)) continue;
-    const Names missing = NotMarkedOn(mark.photo, all, *survey);
-    survey->lone_marks.push_back({mark, SaidMeant(mark.point, WithDigitsOf(mark.point, missing))});
+    survey->lone_marks.push_back({mark, SaidMeant(mark.point, by_digits.MissingLike(mark))});
   }
   std::erase_if(survey->observations, is_lone);
 }

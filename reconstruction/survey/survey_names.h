@@ -10,6 +10,9 @@
 
 namespace insitu {
 
+// The name in `photos` that is the same in Unicode's composed form, else `photo` itself.
+std::string SitePhotoName(const std::string& photo, const std::vector<std::string>& photos);
+
 // What is wrong with the name of a photo; nullopt if it is among `photos`.
 std::optional<std::string> FaultOfPhoto(const std::string& photo,
                                         const std::vector<std::string>& photos);

@@ -75,7 +75,7 @@ PolygonOutline ReadPolygon(const JsonNode& node, const std::vector<std::string>&
   }
   if (const auto holes = node.Find("holes")) ReadHoles(*holes, distinct, &polygon);
   if (const auto photo = node.Find("photo")) {
-    polygon.photo = photo->Text();
+    polygon.photo = SitePhotoName(photo->Text(), photos);
     if (const auto fault = FaultOfPhoto(*polygon.photo, photos)) throw photo->Error(*fault);
   }
   polygon.material = node.At("material").Text();

@@ -2,6 +2,7 @@
 #include "reconstruction/survey/survey_tables.h"
 
 #include <map>
+#include <unordered_map>
 #include <utility>
 
 #include "calibration/files/csv_file.h"
@@ -53,11 +54,24 @@ Eigen::Vector2d Pixel(const CsvRow& row) {
   return {FrameCoordinate(row, "x"), FrameCoordinate(row, "y")};
 }
 
-std::string Photo(const CsvRow& row, const std::vector<std::string>& photos) {
-  const std::string& photo = row.Text("photo");
-  if (const auto fault = FaultOfPhoto(photo, photos)) throw row.Error(*fault);
-  return photo;
-}
+// The photos that rows name, each looked up once: a table may have a million rows.
+class PhotosOfRows {
+ public:
+  explicit PhotosOfRows(const std::vector<std::string>& photos) : photos_(photos) {}
+
+  const std::string& operator()(const CsvRow& row) {
+    const std::string& text = row.Text("photo");
+    const auto known = names_.find(text);
+    if (known != names_.end()) return known->second;
+    const std::string photo = SitePhotoName(text, photos_);
+    if (const auto fault = FaultOfPhoto(photo, photos_)) throw row.Error(*fault);
+    return names_.emplace(text, photo).first->second;
+  }
+
+ private:
+  const std::vector<std::string>& photos_;
+  std::unordered_map<std::string, std::string> names_;
+};
 
 }  // namespace
 
@@ -87,8 +101,9 @@ std::vector<ImageObservation> ReadObservations(const std::filesystem::path& path
                                                const std::vector<std::string>& photos) {
   std::vector<ImageObservation> observations;
   std::map<std::pair<std::string, std::string>, int> line_of_mark;
+  PhotosOfRows photo_of(photos);
   for (const CsvRow& row : ReadCsv(path, {"photo", "point", "x", "y", "sigma"})) {
-    ImageObservation mark{Photo(row, photos),
+    ImageObservation mark{photo_of(row),
                           row.Text("point"),
                           Pixel(row),
                           PositiveNumber(row, "sigma"),
@@ -108,13 +123,13 @@ std::vector<CameraPosition> ReadCameraPositions(const std::filesystem::path& pat
                                                 const std::vector<std::string>& photos) {
   std::vector<CameraPosition> positions;
   std::map<std::string, int> line_of_photo;
+  PhotosOfRows photo_of(photos);
   for (const CsvRow& row :
        ReadCsv(path, {"photo", "x", "y", "z", "sigma_x", "sigma_y", "sigma_z", "role"})) {
     const PositionRole role = RoleOf<PositionRole>(row, {{"fixed", PositionRole::kFixed},
                                                          {"weighted", PositionRole::kWeighted},
                                                          {"free", PositionRole::kFree}});
-    CameraPosition position{
-        Photo(row, photos), Position(row), Sigma(row), role, {row.path, row.line}};
+    CameraPosition position{photo_of(row), Position(row), Sigma(row), role, {row.path, row.line}};
     const auto [first, is_new] = line_of_photo.emplace(position.photo, row.line);
     if (!is_new) {
       throw row.Error("photo '" + position.photo + "' has a position already in line " +
@@ -128,8 +143,9 @@ std::vector<CameraPosition> ReadCameraPositions(const std::filesystem::path& pat
 std::vector<EdgeMark> ReadEdges(const std::filesystem::path& path,
                                 const std::vector<std::string>& photos) {
   std::vector<EdgeMark> edges;
+  PhotosOfRows photo_of(photos);
   for (const CsvRow& row : ReadCsv(path, {"photo", "from", "to", "x", "y", "sigma"})) {
-    edges.push_back({Photo(row, photos),
+    edges.push_back({photo_of(row),
                      row.Text("from"),
                      row.Text("to"),
                      Pixel(row),

@@ -5,8 +5,10 @@
 #include <cmath>
 
 #include "calibration/files/wording.h"
+#include "reconstruction/network/variance_factor.h"
 #include "reconstruction/verdict/advice.h"
 #include "reconstruction/verdict/geometry_verdict.h"
+#include "reconstruction/verdict/lens_fit_verdict.h"
 
 namespace insitu {
 namespace {
@@ -40,6 +42,24 @@ void JudgeGlobalTest(const Adjustment& adjustment, std::vector<Finding>* finding
                "larger sigmas that the table of groups shows"
              : "state smaller sigmas, by the table of groups: sigma0 of a group is the factor"});
   }
+}
+
+// Student's 97.5 % quantiles of 1 to 19 degrees of freedom.
+constexpr double kStudent[] = {12.71, 4.30, 3.18, 2.78, 2.57, 2.45, 2.36, 2.31, 2.26, 2.23,
+                               2.20,  2.18, 2.16, 2.14, 2.13, 2.12, 2.11, 2.10, 2.09};
+
+void JudgeRedundancy(const Adjustment& adjustment, std::vector<Finding>* findings) {
+  const int redundancy = adjustment.redundancy;
+  if (redundancy < 1 || redundancy >= kWellKnownRedundancy) return;
+  findings->push_back(
+      {Severity::kNote,
+       "the redundancy is " + std::to_string(redundancy) +
+           ": sigma0 is hardly known, so that no sigma is scaled below what the observations' own "
+           "sigmas give" +
+           (adjustment.sigma0 > 1 ? ", and a 95 % interval is +- " +
+                                        Number("%.2f", kStudent[redundancy - 1]) + " sigma"
+                                  : ""),
+       "measure more marks"});
 }
 
 struct FlagCount {
@@ -264,6 +284,7 @@ std::optional<ObservationResidual> Suspect(const Adjustment& adjustment) {
 std::vector<Finding> Judge(const Adjustment& adjustment, const CameraContexts& cameras) {
   std::vector<Finding> findings;
   JudgeGlobalTest(adjustment, &findings);
+  JudgeRedundancy(adjustment, &findings);
   if (!adjustment.is_converged) {
     findings.push_back({Severity::kFail, "the adjustment has not converged: no figure holds",
                         "look for gross errors: names exchanged, units, a photo's start value"});
@@ -279,6 +300,7 @@ std::vector<Finding> Judge(const Adjustment& adjustment, const CameraContexts& c
     JudgeCalibration(adjustment.cameras[i], ContextOf(cameras, static_cast<int>(i)).calibration,
                      &findings);
   }
+  JudgeLensFit(adjustment, &findings);
   JudgeCorrelations(adjustment, &findings);
   PassOnWarnings(adjustment, &findings);
   JudgeControl(adjustment, &findings);

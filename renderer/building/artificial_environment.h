@@ -11,12 +11,10 @@
 
 #include "calibration/program/site.h"
 #include "radiometry/light/material.h"
+#include "radiometry/spectrum/spectral_table.h"
 #include "renderer/building/light_distribution.h"
 
 namespace insitu {
-
-// Wavelength [nm], rising, and a value there; linear between, constant beyond.
-using SpectralTable = std::vector<Eigen::Vector2d>;
 
 // Complex index of refraction, n - i k.
 struct Metal {

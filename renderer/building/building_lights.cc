@@ -8,8 +8,8 @@
 
 #include "calibration/files/file_beside.h"
 #include "calibration/files/json_file.h"
+#include "radiometry/spectrum/spectral_table.h"
 #include "renderer/building/ies.h"
-#include "renderer/building/spectral_table.h"
 
 namespace insitu {
 namespace {
@@ -30,15 +30,11 @@ double NotNegative(const JsonNode& node) {
   return node.Number();
 }
 
-SpectralTable SpectrumOf(const JsonNode& light) {
+SpectralTable SpectrumOf(const JsonNode& light, const MaterialLibrary& library) {
   if (const auto rows = light.Find("spectrum_table")) return ReadSpectralTable(*rows);
   if (const auto file = light.Find("spectrum_file")) return ReadSpectralTable(FileBeside(*file));
   const JsonNode name = light.At("spectrum");
-  if (name.Text() == "D65") return D65Table();
-  if (name.Text() == "A") return IlluminantATable();
-  if (name.Text() != "blackbody") {
-    throw name.Error("is \"" + name.Text() + "\", expected D65, A or blackbody");
-  }
+  if (name.Text() != "blackbody") return SpectrumOfLamp(library, name);
   const JsonNode kelvin = light.At("temperature_K");
   if (kelvin.Number() < 500 || kelvin.Number() > 1e5) {
     throw kelvin.Error("is out of range, expected 500 to 100000 K");
@@ -130,7 +126,13 @@ double CandelaOf(const JsonNode& light, const PointLight& lamp, const std::optio
       "of an area, luminance_cd_m2");
 }
 
-void ReadStrength(const JsonNode& light, std::optional<double> site_luminance,
+// What the lamps of a file share.
+struct LampContext {
+  std::optional<double> site_luminance;  // [cd/m^2]
+  const MaterialLibrary& library;
+};
+
+void ReadStrength(const JsonNode& light, const LampContext& context,
                   const std::optional<Area>& area, PointLight* lamp) {
   if (const auto rgb = light.Find("intensity_rgb")) {
     lamp->intensity_rgb = rgb->Vector3();
@@ -139,11 +141,11 @@ void ReadStrength(const JsonNode& light, std::optional<double> site_luminance,
     }
     return;
   }
-  lamp->spectrum = SpectrumOf(light);
+  lamp->spectrum = SpectrumOf(light, context.library);
   lamp->candela = CandelaOf(light, *lamp, area);
   lamp->intensity_rgb = Vector3d::Zero();
-  if (site_luminance) {
-    lamp->intensity_rgb = ColorOfLight(lamp->spectrum) * (lamp->candela / *site_luminance);
+  if (context.site_luminance) {
+    lamp->intensity_rgb = ColorOfLight(lamp->spectrum) * (lamp->candela / *context.site_luminance);
   }
 }
 
@@ -170,8 +172,7 @@ std::vector<PointLight> Spread(const JsonNode& light, const PointLight& whole, c
   return lamps;
 }
 
-void AddLight(const JsonNode& light, std::optional<double> site_luminance,
-              std::vector<PointLight>* lights) {
+void AddLight(const JsonNode& light, const LampContext& context, std::vector<PointLight>* lights) {
   const auto type_node = light.Find("type");
   const std::string type = type_node ? type_node->Text() : "point";
   const auto ies = light.Find("ies");
@@ -187,7 +188,7 @@ void AddLight(const JsonNode& light, std::optional<double> site_luminance,
     lamp.distribution = CosineDistribution(area->u.cross(area->v).normalized());
   }
   if (ies) lamp.distribution = IesDistribution(light, *ies);
-  ReadStrength(light, site_luminance, area, &lamp);
+  ReadStrength(light, context, area, &lamp);
   if (const auto radius = light.Find("radius_m")) lamp.radius = NotNegative(*radius);
   const auto visible = light.Find("visible");
   lamp.is_visible = visible && visible->Boolean();
@@ -203,12 +204,12 @@ void AddLight(const JsonNode& light, std::optional<double> site_luminance,
 
 }  // namespace
 
-std::vector<PointLight> ReadLights(const fs::path& path) {
+std::vector<PointLight> ReadLights(const fs::path& path, const MaterialLibrary& library) {
   const JsonNode root = JsonNode::Load(path);
-  std::optional<double> site_luminance;
-  if (const auto node = root.Find("site_luminance_cd_m2")) site_luminance = Positive(*node);
+  LampContext context{{}, library};
+  if (const auto node = root.Find("site_luminance_cd_m2")) context.site_luminance = Positive(*node);
   std::vector<PointLight> lights;
-  for (const JsonNode& light : root.At("lights").Items()) AddLight(light, site_luminance, &lights);
+  for (const JsonNode& light : root.At("lights").Items()) AddLight(light, context, &lights);
   return lights;
 }
 

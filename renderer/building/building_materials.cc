@@ -10,8 +10,8 @@
 #include "calibration/files/file_beside.h"
 #include "calibration/files/json_file.h"
 #include "calibration/photo/photograph.h"
+#include "radiometry/spectrum/spectral_table.h"
 #include "renderer/building/material_optics.h"
-#include "renderer/building/spectral_table.h"
 
 namespace insitu {
 namespace {
@@ -25,7 +25,7 @@ double Share(const JsonNode& node) {
   return share;
 }
 
-double ShareOr(const JsonNode& material, const std::string& key, double if_absent) {
+double ShareOr(const MaterialKeys& material, const std::string& key, double if_absent) {
   const auto node = material.Find(key);
   return node ? Share(*node) : if_absent;
 }
@@ -62,6 +62,7 @@ void CheckReflectance(const JsonNode& node, const SpectralTable& table) {
   for (const Eigen::Vector2d& row : table) {
     if (row.y() > 1) throw node.Error("has a value above 1, expected reflectances from 0 to 1");
   }
+  RequireVisibleRange(table, node);
 }
 
 void ReadColor(const JsonNode& material, SurfaceMaterial* surface) {
@@ -74,22 +75,22 @@ void ReadColor(const JsonNode& material, SurfaceMaterial* surface) {
   } else if (const auto table = material.Find("reflectance")) {
     surface->reflectance = ReadSpectralTable(*table);
     CheckReflectance(*table, surface->reflectance);
-  } else if (const auto file = material.Find("reflectance_file")) {
-    surface->reflectance = ReadSpectralTable(FileBeside(*file));
-    CheckReflectance(*file, surface->reflectance);
   } else {
-    throw material.Error(
-        "names no colour, expected diffuse_rgb, diffuse_srgb, diffuse_lab, reflectance or "
-        "reflectance_file");
+    const JsonNode file = material.At("reflectance_file");
+    surface->reflectance = ReadSpectralTable(FileBeside(file));
+    CheckReflectance(file, surface->reflectance);
   }
   if (!surface->reflectance.empty()) {
     surface->diffuse_rgb = ColorOfReflectance(surface->reflectance);
   }
 }
 
-// The image says the colour; its mean stands for it in light among surfaces.
-void ReadTexture(const JsonNode& material, const JsonNode& node, SurfaceMaterial* surface) {
-  surface->texture = node.Text();
+// The image says the colour; its mean stands for it in light among surfaces. `building` is the
+// folder of materials.json; entries of a library lie elsewhere.
+void ReadTexture(const MaterialKeys& material, const JsonNode& node, const fs::path& building,
+                 SurfaceMaterial* surface) {
+  const bool is_beside = node.path().parent_path() == building;
+  surface->texture = is_beside ? node.Text() : fs::absolute(FileBeside(node)).string();
   const Raster image = ReadPhotograph(FileBeside(node)).linear;
   Vector3d sum = Vector3d::Zero();
   for (int y = 0; y < image.height; ++y) {
@@ -105,49 +106,71 @@ void ReadTexture(const JsonNode& material, const JsonNode& node, SurfaceMaterial
   surface->texture_size = Eigen::Vector2d(metres[0].Number(), metres[1].Number());
 }
 
-BuildingMaterial ReadMaterial(const std::string& name, const JsonNode& node,
-                              const std::map<std::string, BuildingMaterial>& library) {
-  if (const auto use = node.Find("use")) {
-    const auto found = library.find(use->Text());
-    if (found == library.end()) {
-      throw use->Error("names \"" + use->Text() + "\", which is not in \"library\"");
-    }
-    BuildingMaterial material = found->second;
-    material.surface.name = name;
-    return material;
-  }
-  BuildingMaterial material;
-  material.surface.name = name;
-  const auto hidden = node.Find("hidden");
-  material.hidden = hidden && hidden->Boolean();
-  if (material.hidden) return material;
-  if (const auto texture = node.Find("texture")) {
-    ReadTexture(node, *texture, &material.surface);
+// What materials.json can refer to: its own section "library", and the one that is installed.
+struct Libraries {
+  std::map<std::string, MaterialKeys> own;
+  const MaterialLibrary& installed;
+};
+
+// Of an entry, and below them those of what it uses.
+MaterialKeys KeysOf(const JsonNode& node, const Libraries& libraries) {
+  MaterialKeys keys(node);
+  const auto use = node.Find("use");
+  if (!use) return keys;
+  const auto own = libraries.own.find(use->Text());
+  if (own != libraries.own.end()) {
+    keys.PutBelow(own->second);
   } else {
-    ReadColor(node, &material.surface);
+    keys.PutBelow(libraries.installed.Material(*use).content);
   }
-  material.surface.diffuse_weight = ShareOr(node, "diffuse_weight", 1);
-  ReadOptics(node, &material.surface);
-  return material;
+  return keys;
 }
 
 bool HasPattern(const std::string& name) { return name.find_first_of("*?") != std::string::npos; }
 
 }  // namespace
 
-BuildingMaterials BuildingMaterials::Read(const fs::path& path) {
+BuildingMaterial ReadBuildingMaterial(const std::string& name, const MaterialKeys& keys,
+                                      const fs::path& building) {
+  BuildingMaterial material;
+  material.surface.name = name;
+  const auto hidden = keys.Find("hidden");
+  material.hidden = hidden && hidden->Boolean();
+  if (material.hidden) return material;
+  material.is_proposed = keys.Find("proposed") && !keys.Find("use");
+  const auto color = keys.WithAnyOf(
+      {"texture", "diffuse_rgb", "diffuse_srgb", "diffuse_lab", "reflectance", "reflectance_file"});
+  if (!color) {
+    throw keys.Error(
+        "names no colour, expected diffuse_rgb, diffuse_srgb, diffuse_lab, reflectance, "
+        "reflectance_file, texture or, of the library, use");
+  }
+  if (const auto texture = color->Find("texture")) {
+    ReadTexture(keys, *texture, building, &material.surface);
+  } else {
+    ReadColor(*color, &material.surface);
+  }
+  material.surface.diffuse_weight = ShareOr(keys, "diffuse_weight", 1);
+  ReadOptics(keys, &material.surface);
+  return material;
+}
+
+BuildingMaterials BuildingMaterials::Read(const fs::path& path, const MaterialLibrary& installed) {
   BuildingMaterials result;
   if (!fs::exists(path)) return result;
   const JsonNode root = JsonNode::Load(path);
-  std::map<std::string, BuildingMaterial> library;
+  Libraries libraries{{}, installed};
   if (const auto section = root.Find("library")) {
     for (const auto& [name, node] : section->Members()) {
-      library[name] = ReadMaterial(name, node, library);
+      const MaterialKeys keys = KeysOf(node, libraries);
+      ReadBuildingMaterial(name, keys, path.parent_path());  // is it right?
+      libraries.own.emplace(name, keys);
     }
   }
   const auto read = [&](const JsonNode& section, Section* entries) {
     for (const auto& [name, node] : section.Members()) {
-      (*entries)[name].material = ReadMaterial(name, node, library);
+      (*entries)[name].material =
+          ReadBuildingMaterial(name, KeysOf(node, libraries), path.parent_path());
     }
   };
   const auto materials = root.Find("materials"), blocks = root.Find("blocks");
@@ -191,6 +214,16 @@ const BuildingMaterial* BuildingMaterials::Find(const SurfaceNames& names) {
   if (!entry) return nullptr;
   entry->used = true;
   return &entry->material;
+}
+
+std::vector<std::string> BuildingMaterials::Proposed() const {
+  std::vector<std::string> names;
+  for (const Section* section : {&materials_, &blocks_, &layers_}) {
+    for (const auto& [name, entry] : *section) {
+      if (entry.material.is_proposed) names.push_back(name);
+    }
+  }
+  return names;
 }
 
 std::vector<std::string> BuildingMaterials::Unused() const {

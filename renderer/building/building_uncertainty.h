@@ -8,7 +8,6 @@
 
 #include "reconstruction/geometry/projection_uncertainty.h"
 #include "reconstruction/geometry/scene_geometry.h"
-#include "renderer/building/artificial_environment.h"
 
 namespace insitu {
 
@@ -17,10 +16,14 @@ struct CornerUncertainty {
   ImageUncertainty image;
 };
 
-// Of every distinct vertex of the building that lies within the photograph's frame, hidden ones
-// too, in the mesh's order. nullopt: the scene has no covariance for its cameras.
+// Of every distinct corner [m, world] that lies within the photograph's frame, hidden ones too, in
+// their order. nullopt: the scene has no covariance for its cameras.
 std::optional<std::vector<CornerUncertainty>> BuildingUncertainty(
-    const SceneGeometry& scene, size_t camera, const ArtificialEnvironment& building);
+    const SceneGeometry& scene, size_t camera, const std::vector<Eigen::Vector3d>& corners);
+
+// At most 10 000 of them: where there are more, of those within some pixels of each other the least
+// known one.
+std::vector<CornerUncertainty> ThinnedOut(std::vector<CornerUncertainty> corners);
 
 struct UncertaintySummary {
   int corners = 0;

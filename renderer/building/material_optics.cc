@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "renderer/building/material_optics.h"
 
+#include <cmath>
 #include <string>
 
-#include "radiometry/spectrum/spectrum.h"
+#include "radiometry/library/material_library.h"
+#include "radiometry/spectrum/spectral_table.h"
 
 namespace insitu {
 namespace {
 
-constexpr double kCoveredFrom = 420, kCoveredTo = 680;  // [nm], where the eye sees most
-constexpr double kUsualIndex = 1.5;                     // of glass whose own is not given
+constexpr double kUsualIndex = 1.5;      // of glass whose own is not given
+constexpr double kLookedThrough = 0.01;  // [m], of a glass whose thickness is not given
 
 double TransmissionOf(const JsonNode& node) {
   const double share = node.Number();
@@ -17,7 +19,7 @@ double TransmissionOf(const JsonNode& node) {
   return share;
 }
 
-bool IsTrue(const JsonNode& material, const std::string& key) {
+bool IsTrue(const MaterialKeys& material, const std::string& key) {
   const auto node = material.Find(key);
   return node && node->Boolean();
 }
@@ -34,16 +36,12 @@ Metal ReadMetal(const JsonNode& table) {
     metal.index.emplace_back(values[0], values[1]);
     metal.extinction.emplace_back(values[0], values[2]);
   }
-  if (metal.index.empty() || metal.index.front()[0] > kCoveredFrom ||
-      metal.index.back()[0] < kCoveredTo) {
-    throw table.Error(
-        "does not cover the visible range, expected rows from 420 nm or less to 680 or more");
-  }
+  RequireVisibleRange(metal.index, table);
   return metal;
 }
 
 // What stands in the place of Fresnel's index.
-void ReadMirrorColor(const JsonNode& material, SurfaceMaterial* surface) {
+void ReadMirrorColor(const MaterialKeys& material, SurfaceMaterial* surface) {
   if (const auto rgb = material.Find("specular_rgb")) {
     surface->specular_rgb = rgb->Vector3();
     if (surface->specular_rgb.minCoeff() < 0 || surface->specular_rgb.maxCoeff() > 1) {
@@ -60,7 +58,16 @@ Eigen::Vector3d ReadAbsorption(const JsonNode& node) {
   return absorption;
 }
 
-std::optional<Glass> ReadGlass(const JsonNode& material, const SurfaceMaterial& surface) {
+// The three channels that dim white light as the table does, through as much as the pane is thick.
+Eigen::Vector3d AbsorptionOf(const JsonNode& rows, double thickness) {
+  SpectralTable table = ReadSpectralTable(rows);
+  RequireVisibleRange(table, rows);
+  const double layer = thickness > 0 ? thickness : kLookedThrough;
+  for (Eigen::Vector2d& row : table) row.y() = std::exp(-layer * row.y());
+  return -ColorOfReflectance(table).cwiseMax(1e-6).array().log() / layer;
+}
+
+std::optional<Glass> ReadGlass(const MaterialKeys& material, const SurfaceMaterial& surface) {
   const auto transmission = material.Find("transmission");
   if (!transmission || TransmissionOf(*transmission) == 0) return std::nullopt;
   Glass glass;
@@ -75,15 +82,17 @@ std::optional<Glass> ReadGlass(const JsonNode& material, const SurfaceMaterial& 
     glass.thickness = thickness->Number();
     if (glass.thickness < 0) throw thickness->Error("is negative, expected metres");
   }
-  if (const auto absorption = material.Find("absorption_per_m")) {
-    glass.absorption_rgb = ReadAbsorption(*absorption);
-  }
+  const auto absorption = material.WithAnyOf({"absorption_per_m", "absorption_table"});
+  if (!absorption) return glass;
+  const auto rgb = absorption->Find("absorption_per_m");
+  glass.absorption_rgb = rgb ? ReadAbsorption(*rgb)
+                             : AbsorptionOf(absorption->At("absorption_table"), glass.thickness);
   return glass;
 }
 
 }  // namespace
 
-void ReadOptics(const JsonNode& material, SurfaceMaterial* surface) {
+void ReadOptics(const MaterialKeys& material, SurfaceMaterial* surface) {
   ReadMirrorColor(material, surface);
   surface->specular = ReadSpecular(material, true);
   surface->glass = ReadGlass(material, *surface);

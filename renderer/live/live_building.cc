@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "reconstruction/geometry/lens_view.h"
+#include "renderer/building/artificial_environment.h"
 #include "renderer/building/building_uncertainty.h"
 
 namespace insitu {
@@ -105,8 +106,8 @@ BuildingWireframe ReadBuildingWireframe(const SitePaths& site) {
   KeepLongest(&wireframe.edges);
   const size_t step = 1 + 2 * wireframe.edges.size() / kMostCorners;
   for (size_t i = 0; i < wireframe.edges.size(); i += step) {
-    wireframe.corners.vertices.push_back(wireframe.edges[i].first);
-    wireframe.corners.vertices.push_back(wireframe.edges[i].second);
+    wireframe.corners.push_back(wireframe.edges[i].first);
+    wireframe.corners.push_back(wireframe.edges[i].second);
   }
   return wireframe;
 }

@@ -10,15 +10,14 @@
 
 #include "calibration/program/site.h"
 #include "reconstruction/geometry/scene_geometry.h"
-#include "renderer/building/artificial_environment.h"
 
 namespace insitu {
 
 // What is drawn of a building, however large it is.
 struct BuildingWireframe {
   std::vector<std::pair<Eigen::Vector3d, Eigen::Vector3d>>
-      edges;                      // creases and open edges [m], world
-  ArtificialEnvironment corners;  // its vertices only: some of the edges' ends
+      edges;                             // creases and open edges [m], world
+  std::vector<Eigen::Vector3d> corners;  // some of the edges' ends
 };
 
 // Of work/building.json. Throws InputError: its files cannot be read.

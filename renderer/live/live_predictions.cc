@@ -19,7 +19,8 @@ namespace insitu {
 namespace {
 
 Json::Value EllipseOf(const ImageUncertainty& image) {
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes(image.covariance_px);
+  Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes;
+  axes.computeDirect(image.covariance_px);
   const Eigen::Vector2d major = axes.eigenvectors().col(1);
   Json::Value ellipse;
   ellipse["x"] = image.pixel.x();

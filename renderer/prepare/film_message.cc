@@ -10,7 +10,6 @@
 #include "calibration/camera_files/film_review.h"
 #include "calibration/camera_files/read_camera_file.h"
 #include "calibration/files/error.h"
-#include "calibration/files/wording.h"
 
 namespace insitu {
 namespace {
@@ -63,7 +62,8 @@ class Message {
   }
 
  private:
-  void Fault(const std::string& text) { message_["faults"].append(text); }
+  void Fault(const Sentence& sentence) { message_["faults"].append(sentence.ToJson()); }
+  void Miss(const Sentence& sentence) { message_["missing"].append(sentence.ToJson()); }
 
   void TakeCertificate() {
     const Json::Value& film = tables_["film"][0];
@@ -71,7 +71,8 @@ class Message {
     for (const Json::Value& row : tables_["film_marks"]) {
       if (!row["x_mm"].isNumeric() || !row["y_mm"].isNumeric()) continue;  // the reader says it
       if (certified_.emplace(row["mark"].asString(), Millimetres(row)).second) continue;
-      Fault("the certificate lists mark " + row["mark"].asString() + " twice");
+      Fault(Sentence("filmListedTwice", "the certificate lists mark {mark} twice",
+                     {{"mark", row["mark"]}}));
     }
     is_listed_ = !certified_.empty();
     for (const Json::Value& row : tables_["fiducials"]) {
@@ -79,10 +80,11 @@ class Message {
       certified_.emplace(row["mark"].asString(), Millimetres(row));
     }
     const int needed = transformation_ == FilmTransformation::kAffine ? 3 : 4;
-    if (!film["focal_mm"].isNumeric()) message_["missing"].append("the principal distance");
-    if (static_cast<int>(certified_.size()) >= needed) return;
-    message_["missing"].append(Formatted("%d more fiducial marks with their millimetres",
-                                         needed - static_cast<int>(certified_.size())));
+    const int lacking = needed - static_cast<int>(certified_.size());
+    if (!film["focal_mm"].isNumeric()) Miss(Sentence("filmNoFocal", "the principal distance"));
+    if (lacking <= 0) return;
+    Miss(Sentence("filmNoMarks", "{count} more fiducial marks with their millimetres",
+                  {{"count", lacking}}));
   }
 
   void TakeMarks() {
@@ -98,10 +100,13 @@ class Message {
         continue;
       }
       if (is_listed_ && Millimetres(row) != certified_.at(mark)) {
-        Fault(Formatted("mark %s of %s has other millimetres than the certificate", mark.c_str(),
-                        photo.c_str()));
+        Fault(Sentence("filmOtherMillimetres",
+                       "mark {mark} of {photo} has other millimetres than the certificate",
+                       {{"mark", mark}, {"photo", photo}}));
       }
-      marks.push_back({mark, Millimetres(row), {row["x"].asDouble(), row["y"].asDouble()}});
+      const double sigma_times = row["state"] == "dubious" ? kDubiousFiducial : 1;
+      marks.push_back(
+          {mark, Millimetres(row), {row["x"].asDouble(), row["y"].asDouble()}, sigma_times});
     }
   }
 
@@ -112,22 +117,26 @@ class Message {
       if (tables_["film"][0]["focal_mm"].isNumeric() && fs::exists(film)) ReadFilmCamera(film);
       if (fs::exists(fiducials)) ReadFiducials(fiducials);
     } catch (const InputError& error) {
-      Fault(error.what());
+      Fault(SentenceOf(error));
     }
   }
 
   void Folders() {
     if (FilmFolders(site_.boards()).size() > 1) {
-      Fault("several folders of calibration/ hold film; this page shows that in " +
-            message_["folder"].asString());
+      Fault(Sentence("filmFolders",
+                     "several folders of calibration/ hold film; this page shows that in {folder}",
+                     {{"folder", message_["folder"]}}));
     }
-    const std::string refusal = RefusalOfFilm(site_);
+    const Sentence refusal = RefusalOfFilm(site_);
     if (!refusal.empty()) Fault(refusal);
   }
 
   void TellPhoto(const std::string& photo, const std::vector<Fiducial>& marks) {
     const auto size = sizes_.find(photo);
-    if (size == sizes_.end()) return Fault("photo " + photo + " is not in the folder photos");
+    if (size == sizes_.end()) {
+      return Fault(
+          Sentence("filmNoPhoto", "photo {photo} is not in the folder photos", {{"photo", photo}}));
+    }
     const ScanReview review = ReviewScan(marks, certified_, transformation_, size->second);
     Json::Value& told = message_["photos"][photo];
     told["needed"] = review.needed;
@@ -136,7 +145,7 @@ class Message {
     told["kind"] = transformation_ == FilmTransformation::kAffine ? "affine" : "projective";
     told["unplaced"] = Unplaced(photo, marks);
     told["suspicions"] = told["marks"] = Json::Value(Json::arrayValue);
-    for (const std::string& text : review.suspicions) told["suspicions"].append(text);
+    for (const Sentence& each : review.suspicions) told["suspicions"].append(each.ToJson());
     told["predicted"] = Json::Value(Json::objectValue);
     for (const auto& [mark, pixel] : review.predicted) {
       for (const double value : pixel) told["predicted"][mark].append(value);
@@ -199,16 +208,18 @@ bool IsOfFilm(const std::string& table) {
   return table == "film" || table == "film_marks" || table == "fiducials";
 }
 
-std::string RefusalOfFilm(const SitePaths& site) {
+Sentence RefusalOfFilm(const SitePaths& site) {
   const fs::path folder = FilmFolder(site.boards());
-  if (!fs::is_directory(folder)) return "";
+  if (!fs::is_directory(folder)) return {};
   for (const auto& entry : fs::directory_iterator(folder)) {
     if (!entry.is_regular_file() || !IsOwnCamera(entry.path())) continue;
-    return entry.path().lexically_relative(site.root).string() +
-           " is of another camera: remove it, or move it into a folder of calibration/ and start "
-           "insitu prepare again; film then has the folder calibration/film/";
+    return Sentence(
+        "filmOtherCamera",
+        "{file} is of another camera: remove it, or move it into a folder of calibration/ and "
+        "start insitu prepare again; film then has the folder calibration/film/",
+        {{"file", entry.path().lexically_relative(site.root).string()}});
   }
-  return "";
+  return {};
 }
 
 Json::Value FilmMessage(const SitePaths& site, const Json::Value& tables,

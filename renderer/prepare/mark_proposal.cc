@@ -108,8 +108,8 @@ std::variant<MarkProposal, NoProposal> RefineCorner(const GreyPatch& patch,
   const Eigen::Vector2d start = ToPatch(patch, pixel);
   std::vector<cv::Point2f> corner = {
       {static_cast<float>(start.x()), static_cast<float>(start.y())}};
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> gradients(
-      StructureTensor(patch.grey, corner[0]));
+  Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> gradients;
+  gradients.computeDirect(StructureTensor(patch.grey, corner[0]), Eigen::EigenvaluesOnly);
   const double weak = gradients.eigenvalues()[0], strong = gradients.eigenvalues()[1];
   if (strong < kEvenSurface) return Sentence("markEven", "an even surface");
   if (weak < kEvenSurface) return Sentence("markEdge", "an edge, no corner");

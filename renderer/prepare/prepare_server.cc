@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "renderer/prepare/prepare_server.h"
 
-#include <signal.h>
-
 #include <algorithm>
 #include <atomic>
 #include <cmath>
@@ -14,7 +12,9 @@
 #include <utility>
 
 #include "calibration/files/error.h"
+#include "calibration/files/error_at.h"
 #include "calibration/files/json_file.h"
+#include "calibration/web/end_signals.h"
 #include "calibration/web/loopback_server.h"
 #include "calibration/web/open_browser.h"
 #include "calibration/web/photo_tiles.h"
@@ -27,7 +27,7 @@
 #include "renderer/prepare/questions.h"
 #include "renderer/prepare/relit_photos.h"
 #include "renderer/prepare/site_from_exif.h"
-#include "renderer/prepare/stage_runs.h"
+#include "renderer/stages/stage_runs.h"
 
 namespace insitu {
 namespace {
@@ -48,18 +48,21 @@ WebResponse JsonResponse(const Json::Value& json, int status = 200) {
 // What the page may ask for, answered.
 class PrepareService {
  public:
-  PrepareService(const SitePaths& site, std::function<void(std::string)> send)
+  PrepareService(const SitePaths& site, std::function<void(std::string)> send, const Warn& warn)
       : site_(site),
         paths_(ListPhotographs(site)),
         tiles_(paths_, site.root / "work/prepare/overviews"),
         send_(std::move(send)),
-        session_(site, send_),
+        session_(site, send_, warn),
         relit_(paths_, [this] { return session_.live(); }),
         runs_(site, [this](const Json::Value& message) {
           send_(OneLineJson(message));
           if (message.isMember("status")) session_.Reload();
         }) {
     AddRoutes();
+    for (const Json::Value& photo : PhotosJson()) {
+      if (photo.isMember("fault")) warn(photo["fault"].asString());
+    }
     overviews_ = std::jthread([this](const std::stop_token& stop) { MakeFirstOverviews(stop); });
   }
 
@@ -103,7 +106,9 @@ class PrepareService {
     Post("import", [this](const Json::Value& q) { return JsonResponse(ImportAnswer(site_, q)); });
     Post("refine", [this](const Json::Value& q) { return JsonResponse(Refine(q)); });
     Post("match", [this](const Json::Value& q) { return JsonResponse(Match(q)); });
-    Post("run", [this](const Json::Value& q) { return Run(q["stage"].asString()); });
+    Post("run", [this](const Json::Value& q) {
+      return Run(q["stage"].asString(), q["label"].asString());
+    });
     Post("stop", [this](const Json::Value&) {
       runs_.Stop();
       return JsonResponse(Json::objectValue);
@@ -132,7 +137,12 @@ class PrepareService {
 
   Json::Value Site() {
     Json::Value site = session_.Site();
-    site["photos"] = Json::Value(Json::arrayValue);
+    site["photos"] = PhotosJson();
+    return site;
+  }
+
+  Json::Value PhotosJson() {
+    Json::Value photos(Json::arrayValue);
     for (int i = 0; i < tiles_.count(); ++i) {
       Json::Value photo;
       photo["name"] = paths_[i].stem().string();
@@ -143,11 +153,11 @@ class PrepareService {
         photo["levels"] = size.levels;
       } catch (const InputError& error) {
         photo["width"] = photo["height"] = photo["levels"] = 1;
-        photo["fault"] = error.what();
+        SentenceOf(error).SayIn(&photo, "fault");
       }
-      site["photos"].append(photo);
+      photos.append(photo);
     }
-    return site;
+    return photos;
   }
 
   WebResponse Tile(const WebRequest& request) {
@@ -234,7 +244,8 @@ class PrepareService {
     const std::map<std::string, Eigen::Vector2d> marks = session_.MarksOf(name);
     const auto mark = marks.find(photo);
     if (mark == marks.end() || !point["xyz"].isArray()) {
-      throw InputError("match", "the point must be marked here and determined");
+      throw ErrorAt({"match"},
+                    Sentence("matchFirst", "the point must be marked here and determined"));
     }
     const Eigen::Vector3d world(point["xyz"][0].asDouble(), point["xyz"][1].asDouble(),
                                 point["xyz"][2].asDouble());
@@ -269,9 +280,9 @@ class PrepareService {
                    OffsetsBetween(*here, other, world, normal.normalized()), radius));
   }
 
-  WebResponse Run(const std::string& stage) {
+  WebResponse Run(const std::string& stage, const std::string& label) {
     if (stage == "exif-site") {
-      PrepareSession::Answer taken = session_.TakeSite(SiteFromExif(paths_));
+      PrepareSession::Answer taken = session_.TakeSite(SiteFromExif(paths_), label);
       if (taken.status == 200) taken.body["run"] = 0;  // no program runs for it
       return Told(taken);
     }
@@ -312,23 +323,6 @@ LoopbackServerOptions ServerOptions(int port, const std::string& token) {
   return server;
 }
 
-// Signals that end a server are blocked in this thread and all that it starts from now on.
-class EndSignals {
- public:
-  EndSignals() {
-    sigemptyset(&signals_);
-    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) sigaddset(&signals_, signal);
-    pthread_sigmask(SIG_BLOCK, &signals_, nullptr);
-  }
-  void Wait() const {  // for the first one
-    int signal = 0;
-    sigwait(&signals_, &signal);
-  }
-
- private:
-  sigset_t signals_ = {};
-};
-
 // At the port asked for, else at the site's last one if that is free; `remark` if it is not.
 std::unique_ptr<LoopbackServer> MakeServer(const SitePaths& site, const PrepareOptions& options,
                                            const std::string& token,
@@ -353,13 +347,15 @@ void NotePort(const SitePaths& site, int port) { std::ofstream(PortFile(site)) <
 
 }  // namespace
 
-void ServePrepare(const SitePaths& site, const PrepareOptions& options, const TellAddress& tell) {
+void ServePrepare(const SitePaths& site, const PrepareOptions& options, const TellAddress& tell,
+                  const Warn& warn) {
   const EndSignals end;
   const std::string token = NewToken();
   std::atomic<LoopbackServer*> windows = nullptr;
-  PrepareService service(site, [&windows](std::string text) {
+  const auto send = [&windows](std::string text) {
     if (LoopbackServer* server = windows) server->Send(std::move(text));
-  });
+  };
+  PrepareService service(site, send, warn);
   std::string remark;
   const auto made =
       MakeServer(site, options, token,
@@ -369,7 +365,8 @@ void ServePrepare(const SitePaths& site, const PrepareOptions& options, const Te
   windows = &server;  // what was told before that, the page asks for when it comes
   const std::string url = server.address() + "#" + token;
   std::jthread serving([&] { server.Run(); });
-  tell(url, remark);
+  if (!remark.empty()) warn(remark);
+  tell(url);
   {
     const auto page = options.opens_browser ? std::make_unique<OpenedPage>(url) : nullptr;
     end.Wait();

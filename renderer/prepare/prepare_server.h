@@ -12,9 +12,10 @@
 //   POST /api/undo, /api/redo {id}     200 {revision, operation}
 //   POST /api/epipolar, /api/measure, /api/best_photo, /api/polygon_at, /api/import   questions.h
 //   POST /api/refine {photo, x, y, fiducial}, /api/match {photo, point}    mark_proposal.h
-//   POST /api/run {stage}, /api/stop   stages of the site; exif-camera and exif-site:
-//   site_from_exif.h GET  /api/live                     WebSocket: op, saved, not_saved, adjusted,
-//   light, building,
+//   POST /api/run {stage, label}       runs a stage, or exif-camera or exif-site, which are in
+//                                      site_from_exif.h
+//   POST /api/stop                     the stage that runs
+//   GET  /api/live                     WebSocket: op, saved, not_saved, adjusted, light, building,
 //                                      film (film_message.h), todo, run, outside, fault
 #pragma once
 
@@ -30,13 +31,16 @@ struct PrepareOptions {
   bool opens_browser = true;
 };
 
-// Receives the address with its token, and what is to be known of it, or "".
-using TellAddress = std::function<void(const std::string& url, const std::string& remark)>;
+// Receives the address with its token.
+using TellAddress = std::function<void(const std::string& url)>;
+// Receives what people at the terminal must know, in English, from any thread.
+using Warn = std::function<void(const std::string& text)>;
 
 // Serves until a signal ends it: SIGINT, SIGTERM, SIGHUP. What was confirmed is then in the
 // survey's files. Without a port asked for, the site's last one is taken if it is free, for what a
 // page could not send stands in the browser under its address. Throws InputError: no photographs,
 // another server has the site, the port is taken.
-void ServePrepare(const SitePaths& site, const PrepareOptions& options, const TellAddress& tell);
+void ServePrepare(const SitePaths& site, const PrepareOptions& options, const TellAddress& tell,
+                  const Warn& warn);
 
 }  // namespace insitu

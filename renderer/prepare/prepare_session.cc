@@ -5,6 +5,7 @@
 #include <chrono>
 #include <condition_variable>
 #include <mutex>
+#include <set>
 #include <thread>
 #include <utility>
 
@@ -13,6 +14,7 @@
 #include "reconstruction/editing/edited_tables.h"
 #include "reconstruction/editing/site_edit.h"
 #include "renderer/live/live_worker.h"
+#include "renderer/prepare/edit_messages.h"
 #include "renderer/prepare/film_message.h"
 #include "renderer/prepare/to_do.h"
 
@@ -26,12 +28,6 @@ std::vector<std::string> NamesOf(const SitePaths& site) {
   std::vector<std::string> names;
   for (const auto& path : ListPhotographs(site)) names.push_back(path.stem().string());
   return names;
-}
-
-Json::Value ConflictsJson(const std::vector<RowConflict>& conflicts) {
-  Json::Value json(Json::arrayValue);
-  for (const RowConflict& conflict : conflicts) json.append(ToJson(conflict));
-  return json;
 }
 
 // By name; photographs that cannot be read have none.
@@ -53,11 +49,21 @@ Json::Value OrNull(const std::optional<std::string>& text) {
 }  // namespace
 
 struct PrepareSession::Parts {
-  Parts(const SitePaths& s, std::function<void(std::string)> tell)
-      : site(s), send(std::move(tell)), photos(NamesOf(s)), edit(s, photos), worker(s) {}
+  Parts(const SitePaths& s, std::function<void(std::string)> tell,
+        std::function<void(const std::string&)> w)
+      : site(s),
+        send(std::move(tell)),
+        warn(std::move(w)),
+        photos(NamesOf(s)),
+        edit(s, photos),
+        worker(s) {
+    for (const Sentence& sentence : SentencesOf(edit.found())) warn(sentence.text());
+    if (!read_only.empty()) warn(read_only);
+  }
 
   const SitePaths site;
   const std::function<void(std::string)> send;
+  const std::function<void(const std::string&)> warn;
   const std::vector<std::string> photos;
   const std::map<std::string, Eigen::Vector2i> sizes = SizesOf(site);
 
@@ -65,8 +71,10 @@ struct PrepareSession::Parts {
   std::condition_variable_any changed;
   SiteEdit edit;
   std::shared_ptr<const LiveState> live = std::make_shared<LiveState>();
-  std::string not_saved;
-  std::string read_only = ReadOnly();
+  Sentence not_saved;
+  std::string read_only = ReadOnlyText(edit);
+  std::string not_journalled;           // why the last operation was not taken
+  std::set<std::string> warned_photos;  // with why
   bool is_due = true, forgets_stages = false;
   LiveWorker worker;
   std::jthread thread;
@@ -106,18 +114,22 @@ struct PrepareSession::Parts {
     Tell(film);
   }
 
-  Answer Done(const EditOutcome& outcome, const char* kind) {
+  static Answer Refused(int status, const Sentence& why) {
     Answer answer;
-    if (!outcome.refused.empty()) {
-      answer.status = 400;
-      answer.body["error"] = outcome.refused;
-      return answer;
-    }
+    answer.status = status;
+    why.SayIn(&answer.body, "error");
+    return answer;
+  }
+
+  Answer Done(const EditOutcome& outcome, const char* kind) {
+    if (!outcome.refused.empty()) return Refused(400, Sentence::Verbatim(outcome.refused));
+    Answer answer;
     if (!outcome.conflicts.empty()) {
       answer.status = 409;
       answer.body["conflicts"] = ConflictsJson(outcome.conflicts);
       return answer;
     }
+    not_journalled.clear();
     answer.body["revision"] = outcome.revision;
     if (outcome.is_repeated || !outcome.operation) return answer;
     answer.body["operation"] = ToJson(*outcome.operation);
@@ -133,71 +145,39 @@ struct PrepareSession::Parts {
     try {
       return Done(change(), kind);
     } catch (const InputError& error) {
-      Answer answer;
-      answer.status = 507;
-      answer.body["error"] = error.what();
-      return answer;
+      if (std::exchange(not_journalled, error.what()) != error.what()) warn(error.what());
+      return Refused(507, SentenceOf(error));
     }
   }
 
-  // Files that do not parse, and why.
-  std::string ReadOnly() const {
-    std::string text;
-    for (const ReadOnlyTable& table : edit.read_only()) {
-      const FileFault& fault = table.fault;
-      text += fault.file + ":" + std::to_string(fault.line) + ": " + fault.text + "\n";
-    }
-    return text;
-  }
-
-  // Why what an operation says of film cannot be in the site; "" if it can.
-  std::string RefusedFilm(const Operation& operation) const {
+  // Why what an operation says of film cannot be in the site; empty if it can.
+  Sentence RefusedFilm(const Operation& operation) const {
     for (const RowEdit& change : operation.edits) {
       if (IsOfFilm(change.table) && change.after.isObject()) return RefusalOfFilm(site);
     }
-    return "";
+    return {};
   }
 
-  // Of the pixels that an operation places; "" if all lie on their photographs.
-  std::string OffFrame(const Operation& operation) const {
-    for (const RowEdit& change : operation.edits) {
-      if (change.table == "camera_positions") continue;  // its x and y are metres
-      const Json::Value& row = change.after;
-      if (!row.isObject() || !row["photo"].isString() || !row["x"].isNumeric()) continue;
-      const auto size = sizes.find(row["photo"].asString());
-      if (size == sizes.end()) continue;
-      const Eigen::Array2d pixel(row["x"].asDouble(), row["y"].asDouble());
-      const bool is_on =
-          (pixel >= -0.5).all() && (pixel <= size->second.cast<double>().array() - 0.5).all();
-      if (!is_on) return change.table + ": the pixel lies off photo " + size->first;
-    }
-    return "";
-  }
-
-  void TellText(const char* type, const std::string& text) const {
+  void TellSentence(const char* type, const Sentence& sentence) const {
     Json::Value message;
     message["type"] = type;
-    message["text"] = text;
+    sentence.SayIn(&message, "text");
     Tell(message);
+    warn(sentence.text());
   }
 
   // True if the tables are others now.
   bool TellOutside(const OutsideChanges& outside) const {
     for (const Operation& operation : outside.operations) TellOperation(operation, "outside");
-    for (const std::string& remark : outside.remarks) TellText("outside", remark);
-    for (const RowConflict& conflict : outside.conflicts) {
-      TellText("outside", conflict.table +
-                              ": a row was changed here and in the file; the file's stands, "
-                              "yours was " +
-                              OneLineJson(conflict.after));
-    }
+    for (const Sentence& sentence : SentencesOf(outside)) TellSentence("outside", sentence);
     return !outside.operations.empty() || !outside.reread.empty();
   }
 
   // True if a file parses no more or again: then pages load everything anew.
   bool TellReread(const OutsideChanges& outside) {
-    const std::string before = std::exchange(read_only, ReadOnly());
+    const std::string before = std::exchange(read_only, ReadOnlyText(edit));
     if (before == read_only && outside.reread.empty()) return false;
+    if (before != read_only && !read_only.empty()) warn(read_only);
     Json::Value message;
     message["type"] = "reload";
     Tell(message);
@@ -208,16 +188,30 @@ struct PrepareSession::Parts {
   bool SaveAndTell() {
     const SaveReport report = edit.Save();
     TellOutside(report.outside);
-    std::string faults;
-    for (const FileFault& fault : report.faults) faults += fault.file + ": " + fault.text + "\n";
-    if (!faults.empty() && faults != not_saved) TellText("not_saved", faults);
-    not_saved = faults;
+    const Sentence faults = NotSaved(report.faults);
+    if (!faults.empty() && faults.text() != not_saved.text()) TellSentence("not_saved", faults);
+    const bool was_saved = std::exchange(not_saved, faults).empty();
     if (!faults.empty()) return false;
+    if (!was_saved) warn("all is saved again");
     Json::Value message;
     message["type"] = "saved";
     message["revision"] = edit.saved_revision();
     Tell(message);
     return true;
+  }
+
+  // Once each, and again after it was well.
+  void WarnOfPhotos(const Json::Value& told) {
+    std::set<std::string> faults;
+    for (const Json::Value& photo : told) {
+      const bool is_faulty = photo["needs_lens"].asBool() &&
+                             photo["why_said"]["key"] != "noLens";  // that comes in good time
+      if (!is_faulty) continue;
+      const std::string fault = photo["why"].asString();
+      faults.insert(fault);
+      if (!warned_photos.contains(fault)) warn(fault);
+    }
+    warned_photos = std::move(faults);
   }
 
   void Publish(const std::shared_ptr<const LiveState>& state) {
@@ -229,6 +223,7 @@ struct PrepareSession::Parts {
     auto state = std::make_shared<LiveState>(worker.Adjust(revision));
     Publish(state);
     Tell(state->result.message);
+    WarnOfPhotos(state->result.message["photos"]);
     TellToDo();
     auto lit = std::make_shared<LiveState>(*state);
     worker.AddLight(revision, lit.get());
@@ -273,7 +268,7 @@ struct PrepareSession::Parts {
       try {
         Solve(*revision);
       } catch (const std::exception& error) {
-        TellText("fault", error.what());
+        TellSentence("fault", SentenceOf(error));
       }
     }
     const std::lock_guard lock(mutex);
@@ -281,8 +276,9 @@ struct PrepareSession::Parts {
   }
 };
 
-PrepareSession::PrepareSession(const SitePaths& site, std::function<void(std::string)> send)
-    : parts_(std::make_unique<Parts>(site, std::move(send))) {
+PrepareSession::PrepareSession(const SitePaths& site, std::function<void(std::string)> send,
+                               std::function<void(const std::string&)> warn)
+    : parts_(std::make_unique<Parts>(site, std::move(send), std::move(warn))) {
   Parts& parts = *parts_;
   parts.thread = std::jthread([&parts](const std::stop_token& stop) { parts.Work(stop); });
 }
@@ -301,19 +297,15 @@ Json::Value PrepareSession::Site() {
   Json::Value site;
   site["revision"] = parts.edit.revision();
   site["saved"] = parts.edit.saved_revision();
-  site["not_saved"] = parts.not_saved;
+  parts.not_saved.SayIn(&site, "not_saved");
   site["name"] = std::filesystem::canonical(parts.site.root).filename().string();
   site["version"] = INSITU_VERSION;
   site["site_folder"] = std::filesystem::canonical(parts.site.root).string();
   site["tables"] = parts.edit.Tables();
-  site["read_only"] = Json::Value(Json::arrayValue);
-  for (const ReadOnlyTable& table : parts.edit.read_only()) {
-    Json::Value json;
-    json["table"] = table.table;
-    json["file"] = table.fault.file;
-    json["line"] = table.fault.line;
-    json["text"] = table.fault.text;
-    site["read_only"].append(json);
+  site["read_only"] = ReadOnlyJson(parts.edit);
+  site["found"] = Json::Value(Json::arrayValue);
+  for (const Sentence& sentence : SentencesOf(parts.edit.found())) {
+    site["found"].append(sentence.ToJson());
   }
   site["history"] = parts.History();
   site["adjusted"] = parts.live->result.message;
@@ -327,10 +319,9 @@ Json::Value PrepareSession::Site() {
 PrepareSession::Answer PrepareSession::Apply(const Json::Value& operation) {
   const Operation asked = OperationFromJson(operation);
   const std::lock_guard lock(parts_->mutex);
-  EditOutcome refusal;
-  refusal.refused = parts_->OffFrame(asked);
-  if (refusal.is_done()) refusal.refused = parts_->RefusedFilm(asked);
-  if (!refusal.is_done()) return parts_->Done(refusal, "edit");
+  for (const Sentence& why : {OffFrame(asked, parts_->sizes), parts_->RefusedFilm(asked)}) {
+    if (!why.empty()) return Parts::Refused(400, why);
+  }
   return parts_->Do([&] { return parts_->edit.Apply(asked); }, "edit");
 }
 
@@ -354,14 +345,15 @@ std::map<std::string, Eigen::Vector2d> PrepareSession::MarksOf(const std::string
   return marks;
 }
 
-PrepareSession::Answer PrepareSession::TakeSite(const Json::Value& members) {
+PrepareSession::Answer PrepareSession::TakeSite(const Json::Value& members,
+                                                const std::string& label) {
   const std::lock_guard lock(parts_->mutex);
   const std::vector<Json::Value> rows = parts_->edit.Rows("site");
   const Json::Value before = rows.empty() ? Json::Value() : rows[0];
   Json::Value after = members;
   for (const std::string& name : before.getMemberNames()) after[name] = before[name];
   const std::string id = "exif-site-" + std::to_string(parts_->edit.revision());
-  const Operation operation{id, "Place and time from EXIF", {{"site", before, after}}};
+  const Operation operation{id, label, {{"site", before, after}}};
   return parts_->Do([&] { return parts_->edit.Apply(operation); }, "outside");
 }
 

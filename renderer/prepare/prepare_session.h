@@ -19,9 +19,11 @@ namespace insitu {
 
 class PrepareSession {
  public:
-  // `send` receives messages to all windows, from any thread. Throws InputError: no photographs,
-  // another server has the site, its journal cannot be written.
-  PrepareSession(const SitePaths& site, std::function<void(std::string)> send);
+  // `send` receives messages to all windows, `warn` in English what must not stay unseen without
+  // one: what is not saved, faults of files, photos that are left out for them; from any thread.
+  // Throws InputError: no photographs, another server has the site, its journal cannot be written.
+  PrepareSession(const SitePaths& site, std::function<void(std::string)> send,
+                 std::function<void(const std::string&)> warn);
   ~PrepareSession();
 
   // Each from any thread.
@@ -39,8 +41,9 @@ class PrepareSession {
   // The marks of a point [px], by photo, but those that are switched off.
   std::map<std::string, Eigen::Vector2d> MarksOf(const std::string& point) const;
 
-  // Members for site.json; those that it has already are left alone. Answers as Apply.
-  Answer TakeSite(const Json::Value& members);
+  // Members for site.json; those that it has already are left alone. Undo shows the label. Answers
+  // as Apply.
+  Answer TakeSite(const Json::Value& members, const std::string& label);
 
   // The newest results.
   std::shared_ptr<const LiveState> live() const;

@@ -7,7 +7,7 @@
 #include <mutex>
 #include <numbers>
 
-#include "calibration/files/error.h"
+#include "calibration/files/error_at.h"
 #include "calibration/files/json_file.h"
 #include "calibration/files/whole_file.h"
 #include "reconstruction/exchange/read_survey_file.h"
@@ -25,7 +25,7 @@ constexpr double kMarkSigma = 0.5;       // [px], of a mark that states none
 constexpr double kCurve = 0.05;          // [px], of a polyline from the curve
 constexpr double kSurveyedSigma = 0.01;  // [m], of pasted points that state none
 
-InputError NotKnown(const std::string& what) { return {"question", what}; }
+SaidError NotKnown(const Sentence& what) { return ErrorAt({"question"}, what); }
 
 std::vector<std::string> NamesIn(const Json::Value& list) {
   std::vector<std::string> names;
@@ -33,21 +33,28 @@ std::vector<std::string> NamesIn(const Json::Value& list) {
   return names;
 }
 
+Sentence NothingYet() { return Sentence("askedNothing", "nothing is adjusted yet"); }
+
 const PosedCamera& CameraOf(const LiveState& live, const std::string& photo) {
   for (const PosedCamera& camera : live.result.cameras) {
     if (camera.photo == photo) return camera;
   }
-  throw NotKnown("photo " + photo + " is not oriented yet");
+  throw NotKnown(Sentence("askedPhoto", "photo {photo} is not oriented yet", {{"photo", photo}}));
 }
 
 Eigen::Vector3d PositionOf(const LiveState& live, const std::string& point) {
   const Json::Value& xyz = live.result.message["points"][point]["xyz"];
-  if (xyz.size() != 3) throw NotKnown("point " + point + " is not determined yet");
+  if (xyz.size() != 3) {
+    throw NotKnown(
+        Sentence("askedPoint", "point {point} is not determined yet", {{"point", point}}));
+  }
   return {xyz[0].asDouble(), xyz[1].asDouble(), xyz[2].asDouble()};
 }
 
 void RequireKnown(const std::optional<DerivedQuantity>& quantity) {
-  if (!quantity) throw NotKnown("not all of these points are adjusted, or two are in one place");
+  if (quantity) return;
+  throw NotKnown(
+      Sentence("askedPoints", "not all of these points are adjusted, or two are in one place"));
 }
 
 }  // namespace
@@ -76,7 +83,7 @@ Json::Value EpipolarAnswer(const LiveState& live, const Json::Value& question) {
 
 Json::Value MeasureAnswer(const LiveState& live, const Json::Value& question) {
   const std::vector<std::string> points = NamesIn(question["points"]);
-  if (!live.result.solved) throw NotKnown("nothing is adjusted yet");
+  if (!live.result.solved) throw NotKnown(NothingYet());
   Json::Value answer;
   if (points.size() == 2) {
     const auto distance = AdjustedDistance(*live.result.solved, points[0], points[1]);
@@ -93,7 +100,7 @@ Json::Value MeasureAnswer(const LiveState& live, const Json::Value& question) {
     answer["angle_deg"] = angle->value * kInDegrees;
     answer["sigma_deg"] = angle->sigma * kInDegrees;
   } else {
-    throw NotKnown("expected two points, or three for an angle");
+    throw NotKnown(Sentence("askedTwo", "expected two points, or three for an angle"));
   }
   return answer;
 }
@@ -103,7 +110,8 @@ Json::Value BestPhotoAnswer(const LiveState& live, const Json::Value& question) 
   for (const std::string& name : NamesIn(question["vertices"])) {
     vertices.push_back(PositionOf(live, name));
   }
-  if (vertices.size() < 3) throw NotKnown("expected three vertices or more");
+  if (vertices.size() < 3)
+    throw NotKnown(Sentence("askedThree", "expected three vertices or more"));
   Json::Value answer;
   answer["photos"] = Json::Value(Json::arrayValue);
   for (const PhotoOfPolygon& photo : RankPhotosOf(live.result.cameras, vertices)) {
@@ -119,7 +127,7 @@ Json::Value BestPhotoAnswer(const LiveState& live, const Json::Value& question) 
 
 Json::Value PolygonAtAnswer(const LiveState& live, const Json::Value& question) {
   const PosedCamera& camera = CameraOf(live, question["photo"].asString());
-  if (!live.result.scene) throw NotKnown("nothing is adjusted yet");
+  if (!live.result.scene) throw NotKnown(NothingYet());
   const std::vector<Polygon>& polygons = live.result.scene->polygons;
   const auto seen =
       PolygonSeenAt(polygons, camera, {question["x"].asDouble(), question["y"].asDouble()});
@@ -137,10 +145,18 @@ Json::Value ImportAnswer(const SitePaths& site, const Json::Value& question) {
   Json::Value answer;
   answer["format"] = file.format;
   answer["rows"] = answer["remarks"] = Json::Value(Json::arrayValue);
-  for (const std::string& remark : file.remarks) answer["remarks"].append(remark);
-  if (file.has_degrees)
-    throw InputError(pasted, "these are degrees: use insitu import-survey, which converts them");
-  if (file.crs) answer["remarks"].append("coordinate system " + *file.crs + ": taken as it stands");
+  for (const std::string& remark : file.remarks)
+    answer["remarks"].append(Sentence::Verbatim(remark).ToJson());
+  if (file.has_degrees) {
+    throw ErrorAt({pasted}, Sentence("pastedDegrees",
+                                     "these are degrees: use insitu import-survey, which converts "
+                                     "them"));
+  }
+  if (file.crs) {
+    answer["remarks"].append(
+        Sentence("pastedCrs", "coordinate system {crs}: taken as it stands", {{"crs", *file.crs}})
+            .ToJson());
+  }
   for (const SurveyedPoint& point : file.points) {
     const Eigen::Vector3d sigma = point.sigma.value_or(Eigen::Vector3d::Constant(kSurveyedSigma));
     Json::Value row;
@@ -155,7 +171,10 @@ Json::Value ImportAnswer(const SitePaths& site, const Json::Value& question) {
   }
   const bool has_guessed = std::any_of(file.points.begin(), file.points.end(),
                                        [](const SurveyedPoint& point) { return !point.sigma; });
-  if (has_guessed) answer["remarks"].append("no sigma is stated: taken as 0.01 m");
+  if (has_guessed) {
+    answer["remarks"].append(
+        Sentence("pastedSigma", "no sigma is stated: taken as 0.01 m").ToJson());
+  }
   return answer;
 }
 

@@ -172,7 +172,7 @@ struct RelitPhotos::Parts {
       lights["none"] = Made("none", Expose(before, relit->without_sun, relit->is_relit));
       lights["sun"] = Made("sun", Expose(before, relit->sun_alone, relit->is_relit));
     } catch (const std::exception& error) {
-      lights["none"] = lights["sun"] = Refused(409, Sentence::Verbatim(error.what()));
+      lights["none"] = lights["sun"] = Refused(409, SentenceOf(error));
     }
     return lights;
   }

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <optional>
 
-#include "calibration/files/error.h"
+#include "calibration/files/error_at.h"
 #include "calibration/lens/camera.h"
 #include "calibration/photo/exif.h"
 
@@ -17,23 +17,27 @@ constexpr double kSameFocal = 1e-3;  // relative
 
 void WriteCameraFromExif(const SitePaths& site, const std::vector<std::filesystem::path>& photos) {
   if (std::filesystem::exists(site.brought_camera())) {
-    throw InputError(site.brought_camera(), "there is a camera already: run insitu-calibrate");
+    throw ErrorAt({site.brought_camera()},
+                  Sentence("exifCameraThere", "there is a camera already: run insitu-calibrate"));
   }
   std::optional<double> focal;
   Eigen::Vector2i size(0, 0);
   for (const std::filesystem::path& photo : photos) {
     const ExifCamera exif = ReadExifCamera(photo);
     const std::optional<double> stated = exif.FocalPx();
-    if (!stated) throw InputError(photo, "its EXIF states no focal length that can be used");
+    if (!stated) {
+      throw ErrorAt({photo},
+                    Sentence("exifNoFocal", "its EXIF states no focal length that can be used"));
+    }
     if (focal && (size != exif.size || std::abs(*stated / *focal - 1) > kSameFocal)) {
-      throw InputError(photo,
-                       "another size or focal length than the photographs before: their "
-                       "cameras belong into folders of calibration/");
+      throw ErrorAt({photo}, Sentence("exifOther",
+                                      "another size or focal length than the photographs before: "
+                                      "their cameras belong into folders of calibration/"));
     }
     focal = stated;
     size = exif.size;
   }
-  if (!focal) throw InputError(site.photos(), "no photographs");
+  if (!focal) throw ErrorAt({site.photos()}, Sentence("exifNoPhotos", "no photographs"));
   std::filesystem::create_directories(site.boards());
   WritePosedCamera(site.brought_camera(),
                    {"camera",
@@ -56,8 +60,11 @@ Json::Value SiteFromExif(const std::vector<std::filesystem::path>& photos) {
     offer("local_time", place.local_time);
   }
   if (!site.isNull()) return site;
-  throw InputError(photos.empty() ? std::filesystem::path("photos") : photos[0].parent_path(),
-                   "no photograph's EXIF states place or time: type them into site.json");
+  throw ErrorAt(
+      {photos.empty() ? std::filesystem::path("photos") : photos[0].parent_path()},
+      Sentence(
+          "exifNoPlace",
+          "no photograph's EXIF states place or time: type them where the site's name stands"));
 }
 
 }  // namespace insitu

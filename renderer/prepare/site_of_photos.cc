@@ -47,10 +47,10 @@ std::string MergeColleague(const SitePaths& site, const SitePaths& colleague) {
     text += conflict.table + ": here " + OneLineJson(conflict.current) + ", there " +
             OneLineJson(conflict.after) + "\n";
   }
-  for (const std::string& remark : report.remarks) text += remark + "\n";
+  for (const Sentence& remark : report.remarks) text += remark.text() + "\n";
   if (!report.outcome.refused.empty()) throw InputError(colleague.root, report.outcome.refused);
   for (const FileFault& fault : edit.Save().faults) {
-    throw InputError(site.root / fault.file, fault.line, fault.text);
+    throw InputError(site.root / fault.file, fault.line, fault.text.text());
   }
   return text;
 }

@@ -58,6 +58,14 @@ class List {
         "named", "{name}: {reason}",
         {{"name", left["name"]}, {"reason", Sentence::SaidIn(left, "reason").ToJson()}});
   }
+  // Sentences one after the other.
+  static Sentence AllOf(const Json::Value& list) {
+    Sentence all = Sentence::SaidIn(list[0], "text");
+    for (Json::ArrayIndex i = 1; i < list.size(); ++i) {
+      all = Sentence("and", "{one}, {other}", {{"one", all.ToJson()}, {"other", list[i]}});
+    }
+    return all;
+  }
   // The first few names.
   static std::string FirstOf(const std::vector<std::string>& names) {
     constexpr size_t kFew = 4;
@@ -104,18 +112,16 @@ class List {
   // Until the scans' cameras can be made of it.
   void Film() {
     if (input_.film.isNull()) return;
-    for (const Json::Value& text : input_.film["faults"]) {
-      AddOfFilm(Sentence::Verbatim(text.asString()),
+    for (const Json::Value& fault : input_.film["faults"]) {
+      AddOfFilm(Sentence::SaidIn(fault, "text"),
                 Sentence("whyFilmFault", "the scans' cameras cannot be made of this"));
     }
-    std::vector<std::string> missing;
-    for (const Json::Value& text : input_.film["missing"]) missing.push_back(text.asString());
-    if (!missing.empty()) {
-      AddOfFilm(
-          Sentence("doCertificate", "the film's certificate lacks ({count}): {names}",
-                   {{"count", static_cast<int>(missing.size())}, {"names", FirstOf(missing)}}),
-          Sentence("whyCertificate",
-                   "it ties the scans to the camera's lens: type it"))["where"]["table"] = "film";
+    if (const Json::Value& missing = input_.film["missing"]; !missing.empty()) {
+      AddOfFilm(Sentence("doCertificate", "the film's certificate lacks: {what}",
+                         {{"what", AllOf(missing).ToJson()}}),
+                Sentence("whyCertificate",
+                         "it ties the scans to the camera's lens: type it"))["where"]["table"] =
+          "film";
     }
     const Json::Value& photos = input_.film["photos"];
     for (const std::string& photo : photos.getMemberNames()) Scan(photo, photos[photo]);
@@ -146,10 +152,8 @@ class List {
                             {{"count", lacking}})));
     }
     const Sentence why("whyDisagree", "the scan's fiducials do not agree");
-    for (const Json::Value& text : scan["suspicions"]) {
-      const Sentence told(
-          "named", "{name}: {reason}",
-          {{"name", photo}, {"reason", Sentence::Verbatim(text.asString()).ToJson()}});
+    for (const Json::Value& suspicion : scan["suspicions"]) {
+      const Sentence told("named", "{name}: {reason}", {{"name", photo}, {"reason", suspicion}});
       Json::Value& item =
           scan["usable"].asBool() ? Advise(told, why, "film") : AddOfFilm(told, why);
       item["where"]["photo"] = photo;
@@ -302,8 +306,9 @@ class List {
                    {{"count", 3 - static_cast<int>(Count("daylight"))}}),
           Sentence("whyDaylight", "sun, sky and ambient light are told apart by them"), "light");
     }
-    const bool has_card = !input_.tables["light"].empty() &&
-                          input_.tables["light"][0].isMember("daylight_reflectance_rgb");
+    const Json::Value& light = input_.tables["light"];
+    const bool has_card = !light.empty() && (light[0].isMember("daylight_reflectance_rgb") ||
+                                             light[0].isMember("daylight_material"));
     if (Count("daylight") > 0 && !has_card) {
       Advise(Sentence("doReflectance", "the reflectance of the daylight samples' material"),
              Sentence("whyReflectance",

@@ -4,7 +4,9 @@
 #include <algorithm>
 
 #include "calibration/files/error.h"
+#include "calibration/program/report_paths.h"
 #include "calibration/site_cameras.h"
+#include "radiometry/library/material_library.h"
 #include "reconstruction/tie_points_site.h"
 
 namespace insitu {
@@ -96,11 +98,17 @@ Paths UndistortionInputs(const MontageRequest& request) {
   return inputs;
 }
 
-// The description of the light names the input images with their cameras.
+// The description of the light names the input images with their cameras; what stands in front is
+// no sky.
 Paths LightInputs(const MontageRequest& request) {
   const SitePaths& site = request.site;
-  Paths inputs = {site.scene(), site.photos(), site.description(), site.survey() / "samples.json",
-                  site.survey() / "materials.json"};
+  Paths inputs = {site.scene(),
+                  site.photos(),
+                  site.description(),
+                  site.survey() / "samples.json",
+                  site.survey() / "materials.json",
+                  site.survey() / "foreground"};
+  inputs += LibraryFolders(site);
   for (const std::string& camera : CamerasOf(ListCameraFolders(site))) {
     inputs.push_back(site.pinhole_camera(camera));
   }
@@ -110,7 +118,8 @@ Paths LightInputs(const MontageRequest& request) {
 // The survey and the scene tell where the site is, which the building is checked against.
 Paths ConversionInputs(const MontageRequest& request) {
   const SitePaths& site = request.site;
-  return {site.building(), site.survey() / "control_points.csv", site.scene()};
+  Paths inputs = {site.building(), site.survey() / "control_points.csv", site.scene()};
+  return inputs += LibraryFolders(site);
 }
 
 Paths Building(const MontageRequest& request) {
@@ -121,7 +130,7 @@ Paths Building(const MontageRequest& request) {
 Paths RenderInputs(const MontageRequest& request) {
   const SitePaths& site = request.site;
   Paths inputs = {site.environment(), site.input_image("").parent_path(), site.photos(),
-                  site.survey() / "foreground"};
+                  site.survey() / "foreground", site.survey() / "shadows"};
   if (request.with_building) inputs.push_back(site.building());  // textures
   return inputs += Building(request);
 }
@@ -129,7 +138,8 @@ Paths RenderInputs(const MontageRequest& request) {
 Paths Montages(const MontageRequest& request) {
   Paths montages;
   for (const fs::path& photo : ListPhotographs(request.site)) {
-    for (const char* ending : {".exr", ".png", ".jpg", ".layers.exr", ".uncertainty.csv"}) {
+    for (const char* ending :
+         {".exr", ".png", ".jpg", ".layers.exr", ".shadows.exr", ".uncertainty.csv"}) {
       montages.push_back(request.site.montages() / (photo.stem().string() + ending));
     }
   }
@@ -175,8 +185,11 @@ std::vector<MontageStage> MakeStages() {
        "haze and daylight, measured in the photographs",
        {"reconstruct", "undistort"},
        LightInputs,
-       one(&SitePaths::environment),
-       NoReports,
+       [](const MontageRequest& request) {
+         return Paths{request.site.environment(), LightReportPath(request.site),
+                      LightPagePath(request.site)};
+       },
+       [](const MontageRequest& request) { return Paths{LightReportPath(request.site)}; },
        Always},
       {"convert",
        "the planned building, from the architect's models",

@@ -93,10 +93,17 @@ std::vector<fs::path> FilesOf(const std::vector<fs::path>& paths) {
   return files;
 }
 
+// How a record names a file: those of the site as they lie in it, so that it can be moved.
+std::string NameInRecord(const SitePaths& site, const fs::path& file) {
+  const fs::path relative = file.lexically_relative(site.root);
+  const bool is_outside = relative.empty() || *relative.begin() == "..";
+  return (is_outside ? fs::absolute(file).lexically_normal() : relative).generic_string();
+}
+
 FileStates StatesOf(const SitePaths& site, const std::vector<fs::path>& paths, FileHashes* hashes) {
   FileStates states;
   for (const fs::path& file : FilesOf(paths)) {
-    states[file.lexically_relative(site.root).generic_string()] = hashes->Hash(file);
+    states[NameInRecord(site, file)] = hashes->Hash(file);
   }
   return states;
 }

@@ -16,6 +16,10 @@ constexpr double kPiecesAcross = 48;    // the building
 constexpr double kSmallestPiece = 0.1;  // [m]
 constexpr double kSmallestOf = 1e-3;    // of the building's size: edge of the finest triangles
 constexpr double kCalmOf = 1.0 / 40;    // of the building's size
+// A building of the size beyond which it is taken for a long or scattered one, whose pieces and
+// triangles shrink to what its surface asks for. [m]
+constexpr double kLargeBuilding = 250;
+constexpr double kPiecesOfSurface = 5400;  // about as many as a cube has by kPiecesAcross
 
 std::vector<Spectrum> DiffuseBrdfs(const MontageScene& scene) {
   std::vector<Spectrum> brdfs;
@@ -35,8 +39,27 @@ Eigen::AlignedBox3d FocusOf(const MontageScene& scene) {
   return box;
 }
 
-PatchGrid GridAbout(const Eigen::AlignedBox3d& focus) {
-  return {{focus}, std::max(kSmallestPiece, focus.diagonal().norm() / kPiecesAcross)};
+// The building's surface and the ground in its box. [m^2]
+double SurfaceIn(const MontageScene& scene, const Eigen::AlignedBox3d& focus) {
+  const Eigen::Vector3d sizes = focus.sizes();
+  double area = sizes.x() * sizes.y();
+  for (const Eigen::Vector3i& triangle : scene.artificial_mesh.triangles) {
+    const Eigen::Vector3f& a = scene.artificial_mesh.vertices[triangle[0]];
+    const Eigen::Vector3f u = scene.artificial_mesh.vertices[triangle[1]] - a;
+    const Eigen::Vector3f v = scene.artificial_mesh.vertices[triangle[2]] - a;
+    area += u.cross(v).norm() / 2;
+  }
+  return area;
+}
+
+PatchGrid GridAbout(const MontageScene& scene, const Eigen::AlignedBox3d& focus) {
+  const double size = focus.diagonal().norm();
+  double piece = std::max(kSmallestPiece, size / kPiecesAcross);
+  if (size > kLargeBuilding && !scene.artificial_mesh.vertices.empty()) {
+    const double of_surface = std::sqrt(SurfaceIn(scene, focus) / kPiecesOfSurface);
+    piece = std::clamp(of_surface, kLargeBuilding / kPiecesAcross, piece);
+  }
+  return {{focus}, piece};
 }
 
 Daylight OpenSky(Daylight light) {
@@ -45,7 +68,7 @@ Daylight OpenSky(Daylight light) {
 }
 
 IrradianceMapOptions MapOptions(const MontageScene& scene) {
-  const double size = FocusOf(scene).diagonal().norm();
+  const double size = std::min(kLargeBuilding, FocusOf(scene).diagonal().norm());
   IrradianceMapOptions options;
   options.smallest = std::max(options.smallest, kSmallestOf * size);
   options.calm = std::max(options.smallest, kCalmOf * size);
@@ -163,7 +186,7 @@ InterreflectedLight::InterreflectedLight(const MontageScene& scene, std::optiona
       transport{scene.Photographed(), scene.natural_mesh,
                 PlannedOf(scene, opaque, artificial_brdfs, clear ? &*clear : nullptr),
                 LampsOf(scene)},
-      interreflection(transport, scene.natural.light, GridAbout(FocusOf(scene)),
+      interreflection(transport, scene.natural.light, GridAbout(scene, FocusOf(scene)),
                       {.bounces = bounces}),
       on_site(interreflection, scene.natural_mesh, NaturalNormals(scene), SiteMapOptions(scene)),
       on_building(interreflection, scene.artificial_mesh, scene.artificial_normals,

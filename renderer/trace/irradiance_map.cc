@@ -18,6 +18,7 @@ constexpr double kMostInside = 0.5;  // share of back faces seen from a point th
 constexpr double kCalmShare = 0.5;   // of the mean distance of what is around
 constexpr double kSteep = 0.05;      // relative difference between the ends of an edge
 constexpr double kGrid = 1e-4;       // points nearer to each other than that are one [m]
+constexpr double kNormalGrid = 1e-5;
 
 struct GatheredPoint {
   Eigen::Vector3d position;
@@ -47,9 +48,21 @@ PointKey KeyOf(const SurfacePoint& point) {
   PointKey key;
   for (int i = 0; i < 3; ++i) {
     key.cells[i] = static_cast<int>(std::lround(point.position[i] / kGrid));
-    key.cells[3 + i] = static_cast<int>(std::lround(point.normal[i] * 1e3));
+    key.cells[3 + i] = static_cast<int>(std::lround(point.normal[i] / kNormalGrid));
   }
   return key;
+}
+
+// The middle of a cell stands for all points in it: what is gathered must not depend on which of
+// them is asked for first, or the last bit of a picture would depend on the order of its tiles.
+SurfacePoint PointOf(const PointKey& key) {
+  SurfacePoint point;
+  for (int i = 0; i < 3; ++i) {
+    point.position[i] = key.cells[i] * kGrid;
+    point.normal[i] = key.cells[3 + i];
+  }
+  point.normal.normalize();
+  return point;
 }
 
 // A triangle, whole or halved at the middle of its longest edge, from corner `from` to `to`.
@@ -76,7 +89,8 @@ double LargestError(const GatheredPoint& a, const GatheredPoint& b, const Gather
 
 using irradiance_map::GatheredPoint, irradiance_map::kCalmShare, irradiance_map::kMostInside,
     irradiance_map::KeyOf, irradiance_map::LargestError, irradiance_map::Node,
-    irradiance_map::kSteep, irradiance_map::PointKey, irradiance_map::PointKeyHash;
+    irradiance_map::kSteep, irradiance_map::PointKey, irradiance_map::PointKeyHash,
+    irradiance_map::PointOf;
 
 void IrradianceMapOptions::Check() const {
   INSITU_CHECK(tolerance > 0);
@@ -127,7 +141,7 @@ struct IrradianceMap::Tree {
       if (found != shard.points.end()) return found->second.get();
     }
     // Gathered twice by chance, it is the same both times.
-    auto gathered = std::make_unique<const GatheredPoint>(Gather(point));
+    auto gathered = std::make_unique<const GatheredPoint>(Gather(PointOf(key)));
     const std::lock_guard lock(shard.mutex);
     return shard.points.try_emplace(key, std::move(gathered)).first->second.get();
   }

@@ -131,7 +131,7 @@ SplitSun SplitSunlight(const MontageScene& scene, const SurfacePoint& surface,
   const bool is_blocked = (through < 1).any();
   if (!is_blocked && !natural_needed) return sun;
   if (IsBlocked(scene.natural_rays, to_sun)) return sun;
-  sun.natural = cosine * scene.natural.light.sun_solid_angle;
+  sun.natural = cosine * scene.natural.light.sun_solid_angle * directions.sun_share;
   sun.is_blocked = is_blocked;
   if (is_blocked) sun.blocked = sun.natural * (1 - through);
   return sun;

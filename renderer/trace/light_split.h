@@ -21,6 +21,9 @@ struct LightDirections {
   Eigen::Vector2d facet = Eigen::Vector2d::Constant(0.5);  // [0, 1)^2
   uint64_t seed = 0;
   bool sees_lights = true;
+  // Of the sun that no polygon keeps from the surface that a camera ray meets, what the photograph
+  // shows to arrive, 0..1.
+  double sun_share = 1;
 };
 
 // `disc` and `facet` are uniform in [0, 1)^2; `ray` counts the rays of a pixel.

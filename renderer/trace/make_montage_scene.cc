@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "calibration/files/error.h"
-#include "renderer/building/spectral_table.h"
+#include "radiometry/spectrum/spectral_table.h"
 #include "renderer/trace/mean_brdf.h"
 
 namespace insitu {
@@ -68,22 +68,6 @@ SpectralGlass GlassOf(const SpectralBasis& spectra, const Glass& glass) {
   return result;
 }
 
-SpectralMaterial ArtificialSurface(const SpectralBasis& spectra, const SurfaceMaterial& material) {
-  const Spectrum albedo = material.reflectance.empty()
-                              ? spectra.ReflectanceFromRgb(material.diffuse_rgb)
-                              : Sampled(material.reflectance, spectra.bins());
-  SpectralMaterial surface{.diffuse_weight = material.diffuse_weight,
-                           .brdf = albedo / std::numbers::pi,
-                           .specular = material.specular,
-                           .mirror_color = spectra.ReflectanceFromRgb(material.specular_rgb)};
-  if (material.metal) {
-    surface.metal = SpectralMetal{Sampled(material.metal->index, spectra.bins()),
-                                  Sampled(material.metal->extinction, spectra.bins())};
-  }
-  if (material.glass) surface.glass = GlassOf(spectra, *material.glass);
-  return surface;
-}
-
 FaceSubset SubsetOf(const TriangleMesh& mesh, std::vector<int> triangles) {
   TriangleMesh part{mesh.vertices, {}};
   for (int triangle : triangles) part.triangles.push_back(mesh.triangles[triangle]);
@@ -125,6 +109,22 @@ void AddLamp(const PointLight& lamp, MontageScene* scene) {
 
 }  // namespace
 
+SpectralMaterial SpectralMaterialOf(const SpectralBasis& spectra, const SurfaceMaterial& material) {
+  const Spectrum albedo = material.reflectance.empty()
+                              ? spectra.ReflectanceFromRgb(material.diffuse_rgb)
+                              : Sampled(material.reflectance, spectra.bins());
+  SpectralMaterial surface{.diffuse_weight = material.diffuse_weight,
+                           .brdf = albedo / std::numbers::pi,
+                           .specular = material.specular,
+                           .mirror_color = spectra.ReflectanceFromRgb(material.specular_rgb)};
+  if (material.metal) {
+    surface.metal = SpectralMetal{Sampled(material.metal->index, spectra.bins()),
+                                  Sampled(material.metal->extinction, spectra.bins())};
+  }
+  if (material.glass) surface.glass = GlassOf(spectra, *material.glass);
+  return surface;
+}
+
 MontageScene MakeMontageScene(NaturalEnvironment natural, const ArtificialEnvironment& artificial,
                               std::vector<Raster> images) {
   INSITU_CHECK(images.size() == natural.scene.cameras.size());
@@ -149,6 +149,7 @@ MontageScene MakeMontageScene(NaturalEnvironment natural, const ArtificialEnviro
                      .building_box = box,
                      .lamps = {},
                      .panels = {},
+                     .sky = {},
                      .facets = {},
                      .facet_directions = {},
                      .inverse_facet_directions = {},
@@ -163,12 +164,13 @@ MontageScene MakeMontageScene(NaturalEnvironment natural, const ArtificialEnviro
     scene.material_of_polygon.push_back(NaturalSurface(site, polygon));
   }
   for (const SurfaceMaterial& material : artificial.materials) {
-    scene.artificial_materials.push_back(ArtificialSurface(site.spectra, material));
+    scene.artificial_materials.push_back(SpectralMaterialOf(site.spectra, material));
   }
   scene.split_faces = SplitByGlass(scene);
   for (const PointLight& lamp : artificial.lights) {
     AddLamp(lamp, &scene);
   }
+  scene.sky = site.light.Sky();
   scene.facets = MakeSkyFacets(site.light.zenith_direction, site.light.polar_facets);
   INSITU_CHECK(scene.facets.directions.size() <= kMostFacets);
   for (const Eigen::Vector3d& direction : scene.facets.directions) {

@@ -15,4 +15,7 @@ namespace insitu {
 MontageScene MakeMontageScene(NaturalEnvironment natural, const ArtificialEnvironment& artificial,
                               std::vector<Raster> images);
 
+// What a planned material is to rays, but for its texture.
+SpectralMaterial SpectralMaterialOf(const SpectralBasis& spectra, const SurfaceMaterial& material);
+
 }  // namespace insitu

@@ -104,6 +104,7 @@ struct MontageScene {
   std::vector<LampSpectrum> lamps;
   std::vector<LuminousPanel> panels;
 
+  RelativeSky sky;  // as the light has it
   SkyFacets facets;
   std::vector<Eigen::Vector3f> facet_directions;         // the same, for packets
   std::vector<Eigen::Array3f> inverse_facet_directions;  // for the slab test

@@ -6,8 +6,11 @@
 #include <tbb/parallel_for.h>
 #include <xmmintrin.h>
 
+#include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <thread>
+#include <tuple>
 
 #include "calibration/files/error.h"
 #include "calibration/lens/sight_map.h"
@@ -18,18 +21,6 @@
 
 namespace insitu {
 namespace {
-
-struct Tile {
-  int left, top, right, bottom;
-};
-
-Tile TileAt(const Raster& photo, int index) {
-  const int columns = (photo.width + kTileSize - 1) / kTileSize;
-  const int left = index % columns * kTileSize;
-  const int top = index / columns * kTileSize;
-  return {left, top, std::min(left + kTileSize, photo.width),
-          std::min(top + kTileSize, photo.height)};
-}
 
 // One view being rendered; all of it is read only while tiles are at work.
 struct ViewWork {
@@ -98,6 +89,7 @@ void AddRay(const ViewWork& view, const PixelSampler& sampler, int x, int y,
   primary.apparent_rgb = Behind(view, x, y);
   primary.light = ChooseLightDirections(view.scene, sampler.OnDisc(sum.rays), sum.rays,
                                         sampler.OnFacet(sum.rays), sampler.Seed(sum.rays));
+  if (view.options.sun_share) primary.light.sun_share = *view.options.sun_share->At(x, y);
   const RayOutcome outcome = TracePrimary(view.scene, primary);
   ++sum.rays;
   if (outcome.hits_building) {
@@ -169,9 +161,13 @@ void SetLayers(float front, bool is_computed, float* layers) {
   layers[2] = front;
 }
 
-struct Counts {
-  std::atomic<long> building = 0, changed = 0, rays = 0;
-};
+// The site's surface changes by its reflectance, of which a clipped pixel tells a lower bound.
+void CountClipped(const ViewWork& view, const Eigen::Vector3d& computed, int x, int y,
+                  TileCounts* counts) {
+  if (!view.options.is_clipped || !view.options.is_clipped(x, y)) return;
+  const bool is_darker = computed.sum() < view.photo.Rgb(x, y).sum();
+  ++(is_darker ? counts->clipped_darkened : counts->clipped_lifted);
+}
 
 // What the rays make of a pixel; nullopt: the photograph's stays.
 std::optional<Eigen::Vector3d> ComputedPixel(const ViewWork& view, const PixelSum& sum,
@@ -189,30 +185,121 @@ std::optional<Eigen::Vector3d> ComputedPixel(const ViewWork& view, const PixelSu
   return composed().cwiseMax(photo.cwiseMin(0));
 }
 
-void RenderTile(const ViewWork& view, const Tile& tile, RenderResult& result, Counts& counts) {
+FinishedTile RenderTile(const ViewWork& view, int index) {
+  const Tile tile = TileAt(view.photo.width, view.photo.height, index);
+  FinishedTile finished;
+  finished.index = index;
   std::optional<Outline> outline;
   if (const auto& spread = view.options.point_spread) outline = OutlineIn(view, *spread, tile);
   for (int y = tile.top; y < tile.bottom; ++y) {
     for (int x = tile.left; x < tile.right; ++x) {
-      const float front = FrontShare(view, x, y);
-      SetLayers(front, false, result.layers.At(x, y));
-      if (front >= 1) continue;
+      finished.is_computed.push_back(0);
+      if (FrontShare(view, x, y) >= 1) continue;
       const PixelSum sum = SamplePixel(view, x, y, outline && outline->IsNear(x, y));
-      counts.rays += sum.rays;
+      finished.counts.rays += sum.rays;
       const auto computed = ComputedPixel(view, sum, outline.has_value(), x, y);
       if (!computed) continue;
-      ++(sum.building_rays > 0 ? counts.building : counts.changed);
-      result.linear.SetRgb(x, y, *computed);
-      SetLayers(front, true, result.layers.At(x, y));
+      ++(sum.building_rays > 0 ? finished.counts.building : finished.counts.changed);
+      if (sum.building_rays == 0) CountClipped(view, *computed, x, y, &finished.counts);
+      finished.is_computed.back() = 1;
+      for (const double value : *computed) finished.rgb.push_back(static_cast<float>(value));
     }
   }
+  return finished;
+}
+
+// Which tiles there are to render, those in sight of the building first.
+std::vector<int> TilesToRender(const ViewWork& view, const std::vector<FinishedTile>& earlier) {
+  const int count = TileCount(view.photo.width, view.photo.height);
+  std::vector<char> is_there(count, 0);
+  for (const FinishedTile& tile : earlier) is_there.at(tile.index) = 1;
+  const InfluenceBox& box = view.scene.building_box;
+  const Eigen::Vector3d middle = ((box.low + box.high) / 2).cast<double>().matrix();
+  const Eigen::Vector3d to_building = (middle - view.center).normalized();
+  std::vector<std::tuple<bool, double, int>> tiles;  // by the angle from its middle
+  for (int index = 0; index < count; ++index) {
+    if (is_there[index]) continue;
+    const Tile tile = TileAt(view.photo.width, view.photo.height, index);
+    const Ray ray = SightOf(view, {(tile.left + tile.right) / 2.0, (tile.top + tile.bottom) / 2.0});
+    const Eigen::Array3f inverse = ray.direction.cast<float>().array().inverse();
+    const bool is_before = !box.IsEmpty() && box.MayMeet(ray.origin.cast<float>().array(), inverse);
+    const double angle =
+        box.IsEmpty() ? 0 : std::acos(std::clamp(ray.direction.dot(to_building), -1.0, 1.0));
+    tiles.emplace_back(!is_before, angle, index);
+  }
+  std::sort(tiles.begin(), tiles.end());
+  std::vector<int> indices;
+  for (const auto& [is_beside, angle, index] : tiles) indices.push_back(index);
+  return indices;
+}
+
+// A picture into which finished tiles are put; different tiles from different threads.
+class Assembly {
+ public:
+  Assembly(const ViewWork& view, RenderResult& result) : view_(view), result_(result) {
+    result_.linear = view.photo;
+    result_.layers = Raster(view.photo.width, view.photo.height);
+    for (int y = 0; y < view.photo.height; ++y) {
+      for (int x = 0; x < view.photo.width; ++x) {
+        SetLayers(FrontShare(view_, x, y), false, result_.layers.At(x, y));
+      }
+    }
+  }
+
+  void Put(const FinishedTile& finished) {
+    const Tile tile = TileAt(view_.photo.width, view_.photo.height, finished.index);
+    size_t pixel = 0, sample = 0;
+    for (int y = tile.top; y < tile.bottom; ++y) {
+      for (int x = tile.left; x < tile.right; ++x) {
+        if (!finished.is_computed.at(pixel++)) continue;
+        for (int c = 0; c < 3; ++c) result_.linear.At(x, y)[c] = finished.rgb.at(sample++);
+        SetLayers(FrontShare(view_, x, y), true, result_.layers.At(x, y));
+      }
+    }
+    building_ += finished.counts.building;
+    changed_ += finished.counts.changed;
+    clipped_darkened_ += finished.counts.clipped_darkened;
+    clipped_lifted_ += finished.counts.clipped_lifted;
+    rays_ += finished.counts.rays;
+    ++tiles_;
+  }
+
+  void Finish() {
+    const int width = view_.photo.width, height = view_.photo.height;
+    result_.building_pixels = building_;
+    result_.changed_pixels = changed_;
+    result_.clipped_darkened = clipped_darkened_;
+    result_.clipped_lifted = clipped_lifted_;
+    result_.mean_rays = static_cast<double>(rays_) / (static_cast<double>(width) * height);
+    result_.tiles_left = TileCount(width, height) - tiles_;
+  }
+
+ private:
+  const ViewWork& view_;
+  RenderResult& result_;
+  std::atomic<long> building_ = 0, changed_ = 0, rays_ = 0;
+  std::atomic<long> clipped_darkened_ = 0, clipped_lifted_ = 0;
+  std::atomic<int> tiles_ = 0;
+};
+
+// One after the other on every thread, until all are done or it is stopped.
+void RenderTiles(const ViewWork& view, const std::vector<int>& indices, int threads,
+                 const RenderCourse& course, Assembly* assembly) {
+  std::atomic<size_t> next = 0;
+  const auto work = [&](int) {
+    _MM_SET_FLUSH_ZERO_MODE(_MM_FLUSH_ZERO_ON);
+    _MM_SET_DENORMALS_ZERO_MODE(_MM_DENORMALS_ZERO_ON);
+    for (size_t i = next++; i < indices.size(); i = next++) {
+      if (course.stops && course.stops()) return;
+      const FinishedTile finished = RenderTile(view, indices[i]);
+      assembly->Put(finished);
+      if (course.tile_done) course.tile_done(finished);
+    }
+  };
+  tbb::parallel_for(0, threads, work, tbb::simple_partitioner());
 }
 
 }  // namespace
-
-int TileCount(const Raster& photo) {
-  return ((photo.width + kTileSize - 1) / kTileSize) * ((photo.height + kTileSize - 1) / kTileSize);
-}
 
 void RenderOptions::Check() const {
   INSITU_CHECK(fewest_rays >= 4 && fewest_rays % 4 == 0);
@@ -226,28 +313,22 @@ void RenderOptions::Check() const {
 
 RenderResult RenderMontage(const MontageScene& scene, const PosedCamera& camera,
                            const Raster& photo, const RenderOptions& options,
-                           const std::function<void()>& tile_done) {
+                           const RenderCourse& course) {
   options.Check();
   INSITU_CHECK(photo.width == camera.camera.width() && photo.height == camera.camera.height());
   INSITU_CHECK(!options.foreground || (options.foreground->share.width == photo.width &&
                                        options.foreground->share.height == photo.height));
+  INSITU_CHECK(!options.sun_share || (options.sun_share->width == photo.width &&
+                                      options.sun_share->height == photo.height));
   const int cores = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
-  const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
-                                  options.threads > 0 ? options.threads : cores);
+  const int threads = options.threads > 0 ? options.threads : cores;
+  const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
   const ViewWork view = PrepareView(scene, camera, photo, options);
   RenderResult result;
-  result.linear = photo;
-  result.layers = Raster(photo.width, photo.height);
-  Counts counts;
-  tbb::parallel_for(0, TileCount(photo), [&](int index) {
-    _MM_SET_FLUSH_ZERO_MODE(_MM_FLUSH_ZERO_ON);
-    _MM_SET_DENORMALS_ZERO_MODE(_MM_DENORMALS_ZERO_ON);
-    RenderTile(view, TileAt(photo, index), result, counts);
-    if (tile_done) tile_done();
-  });
-  result.building_pixels = counts.building;
-  result.changed_pixels = counts.changed;
-  result.mean_rays = static_cast<double>(counts.rays) / (photo.width * photo.height);
+  Assembly assembly(view, result);
+  for (const FinishedTile& tile : course.earlier) assembly.Put(tile);
+  RenderTiles(view, TilesToRender(view, course.earlier), threads, course, &assembly);
+  assembly.Finish();
   return result;
 }
 

@@ -5,10 +5,12 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include "calibration/photo/foreground.h"
 #include "calibration/photo/raster.h"
 #include "radiometry/light/image_quality.h"
+#include "renderer/tiles/finished_tile.h"
 #include "renderer/trace/montage_scene.h"
 
 namespace insitu {
@@ -25,6 +27,11 @@ struct RenderOptions {
   int outline_rays = 32;  // with a point spread: a pixel that the outline may spread into, at most
   std::optional<Grain> grain = {};  // noise that computed pixels get; nullopt: none
   std::shared_ptr<const Foreground> foreground = {};  // of this photograph; null: nothing in front
+  // Whether the photograph shows less than there was: its sensor clipped. Empty: nowhere.
+  std::function<bool(int x, int y)> is_clipped = {};
+  // One channel of the photograph's size: of the sun that no polygon keeps away, what it shows to
+  // arrive, 0..1; null: all.
+  std::shared_ptr<const Raster> sun_share = {};
 
   void Check() const;  // throws CheckError that names the field that is wrong
 };
@@ -34,19 +41,26 @@ struct RenderResult {
   Raster layers;  // shares of each pixel: of the photograph, computed, and in front by the matte
   long building_pixels = 0;  // some ray hits the building
   long changed_pixels = 0;   // other pixels that differ from the photograph
-  double mean_rays = 0;      // a pixel
+  // Of these, clipped ones: drawn from a reflectance that is a lower bound.
+  long clipped_darkened = 0, clipped_lifted = 0;
+  double mean_rays = 0;  // a pixel
+  int tiles_left = 0;    // not rendered, since it was stopped: they hold the photograph
+};
+
+// How a render is followed, stopped and taken up again.
+struct RenderCourse {
+  std::vector<FinishedTile> earlier = {};  // of the same render: these are not rendered again
+  std::function<void(const FinishedTile&)> tile_done = {};  // called from any thread
+  std::function<bool()> stops = {};  // asked before each tile, from any thread
 };
 
 // `camera` and `photo` are one view: a photograph with its lens, or an input image with the
 // pinhole. Pixels that the building does not influence are those of `photo`, bit for bit. The
-// result does not depend on the number of threads. Where something stands in front the photograph
-// stays, and changes by what changes behind it. `tile_done`, if given, is called from any
-// thread.
+// result does not depend on the number of threads, nor on what was rendered earlier. Where
+// something stands in front the photograph stays, and changes by what changes behind it. Tiles in
+// sight of the building come first.
 RenderResult RenderMontage(const MontageScene& scene, const PosedCamera& camera,
                            const Raster& photo, const RenderOptions& options = {},
-                           const std::function<void()>& tile_done = {});
-
-constexpr int kTileSize = 32;  // [px]
-int TileCount(const Raster& photo);
+                           const RenderCourse& course = {});
 
 }  // namespace insitu

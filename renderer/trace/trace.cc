@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "radiometry/light/illumination.h"
+#include "radiometry/light/mirrored_share.h"
 #include "renderer/trace/glass.h"
 #include "renderer/trace/interreflected_light.h"
 #include "renderer/trace/mirror.h"
@@ -109,7 +110,8 @@ Spectrum SunBefore(const MontageScene& scene, const SurfacePoint& surface,
 
 // Case D on a secondary ray: true colour of a natural surface, from the photograph that shows it.
 Spectrum SiteColor(const MontageScene& scene, const SceneHit& hit, const Eigen::Vector3d& to_viewer,
-                   const LightDirections& light, World world, int depth) {
+                   LightDirections light, World world, int depth) {
+  light.sun_share = 1;  // that of the surface that the camera ray met
   const SpectralMaterial& material = scene.material_of_polygon[hit.index];
   const std::optional<SmoothLight> around = LightAround(scene, hit);
   Spectrum diffuse;
@@ -177,6 +179,15 @@ Spectrum FaceColor(const MontageScene& scene, const SceneHit& hit, const Ray& ra
                                                               LightAround(scene, hit));
 }
 
+// Case B above the horizon: the horizon's colour, or what the photographs show of the sky there.
+Spectrum SkyColor(const MontageScene& scene, const Eigen::Vector3d& direction) {
+  const Daylight& light = scene.natural.light;
+  if (!light.photographed_sky || light.zenith_direction.dot(direction) <= 0) {
+    return scene.natural.air.horizon;
+  }
+  return *light.photographed_sky * scene.sky.Towards(direction);
+}
+
 }  // namespace
 
 Spectrum BuildingColor(const MontageScene& scene, const SurfacePoint& surface,
@@ -189,13 +200,18 @@ Spectrum BuildingColor(const MontageScene& scene, const SurfacePoint& surface,
       (around ? daylight.sun_radiance * SunOnBuilding(scene, surface, light) + around->before +
                     around->change
               : TotalIrradiance(daylight, DaylightOnBuilding(scene, surface, light)));
-  const Spectrum mirror = MirrorReflectance(material, CosineTo(surface, to_viewer));
-  Spectrum L = (1 - mirror) * ReflectedRadiance(material.diffuse_weight, material.brdf, E);
-  if ((mirror > 0).any()) {
-    L += mirror * MirrorImage(scene, surface, material.specular->roughness, to_viewer, light,
-                              World::kWithBuilding, depth, kBuildingClearance);
-  }
-  return L;
+  const double cosine = CosineTo(surface, to_viewer);
+  const Spectrum mirror = MirrorReflectance(material, cosine);
+  if ((mirror <= 0).all()) return ReflectedRadiance(material.diffuse_weight, material.brdf, E);
+  // What meets a second facet is mirrored again or goes on to the ground: all of it in the shape of
+  // a first reflection. [Turquin 2019]
+  const double single = MirroredShare(material.specular->roughness, cosine);
+  const Spectrum again = (1 - single) * mirror;
+  const Spectrum L =
+      (1 - mirror) * (1 + again) * ReflectedRadiance(material.diffuse_weight, material.brdf, E);
+  return L + mirror * (1 + again / single) *
+                 MirrorImage(scene, surface, material.specular->roughness, to_viewer, light,
+                             World::kWithBuilding, depth, kBuildingClearance);
 }
 
 Spectrum DiffuseChange(const MontageScene& scene, const SurfacePoint& surface,
@@ -236,7 +252,8 @@ Spectrum TraceSecondary(const MontageScene& scene, const Ray& ray, const LightDi
   // Case B. Departure: the paper leaves open what a ray below the horizon returns.
   if (!hit) hit = FindGround(scene, ray);
   if (!hit) {
-    return light.sees_lights ? Spectrum(air.horizon + SunAlong(scene, ray.direction)) : air.horizon;
+    const Spectrum sky = SkyColor(scene, ray.direction);
+    return light.sees_lights ? Spectrum(sky + SunAlong(scene, ray.direction)) : sky;
   }
   if (!hit->is_building) {
     return ApparentColor(SiteColor(scene, *hit, -ray.direction, light, world, depth), air,

@@ -62,6 +62,9 @@ refuses_unknown() {
 }
 check 'an unknown command' refuses_unknown
 
+lists_materials() { (cd / && env -i PATH=/usr/bin:/bin "$insitu" materials | grep brick_red); }
+check 'the material library is installed' lists_materials
+
 # complete WORDS...: what is offered for the last word.
 complete_words() {
   # shellcheck disable=SC2016 # expanded by the inner shell

@@ -145,6 +145,17 @@ repeats_the_verdict() { montage --despite-fail | grep -E '^reconstruct +verdict 
 check 'and the verdict is repeated at the end' repeats_the_verdict
 cp -- "$DEMO_SITE/survey/observations.csv" "$site/survey/observations.csv"
 
+# A sample of the lawn among those of the concrete.
+/usr/bin/python3 - "$site/survey/samples.json" <<'PYTHON'
+import json, sys
+samples = json.load(open(sys.argv[1]))
+samples["daylight"].append(samples["haze"][0])
+json.dump(samples, open(sys.argv[1], "w"))
+PYTHON
+check 'light of two materials ends the run' fails 1 'insitu-light: the verdict is fail, see .*light/report.html'
+check 'unless it is wanted' montage --despite-fail
+cp -- "$DEMO_SITE/survey/samples.json" "$site/survey/samples.json"
+
 # On disks of their own, which only root can make.
 if mkdir -- "$temporary/disk" && mount -t tmpfs -o size=3m tmpfs "$temporary/disk" 2>/dev/null; then
   trap 'umount -l "$temporary/disk" 2>/dev/null; rm -rf -- "$temporary"' EXIT

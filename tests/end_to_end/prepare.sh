@@ -14,8 +14,8 @@ new_site() {
   cp -r -- "$DEMO_SITE" "$temporary/site"
 }
 
-# 20 of the 100 moments that scripts/bench prepare tries.
-new_site && check_figures 'kill -9' node "$tests/prepare/kill.mjs" "$temporary/site" "${KILLS:-20}"
+# 20 of the 100 moments that scripts/bench prepare tries, and 5 of the 25 while the journal is made shorter.
+new_site && check_figures 'kill -9' node "$tests/prepare/kill.mjs" "$temporary/site" "${KILLS:-20}" 5
 new_site && check_figures 'attacks' node "$tests/prepare/attacks.mjs" "$temporary/site"
 new_site && check_figures 'bad input' node "$tests/prepare/bad_input.mjs" "$temporary/site"
 
@@ -32,6 +32,7 @@ in_browser() {
 }
 in_browser 'two windows' windows
 in_browser 'another light' relit
+in_browser 'German' german "${SCREENSHOTS:-}"
 in_browser 'files' files
 check 'what the page wrote is read by the adjustment' \
   "$INSITU_BIN/insitu-reconstruct" "$temporary/site"
@@ -62,6 +63,10 @@ cp -- "$DEMO_SITE"/photos/* "$temporary/photographs"
 new_site
 check_figures 'nothing but photographs' node "$tests/prepare/start_from_nothing.mjs" \
   "$temporary/photographs" "$temporary/site" "$temporary/small.jpg"
+
+mkdir -p -- "$temporary/upright/photos"
+/usr/bin/python3 "$tests/prepare/upright_photos.py" "$temporary/upright/photos"
+in_browser 'for everyone' everyone "$temporary/upright" "${SCREENSHOTS:-}"
 
 # The photographs as if taken on film and scanned: no camera but the certificate that is typed.
 /usr/bin/python3 "$tests/prepare/film_scans.py" "$DEMO_SITE" "$temporary/film"

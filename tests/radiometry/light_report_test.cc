@@ -37,6 +37,8 @@ TEST(BriefReport, SaysWhatWasFound) {
   const SyntheticSite truth = MakeSyntheticSite("report");
   const std::string report = BriefReport(MeasureDaylight(truth.site));
   EXPECT_NE(report.find("over 200 m, 6 samples"), std::string::npos) << report;
+  EXPECT_NE(report.find("uniform, gradation 0 +- 0.0"), std::string::npos) << report;
+  EXPECT_NE(report.find("in 2 photographs"), std::string::npos) << report;
   EXPECT_NE(report.find("A: too few sharp, straight edges"), std::string::npos) << report;
 }
 

@@ -127,6 +127,9 @@ TEST_P(BinsTest, EnvironmentReturnsToTheLastBit) {
   measured.environment.qualities = {
       {PointSpread{0.5, 0.7, 0.03, 12}, std::nullopt},
       {std::nullopt, Grain{{1e-5, 2e-5, 3e-5}, {0, 1e-4, 0}, 0.6, 0.25, 300}}};
+  const Spectrum used = measured.environment.spectra.Ones();
+  measured.environment.light.sky_shape = {used / 3, used * 0.7};
+  measured.environment.light.photographed_sky = used / 7;
   WriteEnvironment(truth.site, measured);
   const NaturalEnvironment& a = measured.environment;
   const NaturalEnvironment b = ReadEnvironment(truth.site);
@@ -143,6 +146,9 @@ TEST_P(BinsTest, EnvironmentReturnsToTheLastBit) {
   EXPECT_TRUE((a.light.sun_radiance == b.light.sun_radiance).all());
   EXPECT_TRUE((a.light.sky_radiance == b.light.sky_radiance).all());
   EXPECT_TRUE((a.light.ambient_radiance == b.light.ambient_radiance).all());
+  EXPECT_TRUE((a.light.sky_shape.gradation == b.light.sky_shape.gradation).all());
+  EXPECT_TRUE((a.light.sky_shape.glow == b.light.sky_shape.glow).all());
+  EXPECT_TRUE((*a.light.photographed_sky == *b.light.photographed_sky).all());
   ASSERT_EQ(b.materials.size(), 3u);
   EXPECT_EQ(b.materials.at("gravel").specular->index, 1.4);
   EXPECT_EQ(b.materials.at("gravel").specular->weight, 0.3);

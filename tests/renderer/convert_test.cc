@@ -240,5 +240,17 @@ TEST_F(Convert, TexturesInsideTheModelBecomeFiles) {
   EXPECT_THAT(Converted().warnings, Contains(HasSubstr("neither PNG nor JPEG")));
 }
 
+TEST_F(Convert, GlassThatBoundsNoBodyIsTold) {
+  Write("materials.json", R"({"layers": {"GLASS": {"diffuse_rgb": [0, 0, 0], "ior": 1.5,
+    "specular": "fresnel", "transmission": 1, "solid": true}, "*": {"diffuse_rgb": [0, 0, 0]}}})");
+  Write("a.dxf", DrawingText(UnitSquare("WALL") + UnitSquare("GLASS")));
+  EXPECT_THAT(Converted().warnings, Contains(HasSubstr("\"GLASS\" is solid glass")));
+  std::filesystem::remove(folder_.path() / "building/a.dxf");
+  Write("b.obj",
+        "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\ng GLASS\n"
+        "f 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n");
+  EXPECT_THAT(Converted().warnings, testing::Not(Contains(HasSubstr("is solid glass"))));
+}
+
 }  // namespace
 }  // namespace insitu

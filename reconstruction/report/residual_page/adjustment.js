@@ -2,6 +2,7 @@
 
 function showSummary() {
   const s = report.summary, test = s.global_test, node = section("Adjustment");
+  if (report.page_note) element(node, "p", report.page_note);
   const unknowns = Object.entries(s.unknowns_of).map(([what, n]) => `${n} of ${what}`).join(", ");
   element(node, "p", `${s.observations} observations, ${s.unknowns} unknowns` +
     `${unknowns ? ` (${unknowns})` : ""}, datum defect ${s.datum_defect}, redundancy ${s.redundancy}; ${count(s.iterations, "iteration")}, ${s.termination}. ` +

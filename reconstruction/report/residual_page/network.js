@@ -58,7 +58,7 @@ function mapPlot(parent, caption, view, rows, marks) {
 function polygonLines(view) {
   const position = new Map(report.points.map(p => [p.name, p.position]));
   return report.polygons.flatMap(polygon => d3.groups(polygon.vertices, v => v.hole ?? 0).flatMap(([hole, ring]) =>
-    [...ring, ring[0]].map(v => placed(view, position.get(v.name), {name: `${polygon.name} ${hole || ""}`}))));
+    [...ring, ring[0]].filter(v => position.has(v.name)).map(v => placed(view, position.get(v.name), {name: `${polygon.name} ${hole || ""}`}))));
 }
 
 function showNetwork() {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The page as a whole.
 
-import {isReport} from "./site/api.js";
+import {isReport, wordErrors} from "./site/api.js";
 import {byId, first, node} from "./words/dom.js";
 import {addConstraintKeys, showConstraints} from "./tools/constraints.js";
 import {showControlTable} from "./points/control_table.js";
@@ -21,7 +21,7 @@ import {followRuns, showStages} from "./around/stages.js";
 import {start} from "./site/state.js";
 import {buildToolPanel} from "./tools/tool_panel.js";
 import {activePane} from "./site/ui.js";
-import {language, t} from "./words/words.js";
+import {language, said, t} from "./words/words.js";
 
 function addPageKeys() {
   addKeys();
@@ -42,6 +42,7 @@ function addPageKeys() {
 }
 
 async function begin() {
+  wordErrors(answer => said(answer, "error"));
   document.documentElement.lang = language === "de" ? "de-CH" : "en";
   document.body.classList.toggle("report", isReport);
   try {

@@ -80,6 +80,21 @@ TEST(FilmMap, ResidualsAndSigma) {
   EXPECT_NEAR(*map->sigma_px, std::sqrt(squares / 6), 1e-12);
 }
 
+// Of the corners of a square an affine map leaves one combination of errors, (1, -1, 1, -1) / 2; of
+// a dubious mark's error it therefore leaves 9 / 12 there and 1 / 12 with each of the others.
+TEST(FilmMap, ADubiousMarkCountsANinth) {
+  std::vector<Fiducial> marks = Scanned(Scan(0));
+  marks.resize(4);
+  marks[1].bitmap_px.x() += 0.6;
+  marks[1].sigma_times = kDubiousFiducial;
+  const auto map = FitFilmMap(marks, FilmTransformation::kAffine);
+  ASSERT_TRUE(map);
+  EXPECT_NEAR(map->residuals_px[1].x(), -0.45, 1e-9);
+  for (const int i : {0, 2, 3}) EXPECT_NEAR(std::abs(map->residuals_px[i].x()), 0.05, 1e-9);
+  EXPECT_NEAR(map->redundancies[1].x(), 0.75, 1e-9);
+  EXPECT_NEAR(*map->sigma_px, 0.6 / std::sqrt(24), 1e-9);
+}
+
 TEST(FilmMap, NeedsMarks) {
   std::vector<Fiducial> marks = Scanned(Scan(0));
   marks.resize(3);
@@ -165,6 +180,18 @@ TEST_F(FilmFiles, Fiducials) {
             ":3: mark 1 stands twice for photo west");
   EXPECT_EQ(error("1,-28,28,west,10,12\n1,28,28,east,11,12\n"),
             ":3: mark 1 has other millimetres than further up, expected those of one camera");
+}
+
+TEST_F(FilmFiles, AMarkMayBeDubious) {
+  const std::string text =
+      "mark,x_mm,y_mm,photo,x,y,state\n1,-28,28,west,10,12.5,dubious\n"
+      "2,28,28,west,2300,11,\n";
+  const auto marks = ReadFiducials(folder_.Write("fiducials.csv", text)).at("west");
+  EXPECT_EQ(marks[0].sigma_times, 3);
+  EXPECT_EQ(marks[1].sigma_times, 1);
+  const auto path = folder_.Write("fiducials.csv", text + "3,1,2,west,3,4,doubtful\n");
+  EXPECT_THAT(InputErrorOf([&] { ReadFiducials(path); }),
+              testing::HasSubstr(":4: state is \"doubtful\", expected dubious or nothing"));
 }
 
 TEST_F(FilmFiles, ACertificateThatListsItsMarksIsHeldAgainstThoseMeasured) {

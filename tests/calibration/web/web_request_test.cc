@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "calibration/web/web_request.h"
 
+#include <gmock/gmock.h>
+
 #include "tests/calibration/files/scratch_folder.h"
 
 namespace insitu {
@@ -59,6 +61,11 @@ TEST(ErrorResponse, IsJson) {
   EXPECT_EQ(response.status, 400);
   EXPECT_EQ(response.type, "application/json");
   EXPECT_EQ(response.body, "{\"error\":\"a \\\"b\\\"\\n\"}");
+}
+
+TEST(ErrorResponse, NamesTheKeyByWhichPagesWordIt) {
+  EXPECT_THAT(ErrorResponse(400, Sentence("cut", "{photo} is cut", {{"photo", "A"}})).body,
+              testing::HasSubstr("\"key\":\"cut\""));
 }
 
 }  // namespace

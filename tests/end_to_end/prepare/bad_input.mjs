@@ -16,8 +16,12 @@ const off = await server.ask("POST", "/api/op", insert("off", "observations", ma
 report("a mark off its photograph is refused", off.status === 400, off.body.error);
 const twice = await server.ask("POST", "/api/op", insert("twice", "observations", (await tables(server)).tables.observations[0]));
 report("a mark twice is refused, the other one shown", twice.status === 409 && twice.body.conflicts[0].current.point !== undefined);
-const bad = await server.ask("POST", "/api/op", insert("comma", "control_points", {name: "a,b", x: 1, y: 2, z: 3, sigma_x: 1, sigma_y: 1, sigma_z: 1, role: "control"}));
+const control = name => ({name, x: 1, y: 2, z: 3, sigma_x: 1, sigma_y: 1, sigma_z: 1, role: "control"});
+const bad = await server.ask("POST", "/api/op", insert("break", "control_points", control("a\nb")));
 report("a name that the file cannot hold is refused", bad.status === 400, bad.body.error);
+const comma = await server.ask("POST", "/api/op", insert("comma", "control_points", control("a,b")));
+await until("it is in the file", () => fs.readFileSync(`${survey}/control_points.csv`, "utf8").includes('\n"a,b",'));
+report("a name with a comma stands between quotes", comma.status === 200);
 
 fs.writeFileSync(marks, `${fs.readFileSync(marks, "utf8").trimEnd()}\nleft,from_outside,12,34,0.5\n`);
 await until("the outside change is seen", async () => (await tables(server)).tables.observations.some(row => row.point === "from_outside"));
@@ -32,6 +36,7 @@ fs.writeFileSync(`${survey}/polygons.json`, polygons.slice(0, polygons.length / 
 server = await start(site);
 const [cut] = (await tables(server)).read_only;
 report("a file that was cut is read-only, its line told", cut?.file === "survey/polygons.json" && cut.line > 1, `${cut?.file}:${cut?.line}: ${cut?.text}`);
+report("also in the terminal", server.complained().includes(`warning: survey/polygons.json:${cut.line}: `), server.complained());
 const locked = await server.ask("POST", "/api/op", insert("cut", "polygons", {name: "n", vertices: ["a", "b", "c"], material: "m"}));
 report("and not changed", locked.status === 400 && fs.readFileSync(`${survey}/polygons.json`, "utf8").length === Math.floor(polygons.length / 2), locked.body.error);
 fs.writeFileSync(`${survey}/polygons.json`, polygons);
@@ -42,7 +47,7 @@ await server.stop();
 fs.writeFileSync(`${site}/photos/broken.jpg`, "no photograph");
 server = await start(site);
 const broken = (await tables(server)).photos.find(photo => photo.name === "broken");
-report("a photo that cannot be decoded is named, the others go on", Boolean(broken?.fault), broken?.fault);
+report("a photo that cannot be decoded is named, the others go on", Boolean(broken?.fault) && server.complained().includes(`warning: ${broken.fault}`), broken?.fault);
 const tile = await server.ask("GET", "/api/tile?photo=0&level=0&x=0&y=0");
 report("its tile is refused", tile.status === 400, tile.body.error);
 await server.stop();

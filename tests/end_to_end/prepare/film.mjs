@@ -93,6 +93,13 @@ report("and the list says so", (await toDo()).some(text => text === "left: one m
 await place("4", scan["4"]);
 await place("5", scan["7"]);
 await person.sees("#film-about .fail", "mark 5 stands on mark 7");
+const german = await open(server, {browser: person.browser, prepared: other => other.addInitScript(() => localStorage.setItem("insitu-language", "de"))});
+await german.press("Alt+5");
+await german.photo("left");
+await german.sees("#film-about .fail", "die Marke 5 steht auf der Marke 7, oder ");
+await german.sees("#todo", "left: die Marke 5 steht auf der Marke 7");
+report("also in German, beside the scan and in the list", true, await german.page.textContent("#film-about .fail"));
+await german.page.close();
 await shot("wrong_fiducial");
 report("a mark on the wrong fiducial is named", true, await says("film-about .fail"));
 const worst = await page.getAttribute("#film-marks tbody tr", "data-fiducial");
@@ -167,6 +174,19 @@ await shot("switched_off");
 await person.press("x");
 await person.settled();
 report("and on again, to the byte", fs.readFileSync(`${site}/calibration/fiducials.csv`, "utf8") === bytes);
+const [dubious] = (await review("right")).marks.filter(one => one.mark === "1");
+await person.press("d");
+await person.settled();
+await until("its residual is another", async () => (await review("right")).marks.find(one => one.mark === "1").r > dubious.r);
+report("D doubts a mark: three times the σ, said in file and table", /^1,.*,right,.*,dubious$/m.test(fs.readFileSync(`${site}/calibration/fiducials.csv`, "utf8")) &&
+  (await page.textContent("#film-marks tr[data-fiducial='1']")).includes("?"), await page.getAttribute("#film-marks tr[data-fiducial='1']", "title"));
+await shot("dubious");
+await person.press("d");
+await person.settled();
+await person.press("Control+Z");
+await person.press("Control+Z");
+await person.settled();
+report("undone it is as before, to the byte", fs.readFileSync(`${site}/calibration/fiducials.csv`, "utf8") === bytes);
 await person.press("Delete");
 await person.settled();
 await person.press("Control+Z");
@@ -177,7 +197,7 @@ report("undone to the byte", fs.readFileSync(`${site}/calibration/fiducials.csv`
 const run = async stage => {
   await page.click("[data-menu=stages]");
   await page.click(`[data-stage=${stage}]`);
-  await page.waitForFunction(() => /done|failed/.test(document.querySelector("#stage-status")?.textContent ?? ""), null, {timeout: 120000});
+  await page.waitForFunction(() => /done|failed/.test(document.querySelector("#stage-status")?.textContent ?? ""));
   const status = await says("stage-status"), log = await says("stage-log");
   await person.press("Escape");
   report(`${stage} runs from the page`, /done/.test(status), log.trim().split("\n").slice(-1)[0]);

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// kill.mjs SITE MOMENTS: kill -9 at random moments while marks are set, moved and taken away; whatever the
-// server confirmed is there when it comes up again.
+// kill.mjs SITE MOMENTS [SHORTENED]: kill -9 at random moments while marks are set, moved and taken away; whatever
+// the server confirmed is there when it comes up again. Then SHORTENED times while it makes a long journal shorter.
+import fs from "node:fs";
+import {lengthen, linesOf} from "./long_journal.mjs";
 import {insert, report, seeded, start} from "./server.mjs";
 
-const [site, moments] = [process.argv[2], Number(process.argv[3])];
+const site = process.argv[2], [moments, shortened] = process.argv.slice(3).map(Number);
+const kPause = 90; // [ms], more than after which the server writes the files
 const random = seeded(9);
 const confirmed = new Map(); // point -> row
 let lost = 0, invented = 0, operations = 0, count = 0;
@@ -41,25 +44,58 @@ function compare(rows, pending) {
   else confirmed.delete(touched);
 }
 
-for (let moment = 0; moment < moments; ++moment) {
-  const server = await start(site);
-  const timer = setTimeout(() => server.child.kill("SIGKILL"), 20 + random() * 230);
-  let pending = null;
+const pause = ms => new Promise(done => setTimeout(done, ms));
+
+/** Changes until the server is killed, in a row or with time to save between; the one that was not confirmed. */
+async function changeUntilKilled(server) {
   for (;;) {
-    pending = change();
+    const pending = change();
     const answer = await server.ask("POST", "/api/op", pending).catch(() => null);
-    if (answer?.status !== 200) break;
+    if (answer?.status !== 200) return pending;
     note(pending.edits[0]);
     ++operations;
-    pending = null;
+    if (random() < 0.1) await pause(kPause);
   }
-  clearTimeout(timer);
+}
+
+async function compareAfter(server, pending) {
   await server.stop("SIGKILL");
   const again = await start(site);
   compare((await again.ask("GET", "/api/site")).body.tables.observations, pending);
   await again.stop("SIGKILL");
 }
-report("nothing confirmed is lost", lost === 0, `${moments} kills, ${operations} operations`);
+
+for (let moment = 0; moment < moments; ++moment) {
+  const server = await start(site);
+  const timer = setTimeout(() => server.child.kill("SIGKILL"), 20 + random() * 230);
+  const pending = await changeUntilKilled(server);
+  clearTimeout(timer);
+  await compareAfter(server, pending);
+}
+
+/** Kills it once it has begun to make its journal shorter, at once or a little later; what was there then. */
+async function killWhileShortening() {
+  lengthen(site, 4 + Math.floor(random() * 8));
+  const folder = `${site}/work/prepare`, server = await start(site);
+  const later = random() * 30;
+  const watcher = fs.watch(folder, (_, name) => {
+    if (!name?.startsWith(".journal.")) return;
+    watcher.close();
+    if (later < 10) server.child.kill("SIGKILL");
+    else setTimeout(() => server.child.kill("SIGKILL"), later - 10);
+  });
+  const pending = await changeUntilKilled(server);
+  watcher.close();
+  const isHalf = fs.readdirSync(folder).some(name => name.startsWith(".journal."));
+  const isShort = linesOf(site)[0].includes('"kind": "begin"');
+  await compareAfter(server, pending);
+  return isHalf ? "half" : isShort ? "done" : "before";
+}
+
+const found = {half: 0, done: 0, before: 0};
+for (let i = 0; i < (shortened ?? 0); ++i) ++found[await killWhileShortening()];
+if (shortened) report("killed while the journal was made shorter", found.half > 0 && found.half + found.done === shortened, JSON.stringify(found));
+report("nothing confirmed is lost", lost === 0, `${moments + (shortened ?? 0)} kills, ${operations} operations`);
 report("nothing is there that nobody asked for", invented === 0);
 const last = await start(site);
 report("SIGTERM ends it well", (await last.stop()) === 0);

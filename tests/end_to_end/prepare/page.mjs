@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The measuring page in Chromium, used as a person uses it; keys and clicks are counted.
 import {createRequire} from "node:module";
-import {until} from "./server.mjs";
+import {kPatience, until} from "./server.mjs";
 
 const {chromium} = createRequire(import.meta.url)(process.env.PLAYWRIGHT);
 
@@ -12,16 +12,16 @@ const launching = {executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium",
 /**
  * A window on the page; `profile`: a folder in which the browser keeps what pages store.
  * @param {{port: number, token: string}} server
- * @param {{size?: {width: number, height: number}, profile?: string, browser?: any,
+ * @param {{size?: {width: number, height: number}, profile?: string, browser?: any, touch?: boolean,
  *   prepared?: (page: any) => Promise<void>}} [how]
  */
-export async function open(server, {size = {width: 1280, height: 800}, profile, browser, prepared} = {}) {
+export async function open(server, {size = {width: 1280, height: 800}, profile, browser, prepared, touch = false} = {}) {
   if (profile) {
     const context = await chromium.launchPersistentContext(profile, {...launching, viewport: size});
     return openIn(context, server, context.pages()[0] ?? (await context.newPage()));
   }
   const used = browser ?? (await chromium.launch(launching));
-  const context = await used.newContext({viewport: size});
+  const context = await used.newContext({viewport: size, hasTouch: touch});
   const page = await context.newPage();
   await prepared?.(page);
   return openIn(used, server, page);
@@ -29,6 +29,7 @@ export async function open(server, {size = {width: 1280, height: 800}, profile, 
 
 async function openIn(browser, server, page) {
   const faults = [];
+  page.setDefaultTimeout(kPatience);
   page.on("pageerror", error => faults.push(error.message));
   page.on("console", said => {
     if (/Content Security Policy/.test(said.text())) faults.push(said.text());
@@ -109,6 +110,6 @@ export class Person {
   /** Until the page says it: a text in an element. */
   sees(selector, text = "") {
     return this.page.waitForFunction(([where, what]) =>
-      [...document.querySelectorAll(where)].some(one => one.textContent.includes(what)), [selector, text], {timeout: 30000});
+      [...document.querySelectorAll(where)].some(one => one.textContent.includes(what)), [selector, text]);
   }
 }

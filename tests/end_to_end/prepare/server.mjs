@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// insitu-prepare as a test drives it: started, asked, killed.
+// insitu-prepare, or another server of ours, as a test drives it: started, asked, killed.
 import {spawn} from "node:child_process";
 import http from "node:http";
 import {once} from "node:events";
@@ -12,9 +12,10 @@ process.once("exit", () => running.forEach(child => child.kill("SIGKILL")));
  * @param {string} site
  * @param {string[]} [options]
  * @param {import("node:child_process").SpawnOptions} [how] as whom it runs, for one
+ * @param {string} [program]
  */
-export async function start(site, options = [], how = {}) {
-  const child = spawn(`${process.env.INSITU_BIN}/insitu-prepare`, [site, "--no-browser", ...options], how);
+export async function start(site, options = [], how = {}, program = "insitu-prepare") {
+  const child = spawn(`${process.env.INSITU_BIN}/${program}`, [site, "--no-browser", ...options], how);
   running.add(child);
   child.once("exit", () => running.delete(child));
   let said = "", complained = "";
@@ -74,9 +75,12 @@ export function ask(port, method, path, body, headers = {}) {
 /** An operation that puts a row in. */
 export const insert = (id, table, row) => ({id, label: id, edits: [{table, before: null, after: row}]});
 
+/** [ms] after which what does not come is taken as never coming, on a machine that is busy with much else. */
+export const kPatience = 120000;
+
 /** Asks again until it is so; `instead`: what there was at the end, for the error. */
 export async function until(what, is, instead = async () => "") {
-  for (let i = 0; i < 600; ++i) {
+  for (const begun = performance.now(); performance.now() - begun < kPatience;) {
     const found = await is();
     if (found) return found;
     await new Promise(resolve => setTimeout(resolve, 50));

@@ -32,8 +32,11 @@ TEST(ReadNaturalMaterials, ReadsAllKinds) {
              "diffuse": "from photo"},
     "water": {"specular": "fresnel", "specular_weight": 0.9, "ior": 1.33, "roughness": 0.05,
               "distribution": "beckmann"},
+    "pool": {"use": "water", "roughness": 0.1},
     "steel": {"specular": "mirror", "specular_weight": 0.6, "diffuse_weight": 0.5}}})"));
-  ASSERT_EQ(materials.size(), 3u);
+  ASSERT_EQ(materials.size(), 4u);
+  EXPECT_NEAR(*materials.at("pool").specular->index, 1.333, 2e-3);  // of the library
+  EXPECT_EQ(materials.at("pool").specular->roughness.slope, 0.1);
   EXPECT_FALSE(materials.at("lawn").specular);
   EXPECT_EQ(materials.at("lawn").diffuse_weight, 1);
   EXPECT_EQ(materials.at("water").specular->weight, 0.9);

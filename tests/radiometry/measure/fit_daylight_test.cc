@@ -168,6 +168,21 @@ TEST(FitDaylight, KnownSurroundingsLeaveSunAndSkyAsTheyAre) {
   EXPECT_NEAR(fit.ambient_radiance[0], irradiance / hidden, 1e-10);
 }
 
+// A sample that sees a bright part of the sky does not make all of it brighter.
+TEST(FitDaylight, TheSkyCountsAsItIsSpread) {
+  std::vector<DaylightSample> samples = SamplesWithSurroundings();
+  for (size_t i = 0; i < samples.size(); ++i) {
+    DaylightSample& sample = samples[i];
+    sample.relative_sky = Spectrum::LinSpaced(0.7, 1.1) + 0.1 * (i % 4);
+    sample.true_color +=
+        kBrdf * Truth().sky_radiance * sample.geometry.sky * (sample.relative_sky - 1);
+  }
+  const DaylightFit fit = FitDaylight(samples, kBrdf, true, {});
+  EXPECT_LT(RelativeError(fit.sun_radiance, Truth().sun_radiance), 1e-10);
+  EXPECT_LT(RelativeError(fit.sky_radiance + fit.ambient_radiance, Truth().sky_radiance), 1e-10);
+  EXPECT_LT(fit.rms, 1e-9);
+}
+
 // No weight of theirs is left to fit: what they are taken for too little, sun and sky must bear.
 TEST(FitDaylight, SurroundingsAreNoUnknown) {
   std::vector<DaylightSample> samples = SamplesWithSurroundings();

@@ -171,6 +171,23 @@ TEST_F(SamplesTest, TooFewSamplesAreRefused) {
   ExpectPlaceAndMessage(ErrorOf("{\n\"horizon\": []}"), 2, "expected at least 1");
 }
 
+TEST_F(SamplesTest, OneRunTellsAllFaults) {
+  const std::string error =
+      ErrorOf("{\n\"haze\": [" + OnGround("A", 0, -4) + "],\n\"daylight\": [\n" +
+              R"({"photo": "Z", "x": 450, "y": 500, "polygon": "lake"},)" + "\n" +
+              R"({"photo": "A", "x": 450, "y": 20, "polygon": "ground"},)" + "\n" +
+              R"({"photo": "A", "y": 20, "polygon": "ground"}],)" + "\n" +
+              "\"daylight_reflectance_rgb\": [1, 2, 3]}");
+  EXPECT_NE(error.find("7 faults"), std::string::npos) << error;
+  ExpectPlaceAndMessage(error, 1, "\"horizon\" is missing");
+  ExpectPlaceAndMessage(error, 2, "expected at least 2");
+  ExpectPlaceAndMessage(error, 4, "unknown photo \"Z\"");
+  ExpectPlaceAndMessage(error, 4, "unknown polygon \"lake\"");
+  ExpectPlaceAndMessage(error, 5, "misses polygon");
+  ExpectPlaceAndMessage(error, 6, "\"x\" is missing");
+  ExpectPlaceAndMessage(error, 7, "above 0 and up to 1");
+}
+
 TEST_F(SamplesTest, WhileTheyAreChosenThoseAtFaultAreListed) {
   WriteWhole(synthetic_.site.survey() / "samples.json",
              "{\"horizon\": [],\n\"daylight\": [\n" + OnGround("A", 0, -4) + ",\n" +

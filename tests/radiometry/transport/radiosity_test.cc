@@ -223,6 +223,28 @@ TEST(Radiosity, WithoutBouncesABuildingTakesTheSkyItHides) {
   EXPECT_NEAR(court.Red(light.MeanBrdf(0) * kPi * sky.sky_radiance), 0.2, 0.05 * 0.2);
 }
 
+// The sky is spread as the light says: a wall receives less of an overcast one, and what hides the
+// zenith takes more than its form factor.
+TEST(Radiosity, AnOvercastSkyIsBrightestOnTop) {
+  Court court;
+  court.AddWall("ground", {-50, -50, -3}, {100, 0, 0}, {0, 100, 0}, 0.2);
+  court.AddPlanned({-0.5, -0.5, 4}, {0, 1, 0}, {1, 0, 0}, 0);
+  court.Photograph({-6, -6, 3});
+  const TransportScene scene = court.Scene();
+  Daylight sky = court.UnderSky(0.5);
+  sky.sky_shape.gradation.setOnes();
+  Interreflection light(scene, sky, Grid(5, 0.5), {.bounces = 0, .point_directions = kMany});
+  light.Solve(sky);
+  const GatheredLight level = light.At({Eigen::Vector3d::Zero(), kUp});
+  EXPECT_NEAR(court.Red(level.sky_before), kPi * 0.5, 0.005 * kPi * 0.5);
+  const double hidden = kPi * 0.5 * 4 * FactorToParallel(0.5, 0.5, 4 - kSurveyClearance);
+  EXPECT_NEAR(court.Red(level.change), -9.0 / 7 * hidden, 0.02 * hidden);
+  const GatheredLight wall = light.At({Eigen::Vector3d(0, 0, -1), kEast});
+  const double share = (kPi / 6 + 4.0 / 9) / (7 * kPi / 9);
+  EXPECT_NEAR(court.Red(wall.sky_before), share * kPi * 0.5, 0.01 * kPi * 0.5);
+  EXPECT_NEAR(court.Red(wall.relative_sky * court.Grey(1)), 2 * share, 0.02);
+}
+
 // Each bounce more adds light: none is a black building, one the sky's and the photographed
 // surroundings' light on it.
 TEST(Radiosity, BouncesConverge) {

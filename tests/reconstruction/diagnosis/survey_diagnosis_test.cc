@@ -66,6 +66,41 @@ class SurveyDiagnosis : public testing::Test {
   Survey survey_;
 };
 
+TEST_F(SurveyDiagnosis, OfMarksOnAResizedCopy) {
+  MoveMarks([](const Vector2d& p) { return Vector2d((p.array() + 0.5) / 2 - 0.5); });
+  ExpectFirst("observations.csv", 2, Kind::kFault, {" 0.5", "times as large", "by 2", "px (RMS)"});
+}
+
+TEST_F(SurveyDiagnosis, OfMarksOnALargerCopyOfOnePhoto) {
+  for (ImageObservation& mark : survey_.observations) {
+    if (mark.photo == "P1") mark.pixel = (mark.pixel.array() + 0.5) * 1.5 - 0.5;
+  }
+  const std::vector<Diagnosis> all = Diagnoses();
+  ASSERT_FALSE(all.empty());
+  EXPECT_NE(all[0].message.text().find("copy 1.50 times as large"), std::string::npos)
+      << Text(all[0]);
+  EXPECT_NE(all[0].message.text().find("photo 'P1'"), std::string::npos) << Text(all[0]);
+}
+
+TEST_F(SurveyDiagnosis, OfMarksInMillimetresAndInShares) {
+  const Survey sound = survey_;
+  MoveMarks([](const Vector2d& p) { return Vector2d((p.array() + 0.5) * 0.02 - 0.5); });
+  ExpectFirst("observations.csv", 2, Kind::kFault, {"millimetres", "50"});
+  survey_ = sound;
+  const Vector2d size(network_.cameras[0].width(), network_.cameras[0].height());
+  MoveMarks([&](const Vector2d& p) { return Vector2d((p.array() + 0.5) / size.array()); });
+  ExpectFirst("observations.csv", 2, Kind::kFault, {"shares of the photograph"});
+}
+
+TEST_F(SurveyDiagnosis, OfMarksOnACroppedCopy) {
+  for (ImageObservation& mark : survey_.observations) {
+    if (mark.photo == "P1") mark.pixel -= Vector2d(220, 130);
+  }
+  const std::vector<Diagnosis> all = Diagnoses();
+  ASSERT_FALSE(all.empty());
+  EXPECT_NE(all[0].message.text().find("cropped by 2"), std::string::npos) << Text(all[0]);
+}
+
 TEST_F(SurveyDiagnosis, OfASoundSurveyIsNothing) {
   for (unsigned seed = 0; seed < 100; ++seed) {
     survey_ = WithNoise(network_.survey, seed);

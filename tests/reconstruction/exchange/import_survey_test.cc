@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "reconstruction/exchange/read_survey_file.h"
 #include "reconstruction/geometry/coordinate_system.h"
 #include "tests/reconstruction/exchange/text_files.h"
 
@@ -153,6 +154,56 @@ TEST_F(SurveyImported, MixedOrImpossibleSystemsAreRefused) {
   ExpectError([&] { Import({"feet_up.txt"}); }, "feet_up.txt", 0, "heights in another unit");
   options_.crs = "EPSG:2056";
   ExpectError([&] { Import({"none.txt"}); }, "none.txt", 0, "--file-crs");
+}
+
+// Photo names with blanks, of another case, in tables between tabulators.
+TEST_F(SurveyImported, PhotoNamesWithBlanksAndOfOtherCase) {
+  options_.sigma_m = 0.01;
+  options_.mark_sigma_px = 0.5;
+  Write("tabs.txt", "EPSG:32632\n465000\t5250000\t400\t10\t20\timg_1.jpg\tp 1\n");
+  const SurveyImport tabs = Import({"tabs.txt"});
+  ASSERT_EQ(tabs.observations.size(), 1u);
+  EXPECT_EQ(tabs.observations[0].photo, "IMG_1");
+  EXPECT_EQ(tabs.observations[0].point, "p 1");
+  EXPECT_TRUE(Says(tabs, "taken for the site's \"IMG_1\""));
+  const SurveyFile blanks = ReadSurveyFile(
+      Write("blanks.txt", "EPSG:32632\n465000 5250000 400 10 20 IMG 1 (2).jpg p\n"), SizeOfPhoto);
+  EXPECT_EQ(blanks.marks[0].photo, "IMG 1 (2)");
+  EXPECT_EQ(blanks.marks[0].point, "p");
+  const SurveyFile words = ReadSurveyFile(
+      Write("words.txt", "LV95\n2600000 1200000 400 10 20 IMG_1.jpg p\n"), SizeOfPhoto);
+  EXPECT_EQ(words.crs, "LV95");
+}
+
+TEST_F(SurveyImported, PlacesOutsideTheAreaOfUseAreTold) {
+  options_.sigma_m = 0.01;
+  Write("near.txt", "EPSG:32632\na 930000 5250000 410\nb 500000 5250000 410\n");
+  EXPECT_TRUE(Says(Import({"near.txt"}), "WARNING: 1 of 2 points, point \"a\""));
+  Write("swapped.txt", "EPSG:2056\na 1200000 2600000 410\n");
+  ExpectError([&] { Import({"swapped.txt"}); }, "swapped.txt", 2, "with x and y exchanged");
+  Write("band.txt", "WGS84 UTM 17S\na 713000 3967000 120\n");
+  options_.crs = "EPSG:32617";
+  ExpectError([&] { Import({"band.txt"}); }, "band.txt", 2, "outside the area of use");
+  options_.crs.reset();
+  EXPECT_TRUE(Says(Import({"band.txt"}), "write 17N"));
+}
+
+TEST_F(SurveyImported, SystemsInFeetWithColumnsThatStateTheirUnit) {
+  options_.sigma_m = 0.01;
+  options_.file_crs = "EPSG:2263";
+  Write("feet.csv",
+        "Name,Easting (US ft),Northing (US ft),Height (US ft)\na,987654,123456,39.37\n");
+  const SurveyImport import = Import({"feet.csv"});
+  EXPECT_NEAR(import.control_points[0].position.x(), 987654 * 1200.0 / 3937, 1e-6);
+  EXPECT_NEAR(import.control_points[0].position.z(), 12, 1e-9);
+  options_.crs = "EPSG:32618";
+  EXPECT_NEAR(Import({"feet.csv"}).control_points[0].position.y(), 4.45e6, 1e5);
+}
+
+TEST_F(SurveyImported, NamesAreQuotedWhereTheyNeedIt) {
+  options_.sigma_m = 0.01;
+  Write("points.csv", "name,x,y,z\n\"a,b\",1,2,3\n");
+  EXPECT_EQ(Import({"points.csv"}).control_points[0].name, "a,b");
 }
 
 TEST(CoordinateSystems, AreKnownByTheWordsOfOpenDroneMap) {

@@ -228,6 +228,35 @@ TEST_F(Report, SumsUpTiePointsInsteadOfListingThem) {
   EXPECT_LT(ResidualPage(report).size(), 2u << 20);
 }
 
+// 500 photographs of 2 000 named marks: what fits worst in full, worst first, of the rest the
+// figures.
+TEST_F(Report, PageOfALargeNetworkStaysSmall) {
+  Json::Value report = Make();
+  const Json::Value photo = report["photos"][0], point = report["points"][0],
+                    control = report["control"]["points"][0];
+  Json::Value mark = photo["marks"][0];
+  report["photos"] = report["points"] = report["control"]["points"] = Json::Value(Json::arrayValue);
+  for (int i = 0; i < 500; ++i) {
+    Json::Value copy = photo;
+    copy["photo"] = "photo " + std::to_string(i);
+    copy["rms_px"] = 0.5 + i / 1000.0;
+    copy["thumbnail"] = "data:image/jpeg;base64," + std::string(20000, 'A');
+    for (int k = 0; k < 2000; ++k) copy["marks"].append(mark);
+    report["photos"].append(copy);
+  }
+  for (int i = 0; i < 30000; ++i) report["points"].append(point);
+  for (int i = 0; i < 2000; ++i) report["control"]["points"].append(control);
+  const std::string page = ResidualPage(report);
+  EXPECT_LT(page.size(), 5u << 20);
+  const Json::Value shown = Embedded(page);
+  EXPECT_EQ(shown["photos"].size(), 500u);
+  EXPECT_EQ(shown["photos"][0]["photo"].asString(), "photo 499");
+  EXPECT_TRUE(shown["photos"][0].isMember("thumbnail"));
+  EXPECT_FALSE(shown["photos"][499].isMember("thumbnail"));
+  EXPECT_NE(shown["page_note"].asString().find("40 of 500 photos"), std::string::npos);
+  EXPECT_NE(Drawn(page).find("<h2>Conventions</h2>"), std::string::npos);
+}
+
 TEST_F(Report, KeepsNumbersThatAreNotNumbersOut) {
   adjustment_.sigma0 = std::numeric_limits<double>::quiet_NaN();
   adjustment_.points[0].covariance.setConstant(std::numeric_limits<double>::infinity());

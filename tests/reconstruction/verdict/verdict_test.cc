@@ -53,6 +53,15 @@ TEST_F(Verdict, ReviewsAPointOfOneRay) {
   EXPECT_NE(few->remedy, "");
 }
 
+TEST_F(Verdict, HardlyEverObjectsToALensThatFits) {
+  int objections = 0;
+  for (unsigned seed = 0; seed < 40; ++seed) {
+    survey_ = WithNoise(network_.survey, seed);
+    objections += Find(Judge(Adjusted()), "does not fit: the residuals") != nullptr;
+  }
+  EXPECT_LE(objections, 2);
+}
+
 TEST_F(Verdict, PassesWhenThereIsNothingToObjectTo) {
   SurveyThePointOfOneRay();
   const auto findings = Judge(Adjusted());

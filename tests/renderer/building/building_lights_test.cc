@@ -116,11 +116,22 @@ TEST_F(Lights, FaultyIesFiles) {
   EXPECT_THAT(complaint("25 0", "nan 0"), HasSubstr("expected a number"));
 }
 
+TEST_F(Lights, SpectraOfTheLibrary) {
+  folder_.Write("library/sodium.json", R"({"kind": "lamp", "source": "us", "licence": "-",
+    "spectrum_table": [[580, 0], [589, 1], [600, 0]]})");
+  const auto file = folder_.Write("lamps.json", R"({"site_luminance_cd_m2": 1000, "lights": [
+    {"name": "a", "position": [0, 0, 0], "spectrum": "sodium", "luminous_intensity_cd": 100}]})");
+  const PointLight lamp = ReadLights(file, MaterialLibrary({folder_.path() / "library"})).at(0);
+  EXPECT_EQ(lamp.spectrum.size(), 3u);
+  EXPECT_GT(lamp.intensity_rgb.x(), lamp.intensity_rgb.y());
+  EXPECT_EQ(lamp.intensity_rgb.z(), 0);
+}
+
 TEST_F(Lights, BadInput) {
   const std::string start = R"({"name": "a", "position": [0, 0, 0], )";
   EXPECT_THAT(Complaint(start + R"("type": "laser"})"), HasSubstr("expected point, spot"));
   EXPECT_THAT(Complaint(start + R"("spectrum": "F11", "luminous_flux_lm": 1})"),
-              HasSubstr("expected D65, A or blackbody"));
+              HasSubstr("expected D65, A, blackbody or a lamp of the library"));
   EXPECT_THAT(Complaint(start + R"("spectrum": "A"})"), HasSubstr("names no strength"));
   EXPECT_THAT(Complaint(start + R"("spectrum": "A", "luminous_flux_lm": -1})"),
               HasSubstr("is negative"));

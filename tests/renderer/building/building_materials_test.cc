@@ -63,6 +63,38 @@ TEST_F(Materials, ColorsInEveryForm) {
   EXPECT_GT(brick.x(), brick.z());
 }
 
+TEST_F(Materials, ALibrarysEntryWithKeysOfOnesOwn) {
+  folder_.Write("library/alu.json", R"({"kind": "material", "source": "us", "licence": "-",
+    "diffuse_rgb": [0, 0, 0], "specular": "conductor", "roughness": 0.2,
+    "complex_index": [[400, 0.5, 5], [700, 2, 8]]})");
+  folder_.Write("library/wall.json", R"({"kind": "material", "source": "us", "licence": "-",
+    "texture": "wall.png", "diffuse_weight": 0.5})");
+  Raster white(1, 1);
+  white.SetRgb(0, 0, {1, 1, 1});
+  WritePng(folder_.path() / "library/wall.png", white, Encoding::kSrgb8);
+  const MaterialLibrary library({folder_.path() / "library"});
+  const auto read = [&](const std::string& layers) {
+    return BuildingMaterials::Read(folder_.Write("materials.json", R"({"library": {"mine":
+      {"use": "alu", "roughness": 0.4}}, "layers": {)" + layers + "}}"),
+                                   library);
+  };
+  BuildingMaterials materials = read(R"("a": {"use": "alu"}, "b": {"use": "mine"},
+    "c": {"use": "alu", "specular": "none", "reflectance": [[400, 0.5], [700, 0.5]]},
+    "d": {"use": "wall"}, "e": {"diffuse_rgb": [0, 0, 0], "proposed": "alu"})");
+  EXPECT_EQ(materials.Find(Names("a"))->surface.specular->roughness.slope, 0.2);
+  EXPECT_EQ(materials.Find(Names("a"))->surface.name, "a");
+  EXPECT_EQ(materials.Find(Names("b"))->surface.specular->roughness.slope, 0.4);
+  EXPECT_EQ(materials.Find(Names("b"))->surface.metal->index.size(), 2u);
+  EXPECT_FALSE(materials.Find(Names("c"))->surface.specular);
+  EXPECT_NEAR(materials.Find(Names("c"))->surface.diffuse_rgb.x(), 0.5, 2e-3);
+  EXPECT_EQ(materials.Find(Names("d"))->surface.diffuse_weight, 0.5);
+  EXPECT_EQ(materials.Find(Names("d"))->surface.texture, folder_.path() / "library/wall.png");
+  EXPECT_NEAR(materials.Find(Names("d"))->surface.diffuse_rgb.x(), 1, 1e-6);
+  EXPECT_FALSE(materials.Find(Names("e"))->surface.specular);  // nobody has taken it
+  EXPECT_EQ(materials.Proposed(), std::vector<std::string>{"e"});
+  EXPECT_THROW(read(R"("a": {"use": "allu"})"), InputError);
+}
+
 TEST_F(Materials, BadInput) {
   const auto complaint = [&](const std::string& material) {
     return Complaint("{\"layers\": {\n\"W\": {" + material + "}}}");
@@ -71,9 +103,11 @@ TEST_F(Materials, BadInput) {
   EXPECT_THAT(complaint(R"("diffuse_srgb": [0, 0, 256])"), HasSubstr("materials.json:2: "));
   EXPECT_THAT(complaint(R"("reflectance": [[500, 1.5], [600, 0]])"), HasSubstr("above 1"));
   EXPECT_THAT(complaint(R"("reflectance": [[500, 0.5], [500, 0]])"), HasSubstr("does not rise"));
+  EXPECT_THAT(complaint(R"("reflectance": [[500, 0.5], [700, 0]])"), HasSubstr("does not cover"));
   EXPECT_THAT(complaint(R"("diffuse_rgb": [0, 0, 0], "texture": "no.png")"),
               HasSubstr("no.png, which is not there"));
-  EXPECT_THAT(complaint(R"("use": "gold")"), HasSubstr("\"gold\", which is not in \"library\""));
+  EXPECT_THAT(complaint(R"("use": "gold")"),
+              HasSubstr("is \"gold\", which is no material of the library"));
 }
 
 // Half of its light, though three quarters of its code.

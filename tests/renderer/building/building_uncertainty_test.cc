@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <vector>
+
 #include "calibration/files/error.h"
 #include "calibration/files/whole_file.h"
 #include "tests/calibration/files/scratch_folder.h"
@@ -22,12 +24,12 @@ SceneGeometry OneCamera() {
 }
 
 // Corners 20 m and 10 m away, one of them drawn twice, and one behind the camera.
-ArtificialEnvironment Corners(const Eigen::Vector3d& origin) {
-  ArtificialEnvironment building;
+std::vector<Eigen::Vector3d> Corners(const Eigen::Vector3d& origin) {
+  std::vector<Eigen::Vector3d> corners;
   for (const double depth : {20.0, 10.0, 10.0001, -10.0}) {
-    building.vertices.push_back(origin + Eigen::Vector3d(0, 0, depth));
+    corners.push_back(origin + Eigen::Vector3d(0, 0, depth));
   }
-  return building;
+  return corners;
 }
 
 TEST(BuildingUncertainty, IsOfEveryCornerInTheFrameOnce) {
@@ -47,6 +49,20 @@ TEST(BuildingUncertainty, IsUnknownWithoutCovariances) {
   SceneGeometry scene = OneCamera();
   scene.camera_covariances.clear();
   EXPECT_FALSE(BuildingUncertainty(scene, 0, Corners(scene.origin)));
+}
+
+TEST(ThinnedOut, KeepsTheLeastKnownOfWhatIsClose) {
+  std::vector<CornerUncertainty> corners(30000);
+  for (size_t i = 0; i < corners.size(); ++i) {
+    corners[i].image.pixel = {static_cast<double>(i % 150), static_cast<double>(i / 150)};
+    corners[i].image.major_px = i == 20250 ? 2 : 1;
+  }
+  const std::vector<CornerUncertainty> kept = ThinnedOut(corners);
+  EXPECT_LE(kept.size(), 10000u);
+  EXPECT_GT(kept.size(), 5000u);
+  EXPECT_EQ(Summarize(kept).worst_px, 2);
+  corners.resize(10000);
+  EXPECT_EQ(ThinnedOut(corners).size(), 10000u);
 }
 
 TEST(WriteUncertainty, ALineACorner) {

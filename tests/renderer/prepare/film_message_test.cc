@@ -54,8 +54,9 @@ TEST_F(FilmMessageTest, WithoutFilmThereIsNone) { EXPECT_TRUE(Message().isNull()
 TEST_F(FilmMessageTest, SaysWhatIsMissing) {
   ASSERT_TRUE(Put("film_marks", R"({"mark": "1", "x_mm": -28, "y_mm": -28})").is_done());
   const Json::Value message = Message();
-  EXPECT_EQ(message["missing"][0], "the principal distance");
-  EXPECT_EQ(message["missing"][1], "2 more fiducial marks with their millimetres");
+  EXPECT_EQ(message["missing"][0]["text_said"]["key"], "filmNoFocal");
+  EXPECT_EQ(message["missing"][0]["text"], "the principal distance");
+  EXPECT_EQ(message["missing"][1]["text"], "2 more fiducial marks with their millimetres");
   EXPECT_EQ(message["photos"].size(), 2U);  // no other camera: all are scans
 }
 
@@ -117,6 +118,25 @@ TEST_F(FilmMessageTest, AMarkSwitchedOffIsLeftOutByMapAndReader) {
   EXPECT_EQ(Message()["photos"]["A"]["placed"], 3);
 }
 
+// A dubious mark has three times the sigma of others, in the page's map and in the programs'.
+TEST_F(FilmMessageTest, ADubiousMarkWeighsLess) {
+  TypeCertificate();
+  for (const auto& [mark, x, y] : {std::tuple("1", -28, -28), {"2", 28, -28}, {"3", 28, 28}}) {
+    Place(mark, x, y);
+  }
+  Place("4", -28, 28, 0.8);
+  Json::Value before = edit_->Rows("fiducials")[3], after = before;
+  after["state"] = "dubious";
+  ASSERT_TRUE(Apply("doubt", "fiducials", before, after).is_done());
+  const Json::Value marks = Message()["photos"]["A"]["marks"];  // in any order: all w are equal
+  for (const Json::Value& mark : marks) {
+    EXPECT_NEAR(std::abs(mark["vx"].asDouble()), mark["mark"] == "4" ? 0.6 : 0.2 / 3, 1e-9);
+    EXPECT_NEAR(mark["w"].asDouble(), 0.6 / (3 * 0.5 * std::sqrt(0.75)), 1e-9);
+  }
+  ASSERT_TRUE(edit_->Save().is_saved());
+  EXPECT_EQ(ReadFiducials(site_.boards() / "fiducials.csv").at("A")[3].sigma_times, 3);
+}
+
 // Files that are there keep every byte that no edit touches.
 TEST_F(FilmMessageTest, FilesThatAreThereKeepTheirManner) {
   const std::string film =
@@ -158,10 +178,11 @@ TEST_F(FilmMessageTest, WhatTheReaderObjectsToIsTold) {
   folder_.Write("calibration/film.json",
                 "{\"focal_mm\": 60,\n \"fiducials\": [{\"mark\": \"1\", \"x_mm\": \"a\"}]}");
   Reopen();
-  EXPECT_THAT(Message()["faults"][0].asString(), HasSubstr("film.json:2:"));
+  EXPECT_THAT(Message()["faults"][0]["text"].asString(), HasSubstr("film.json:2:"));
   folder_.Write("calibration/film.json", "{\"focal_mm\": 60, \"transformation\": \"helmert\"}");
   Reopen();
-  EXPECT_THAT(Message()["faults"][0].asString(), HasSubstr("expected affine or projective"));
+  EXPECT_THAT(Message()["faults"][0]["text"].asString(),
+              HasSubstr("expected affine or projective"));
 }
 
 TEST_F(FilmMessageTest, WhatNoReaderTakesIsRefused) {
@@ -181,13 +202,14 @@ TEST_F(FilmMessageTest, WhatNoReaderTakesIsRefused) {
 TEST_F(FilmMessageTest, MillimetresThatDifferFromTheCertificateAreTold) {
   TypeCertificate();
   Place("1", -28.5, -28);
-  EXPECT_EQ(Message()["faults"][0], "mark 1 of A has other millimetres than the certificate");
+  EXPECT_EQ(Message()["faults"][0]["text"],
+            "mark 1 of A has other millimetres than the certificate");
 }
 
 TEST_F(FilmMessageTest, ACameraBesideItIsRefused) {
-  EXPECT_EQ(RefusalOfFilm(site_), "");
+  EXPECT_TRUE(RefusalOfFilm(site_).empty());
   folder_.Write("calibration/camera.cameramodel", "");
-  EXPECT_THAT(RefusalOfFilm(site_),
+  EXPECT_THAT(RefusalOfFilm(site_).text(),
               HasSubstr("calibration/camera.cameramodel is of another camera"));
 }
 

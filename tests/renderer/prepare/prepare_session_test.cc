@@ -34,10 +34,14 @@ class PrepareSessionTest : public testing::Test {
   }
 
   void Start() {
-    session_ = std::make_unique<PrepareSession>(site_, [this](const std::string& text) {
+    const auto tell = [this](const std::string& text) {
       const std::lock_guard lock(mutex_);
       told_.push_back(RowOf(text));
       came_.notify_all();
+    };
+    session_ = std::make_unique<PrepareSession>(site_, tell, [this](const std::string& text) {
+      const std::lock_guard lock(mutex_);
+      warnings_ += text + "\n";
     });
   }
 
@@ -57,6 +61,11 @@ class PrepareSessionTest : public testing::Test {
     return found;
   }
 
+  std::string Warnings() {
+    const std::lock_guard lock(mutex_);
+    return warnings_;
+  }
+
   static Json::Value Mark(const std::string& id, const Json::Value& before,
                           const Json::Value& after) {
     return ToJson(OneEdit(id, "observations", before, after));
@@ -67,6 +76,7 @@ class PrepareSessionTest : public testing::Test {
   std::mutex mutex_;
   std::condition_variable came_;
   std::vector<Json::Value> told_;
+  std::string warnings_;
   std::unique_ptr<PrepareSession> session_;
 };
 
@@ -170,7 +180,7 @@ TEST_F(PrepareSessionTest, EndingItSavesWhatWasConfirmed) {
 TEST_F(PrepareSessionTest, PlaceAndTimeFromElsewhereLeaveWhatIsStatedAlone) {
   WriteWhole(site_.description(), R"({"name": "mine", "latitude": 47})");
   Start();
-  session_->TakeSite(RowOf(R"({"latitude": 1, "longitude": 8})"));
+  session_->TakeSite(RowOf(R"({"latitude": 1, "longitude": 8})"), "place");
   const Json::Value site = session_->Site()["tables"]["site"][0];
   EXPECT_EQ(site["latitude"], 47);
   EXPECT_EQ(site["longitude"], 8);
@@ -178,7 +188,9 @@ TEST_F(PrepareSessionTest, PlaceAndTimeFromElsewhereLeaveWhatIsStatedAlone) {
 
 TEST_F(PrepareSessionTest, ASecondOneOnTheSameSiteIsRefused) {
   Start();
-  EXPECT_THROW(PrepareSession(site_, [](const std::string&) {}), InputError);
+  EXPECT_THROW(PrepareSession(
+                   site_, [](const std::string&) {}, [](const std::string&) {}),
+               InputError);
 }
 
 TEST_F(PrepareSessionTest, AFileThatParsesNoMoreIsToldSoThatPagesLoadAnew) {
@@ -190,6 +202,7 @@ TEST_F(PrepareSessionTest, AFileThatParsesNoMoreIsToldSoThatPagesLoadAnew) {
   ASSERT_EQ(read_only.size(), 1U);
   EXPECT_EQ(read_only[0]["table"], "polygons");
   EXPECT_THAT(read_only[0]["file"].asString(), HasSubstr("polygons.json"));
+  EXPECT_THAT(Warnings(), HasSubstr("survey/polygons.json:1: "));
 }
 
 // While it lives no file of this process grows, as on a full disk.
@@ -219,6 +232,8 @@ TEST_F(PrepareSessionTest, WhatTheJournalCannotTakeIsNotDone) {
     EXPECT_EQ(answer.status, 507);
     EXPECT_THAT(answer.body["error"].asString(), HasSubstr("journal.jsonl"));
     EXPECT_TRUE(session_->MarksOf("p").empty());
+    session_->Apply(operation);  // a page asks again and again
+    EXPECT_EQ(Warnings(), answer.body["error"].asString() + "\n");
   }
   EXPECT_EQ(session_->Apply(operation).status, 200);
   EXPECT_TRUE(session_->MarksOf("p").contains("A"));
@@ -233,6 +248,8 @@ TEST_F(PrepareSessionTest, APhotographOfAnotherSizeThanItsCamerasIsNamed) {
   const Json::Value photos = Wait("adjusted", 0)["photos"];
   EXPECT_TRUE(photos["B"]["needs_lens"].asBool());
   EXPECT_THAT(photos["B"]["why"].asString(), HasSubstr("B.png: is 10x6 px, expected 8x6 px"));
+  Wait("todo", 0);
+  EXPECT_THAT(Warnings(), HasSubstr("B.png: is 10x6 px, expected 8x6 px"));
   EXPECT_FALSE(photos["A"].isMember("needs_lens"));
 }
 

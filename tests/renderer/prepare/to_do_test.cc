@@ -107,16 +107,16 @@ TEST_F(ToDoTest, WithoutACameraFilmMayBeMeant) {
 
 TEST_F(ToDoTest, FilmAsksForItsCertificateThenForTheMarksOfEachScan) {
   Complete();
-  input_.film = RowOf(R"({"folder": "calibration", "missing": ["the principal distance"],
+  input_.film = RowOf(R"({"folder": "calibration", "missing": [{"text": "the principal distance"}],
     "faults": [], "photos": {
       "A": {"needed": 3, "placed": 1, "unplaced": ["2", "3", "4"], "suspicions": [], "redundancy": 0},
       "B": {"needed": 3, "placed": 3, "unplaced": ["4"], "suspicions": [], "redundancy": 0},
       "C": {"needed": 3, "placed": 4, "unplaced": [], "redundancy": 2,
-            "suspicions": ["marks 1 and 2 are exchanged"]},
+            "suspicions": [{"text": "marks 1 and 2 are exchanged"}]},
       "D": {"needed": 3, "placed": 4, "unplaced": [], "redundancy": 2, "usable": true,
-            "suspicions": ["the marks fit to 1.20 px only"]}}})");
+            "suspicions": [{"text": "the marks fit to 1.20 px only"}]}}})");
   const Json::Value items = ToDo(input_);
-  EXPECT_THAT(Texts(), ElementsAre("the film's certificate lacks (1): the principal distance",
+  EXPECT_THAT(Texts(), ElementsAre("the film's certificate lacks: the principal distance",
                                    "A: fiducials to be placed (3): 2, 3, 4",
                                    "C: marks 1 and 2 are exchanged", "B: one more fiducial",
                                    "D: the marks fit to 1.20 px only"));

@@ -128,22 +128,33 @@ TEST(Body, WithoutAbsorptionDisappearsInAFurnace) {
   }
 }
 
+// At all roughnesses, bare and as a coat over white.
 TEST(RoughMirror, DisappearsInAFurnace) {
-  const SmallSite site = Furnace();
-  SurfaceMaterial metal{"metal", Vector3d::Zero(), 0,
-                        Specular{1, std::nullopt, {0.05, FacetDistribution::kBeckmann}}};
-  const MontageScene scene = site.With(Plate(site, {0, 0, 1}, 3, metal));
-  Vector3d sum = Vector3d::Zero();
-  constexpr int kSide = 24;
-  for (int i = 0; i < kSide * kSide; ++i) {
-    PrimaryRay primary = {{{0, -10, 6}, Vector3d(0, 10, -5).normalized()},
-                          Vector3d::Constant(kLawnRadiance),
-                          Along(Vector3d::UnitZ())};
-    const int column = i % kSide, row = i / kSide;
-    primary.light.facet = {(column + 0.5) / kSide, (row + 0.5) / kSide};
-    sum += TracePrimary(scene, primary).rgb / (kSide * kSide);
+  SmallSite site = Furnace();
+  site.natural.light.sky_radiance = site.natural.air.horizon;
+  site.natural.light.ambient_radiance.setZero();
+  const auto seen = [&](double diffuse, const std::optional<double>& index,
+                        const Roughness& roughness) {
+    SurfaceMaterial material{"m", Vector3d::Constant(diffuse), 1, Specular{1, index, roughness}};
+    const MontageScene scene = site.With(Plate(site, {0, 0, 1}, 3, material));
+    Vector3d sum = Vector3d::Zero();
+    constexpr int kSide = 24;
+    for (int i = 0; i < kSide * kSide; ++i) {
+      PrimaryRay primary = {{{0, -10, 6}, Vector3d(0, 10, -5).normalized()},
+                            Vector3d::Constant(kLawnRadiance),
+                            Along(Vector3d::UnitZ())};
+      const int column = i % kSide, row = i / kSide;
+      primary.light.facet = {(column + 0.5) / kSide, (row + 0.5) / kSide};
+      sum += TracePrimary(scene, primary).rgb / (kSide * kSide);
+    }
+    return sum.x() / kLawnRadiance;
+  };
+  for (const auto distribution : {FacetDistribution::kGgx, FacetDistribution::kBeckmann}) {
+    for (const double slope : {0.05, 0.3, 0.6, 1.0}) {
+      EXPECT_NEAR(seen(0, std::nullopt, {slope, distribution}), 1, 0.01) << slope;
+      EXPECT_NEAR(seen(1, 1.5, {slope, distribution}), 1, 0.01) << slope;
+    }
   }
-  EXPECT_NEAR(sum.x() / kLawnRadiance, 1, 0.01);
 }
 
 TEST(MirrorReflectance, IsFresnelsOrTheMetalsColor) {

@@ -4,8 +4,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <memory>
 
+#include "renderer/trace/interreflected_light.h"
 #include "renderer/trace/sampling.h"
 #include "tests/calibration/files/wrong_field.h"
 #include "tests/renderer/trace/small_site.h"
@@ -75,6 +78,49 @@ TEST(RenderMontage, EdgesTakeMoreRaysThanFlatGround) {
   const double adaptive = RenderMontage(scene, site.camera(), site.photo).mean_rays;
   EXPECT_GT(adaptive, 4);
   EXPECT_LT(adaptive, 10);
+}
+
+// Rays come in fours until there are enough: where no tolerance is small enough, up to each cap.
+TEST(RenderMontage, SamplesInStepsOfFourUpToTheCap) {
+  SmallSite site = MakeSmallSite();
+  Texture(site);
+  const MontageScene scene = site.With(Tower(site));
+  const double pixels = 64 * 48;
+  const auto further_rays = [&](int most, double tolerance) {
+    RenderOptions options;
+    options.most_rays = most;
+    options.tolerance = tolerance;
+    return RenderMontage(scene, site.camera(), site.photo, options).mean_rays * pixels - 4 * pixels;
+  };
+  const double once = further_rays(8, 1e-12);
+  EXPECT_GT(once, 400);
+  EXPECT_NEAR(further_rays(12, 1e-12), 2 * once, 1e-6);
+  EXPECT_NEAR(further_rays(16, 1e-12), 3 * once, 1e-6);
+  EXPECT_NEAR(further_rays(RenderOptions().most_rays, 1e-12), 3 * once, 1e-6);
+  const double usual = further_rays(16, RenderOptions().tolerance);
+  EXPECT_GT(usual, 0);
+  EXPECT_LT(usual, 3 * once);
+}
+
+// The number of bins is how finely spectra are told, not how bright they are.
+TEST(RenderMontage, NineBinsGiveThePictureOfSixteen) {
+  for (const bool is_interreflected : {false, true}) {
+    std::array<Raster, 2> pictures;
+    for (const int bins : {16, 9}) {
+      SmallSite site = MakeSmallSite(bins);
+      Texture(site);
+      // Low, so that one sees its sunlit top.
+      MontageScene scene =
+          site.With(Box(site, {-2, 2, 0}, {2, 6, 1}, {"box", {0.6, 0.3, 0.2}, 1, std::nullopt}));
+      if (is_interreflected) AddInterreflection(&scene, std::nullopt);
+      pictures[bins == 9] = RenderMontage(scene, site.camera(), site.photo).linear;
+    }
+    double largest = 0;
+    for (size_t i = 0; i < pictures[0].data.size(); ++i) {
+      largest = std::max<double>(largest, std::abs(pictures[0].data[i] - pictures[1].data[i]));
+    }
+    EXPECT_LT(largest, 0.005) << is_interreflected;
+  }
 }
 
 constexpr double kSigma = 0.7;  // [px]
@@ -287,6 +333,51 @@ TEST(RenderMontage, WhatStandsInFrontStaysAndShowsWhatIsBehindItNow) {
     }
   }
   EXPECT_GT(mixed, 50);
+}
+
+// Stopped anywhere and gone on with, the picture is the same to the bit, with its counts.
+TEST(RenderMontage, GoesOnWhereItWasStopped) {
+  const SmallSite site = MakeSmallSite();
+  const MontageScene scene = site.With(Tower(site));
+  RenderOptions options = SpreadAlike();
+  options.grain = Grain{Eigen::Vector3d::Constant(1e-4), Eigen::Vector3d::Constant(1e-4), 0};
+  const RenderResult whole = RenderMontage(scene, site.camera(), site.photo, options);
+  EXPECT_EQ(whole.tiles_left, 0);
+  for (const int stopped_after : {0, 1, 3}) {
+    std::vector<FinishedTile> kept;
+    RenderCourse first;
+    first.tile_done = [&](const FinishedTile& tile) { kept.push_back(tile); };
+    first.stops = [&] { return static_cast<int>(kept.size()) >= stopped_after; };
+    options.threads = 1;
+    const RenderResult part = RenderMontage(scene, site.camera(), site.photo, options, first);
+    EXPECT_EQ(part.tiles_left, 4 - stopped_after);
+    RenderCourse second;
+    second.earlier = kept;
+    int rendered = 0;
+    second.tile_done = [&](const FinishedTile&) { ++rendered; };
+    const RenderResult rest = RenderMontage(scene, site.camera(), site.photo, options, second);
+    EXPECT_EQ(rendered, 4 - stopped_after);
+    EXPECT_EQ(rest.linear.data, whole.linear.data);
+    EXPECT_EQ(rest.layers.data, whole.layers.data);
+    EXPECT_EQ(rest.building_pixels, whole.building_pixels);
+    EXPECT_EQ(rest.changed_pixels, whole.changed_pixels);
+    EXPECT_EQ(rest.mean_rays, whole.mean_rays);
+  }
+}
+
+TEST(RenderMontage, BeginsWithTheTilesInSightOfTheBuilding) {
+  const SmallSite site = MakeSmallSite();
+  RenderOptions options;
+  options.threads = 1;
+  std::vector<int64_t> of_building;
+  RenderCourse course;
+  course.tile_done = [&](const FinishedTile& tile) { of_building.push_back(tile.counts.building); };
+  // In the lower right quarter alone.
+  const auto hut = Box(site, {1.5, 0, 0}, {4, 2, 1}, {});
+  RenderMontage(site.With(hut), site.camera(), site.photo, options, course);
+  ASSERT_EQ(of_building.size(), 4u);
+  EXPECT_GT(of_building[0], 0);
+  EXPECT_EQ(of_building[3], 0);
 }
 
 }  // namespace

@@ -42,8 +42,9 @@ MontageScene SmallSite::With(const ArtificialEnvironment& building) const {
   return MakeMontageScene(natural, building, {photo});
 }
 
-SmallSite MakeSmallSite() {
+SmallSite MakeSmallSite(int bins) {
   SmallSite site;
+  site.natural.spectra = SpectralBasis(Rec709(), {bins});
   SceneGeometry& scene = site.natural.scene;
   scene.origin = {2600000, 1200000, 400};
   scene.polygons = {Lawn(scene.origin)};

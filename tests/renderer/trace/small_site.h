@@ -22,7 +22,7 @@ constexpr double kLawnRadiance = 0.25;  // every pixel of the photograph
 
 // Lawn: z = 0 of the local frame, 200 m wide, material "lawn". Camera 10 m south of the origin,
 // 3 m up, looking north and 0.2 rad down. Sun 45 degrees up in the east; clear air.
-SmallSite MakeSmallSite();
+SmallSite MakeSmallSite(int bins = kMaxBins);
 
 // A lying square plate, `half` its half side [m], centred above a local point.
 ArtificialEnvironment Plate(const SmallSite& site, const Eigen::Vector3d& center, double half,

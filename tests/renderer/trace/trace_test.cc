@@ -50,6 +50,21 @@ TEST(CaseB, SecondaryRayIntoTheSkyReturnsTheHorizonColor) {
   EXPECT_TRUE((L == scene.natural.air.horizon).all());
 }
 
+// Where photographs show that the sky is not alike everywhere, a mirror shows it as they do.
+TEST(CaseB, APhotographedSkyIsBrighterWhereItIsBrighter) {
+  SmallSite site = MakeSmallSite();
+  site.natural.light.sky_shape.gradation.setOnes();  // overcast
+  site.natural.light.photographed_sky = 0.7 * site.natural.air.horizon;
+  const MontageScene scene = site.With({});
+  const auto towards = [&](const Eigen::Vector3d& direction) {
+    return Red(scene, TraceSecondary(scene, {{0, 0, 1}, direction.normalized()}, WholeSky(scene),
+                                     World::kWithBuilding, 1));
+  };
+  const double zenith = 0.7 * 0.5 * 9 / 7;  // of the mean, 7 / 9 of the zenith
+  EXPECT_NEAR(towards({0, 0, 1}), zenith, 0.002);
+  EXPECT_NEAR(towards({0, 1, 1e-3}), zenith / 3, 0.002);
+}
+
 TEST(CaseB, BelowTheHorizonTheGroundGoesOnBeyondItsPolygon) {
   const MontageScene scene = MakeSmallSite().With({});
   const Ray ray = {{150, 0, 2}, Eigen::Vector3d(1, 0, -0.1).normalized()};  // lawn ends at 100 m
@@ -75,6 +90,22 @@ TEST(CaseC, HazeLiesBeforeTheBuilding) {
   const RayOutcome outcome = TracePrimary(scene, Primary(scene, {0, -3, 6}, {0, 0, 2}));
   ASSERT_TRUE(outcome.hits_building);
   EXPECT_NEAR(outcome.rgb.x(), 0.5 * (1 - std::pow(0.9, 5)), 1e-4);
+}
+
+// Straight between them a ray would go to and fro for ever.
+TEST(CaseC, TwoFacingMirrorsEndInTheHorizonColor) {
+  const SmallSite site = MakeSmallSite();
+  ArtificialEnvironment mirrors = Plate(site, {0, 0, 2}, 1, BareMirror());
+  const ArtificialEnvironment upper = Plate(site, {0, 0, 4}, 1, BareMirror());
+  for (const Eigen::Vector3i& triangle : upper.triangles) {
+    mirrors.triangles.push_back(triangle + Eigen::Vector3i::Constant(4));
+    mirrors.material_of_triangle.push_back(0);
+  }
+  mirrors.vertices.insert(mirrors.vertices.end(), upper.vertices.begin(), upper.vertices.end());
+  const MontageScene scene = site.With(mirrors);
+  const Spectrum L =
+      TraceSecondary(scene, {{0.3, 0.1, 3}, {0, 0, 1}}, WholeSky(scene), World::kWithBuilding, 1);
+  EXPECT_LT((L - scene.natural.air.horizon).abs().maxCoeff(), 1e-12);
 }
 
 TEST(CaseC, MirrorShowsThePhotographedLawn) {
@@ -134,6 +165,22 @@ TEST(CaseD3, BlockedSunIsTheQuotientOfIrradiances) {
   const RayOutcome outcome = TracePrimary(scene, Primary(scene, {0, -10, 3}, {0, 0, 0}));
   const double E_s = 2 * std::sqrt(0.5), E_u = std::numbers::pi * 0.05;
   EXPECT_NEAR(kLawnRadiance + outcome.rgb.x(), kLawnRadiance * E_u / (E_s + E_u), 1e-6);
+}
+
+// The building's shadow falls on the lawn, not on the haze before it: of a pixel L it takes its
+// share of L - L_inf (1 - tau). [Durisch92, Eq. (8)]
+TEST(CaseD3, HazeBeforeAShadowStays) {
+  SmallSite site = MakeSmallSite();
+  const auto change = [&] {
+    const MontageScene scene = site.With(Plate(site, {20, 0, 20}, 2, Grey(0)));
+    return TracePrimary(scene, Primary(scene, {0, -10, 3}, {0, 0, 0})).rgb.x();
+  };
+  const double clear = change();
+  EXPECT_LT(clear, -0.1);
+  site.natural.air.transmittance = 0.97 * site.natural.spectra.Ones();
+  site.natural.air.horizon *= 0.6;  // 0.3
+  const double haze = 0.3 * (1 - std::pow(0.97, std::sqrt(109.0)));
+  EXPECT_NEAR(change() / clear, (kLawnRadiance - haze) / kLawnRadiance, 0.002);
 }
 
 TEST(CaseD3, NeverNegativeNeverBrighterAndSunlessUnderACover) {

@@ -13,7 +13,7 @@ import {say} from "./notices.js";
 import {fiducial, reviewedMark} from "../film/certified.js";
 import {offText, samples} from "../light/samples.js";
 import {activePane, setMode, ui} from "../site/ui.js";
-import {kLanguages, language, setLanguage, raysText, t} from "../words/words.js";
+import {kLanguages, language, setLanguage, raysText, said, t} from "../words/words.js";
 
 /** @type {[import("../site/ui.js").Mode, string][]} */
 export const kModes = [
@@ -32,6 +32,7 @@ async function step(which) {
   if (which === "undo" && ui.tool?.back?.()) return;
   if (!(await emptied(3))) return say(t("waiting"));
   const label = state.history?.[which];
+  if (!label) return say(t(`${which}Nothing`));
   const answer = await ask(`/api/${which}`, {id: newId()});
   say(
     answer.error
@@ -110,7 +111,7 @@ function drawSigma() {
     made = byId("sigma");
   if (!about || about.failed) {
     made.className = "review";
-    made.title = about?.failed ?? "";
+    made.title = said(about, "failed");
     return keepText(made, about?.failed ? t("notAdjusted") : "σ0 –");
   }
   const isOk = about.p === undefined || about.p === null || about.p > 0.001;

@@ -5,7 +5,7 @@ import {button, byId, node, table} from "../words/dom.js";
 import {edit, kKeys, state} from "../site/state.js";
 import {emit, on} from "../site/signals.js";
 import {failures, keptCount, sendNow, storeFault, unconfirmed} from "../site/outbox.js";
-import {t} from "../words/words.js";
+import {said, t} from "../words/words.js";
 
 /**
  * A sentence in the status line, read out.
@@ -71,13 +71,13 @@ function draw() {
       )
     );
   for (const one of state.readOnly) {
-    made.push(banner("review", t("readOnlyFile", {place: `${one.file}:${one.line}`, text: one.text})));
+    made.push(banner("review", t("readOnlyFile", {place: `${one.file}:${one.line}`, text: said(one)})));
   }
   state.faults.forEach(one =>
     made.push(
       banner(
         "review",
-        one.file ? `${one.file}:${one.line}: ${one.text}` : one.text,
+        one.file ? `${one.file}:${one.line}: ${said(one)}` : said(one),
         button(t("dismiss"), () => {
           state.faults = state.faults.filter(other => other !== one);
           emit("faults");

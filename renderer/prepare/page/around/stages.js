@@ -18,7 +18,7 @@ export const kStages = [
   "montage"
 ];
 const kMostLines = 2000,
-  kStopped = 143; // by SIGTERM
+  kStopped = [143, 3]; // by SIGTERM; a render that keeps what it has
 
 /** What the newest run has said. */
 const run = {
@@ -57,7 +57,7 @@ export function runStage(stage) {
 async function begin(stage) {
   Object.assign(run, {stage, status: t("running"), progress: null, lines: []});
   showStages();
-  const answer = await ask("/api/run", {stage});
+  const answer = await ask("/api/run", {stage, label: t(`stage_${stage}`)});
   if (answer.error) run.status = answer.error;
   else if (answer.run === 0) run.status = t("done"); // no program runs for it
   draw();
@@ -120,7 +120,7 @@ export function followRuns() {
       run.status =
         message.status === 0
           ? t("done")
-          : message.status === kStopped
+          : kStopped.includes(message.status)
             ? t("stopped")
             : typeof message.status === "number"
               ? t("failed", {status: message.status})

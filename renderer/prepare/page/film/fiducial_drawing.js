@@ -37,13 +37,15 @@ function draw(photo, mark, at, k) {
   const about = reviewedMark(photo, mark),
     isPlaced = fiducial(photo, mark) !== undefined,
     isOff = fiducial(photo, mark)?.state === "off",
+    isDubious = fiducial(photo, mark)?.state === "dubious",
     level = isOff ? "off" : gradeOfFiducial(photo, mark);
   const arrow = isPlaced && about && ui.arrows ? arrowPath(about.vx * ui.arrows * k, about.vy * ui.arrows * k) : "";
   const shape = kShape + (isOff ? kOff : "");
-  const name = `${mark}${level === "bad" ? " !" : ""}`;
+  const name = `${mark}${level === "bad" ? " !" : ""}${isDubious ? " ?" : ""}`;
   const classes = [
     "mark fiducial",
     isPlaced ? level : "unplaced",
+    isDubious ? "dubious" : "",
     mark === ui.fiducial ? "current" : ""
   ].join(" ");
   return svg(
@@ -68,6 +70,7 @@ function label(photo, mark, about) {
   const parts = [t("fiducial"), mark];
   if (predictedFiducial(photo, mark)) parts.push(t("prediction"));
   else if (fiducial(photo, mark)?.state === "off") parts.push(t("off"));
+  else if (fiducial(photo, mark)?.state === "dubious") parts.push(t("dubious"));
   else if (about) parts.push(about.w === null ? t("cannotCheck") : `w ${shown(about.w, 1)}`);
   return parts.join(", ");
 }

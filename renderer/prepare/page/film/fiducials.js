@@ -168,14 +168,18 @@ function remove() {
   edit(t("opDelete", {point: ui.fiducial, photo}), [{table: "fiducials", before: old, after: null}]);
 }
 
-function toggleOff() {
+/**
+ * @param {"off"|"dubious"} wanted the state of the current mark, on again if it has it
+ * @param {string} label
+ */
+function toggle(wanted, label) {
   settle();
   const photo = activePane()?.photo?.name,
     old = ui.fiducial !== null && fiducial(photo, ui.fiducial);
   if (!old) return say(t("noFiducialHere"));
   if (isReadOnly("fiducials")) return say(t("readOnlyTable"));
-  edit(t("opSwitch", {point: ui.fiducial, photo}), [
-    {table: "fiducials", before: old, after: {...old, state: old.state === "off" ? "on" : "off"}}
+  edit(t(label, {point: ui.fiducial, photo}), [
+    {table: "fiducials", before: old, after: {...old, state: old.state === wanted ? "on" : wanted}}
   ]);
 }
 
@@ -216,7 +220,8 @@ export function addFilmHands() {
     confirm,
     nudge,
     remove,
-    toggleOff,
+    toggleOff: () => toggle("off", "opSwitch"),
+    toggleDubious: () => toggle("dubious", "opDubious"),
     step,
     suspect,
     refine,

@@ -4,13 +4,13 @@
 import {showCertificate} from "./certificate.js";
 import {certified, fiducial, fiducialsOn, lacking, reviewOf} from "./certified.js";
 import {chooseFiducial} from "./fiducials.js";
-import {confirm, deleteMark, toggleOff} from "../points/marking.js";
+import {confirm, deleteMark, toggleDubious, toggleOff} from "../points/marking.js";
 import {refine} from "../points/proposals.js";
 import {state} from "../site/state.js";
 import {activePane, grade, ui} from "../site/ui.js";
 import {button, byId, node} from "../words/dom.js";
 import {shown} from "../words/numbers.js";
-import {t} from "../words/words.js";
+import {said, t} from "../words/words.js";
 
 export function buildFilmPanel(root) {
   const inPane = (text, key, action, more = {}) =>
@@ -28,6 +28,7 @@ export function buildFilmPanel(root) {
       {class: "buttons"},
       inPane("confirm", "Enter", () => confirm(activePane(), false), {class: "main"}),
       inPane("switch", "X", () => toggleOff()),
+      inPane("doubt", "D", () => toggleDubious()),
       inPane("delete", "Del", deleteMark),
       inPane("refine", "F", () => refine(activePane())),
       button(t("certificate"), showCertificate, {id: "certificate"})
@@ -42,8 +43,8 @@ export function updateFilmPanel() {
   const root = byId("film-about"),
     photo = activePane()?.photo?.name ?? "";
   const review = reviewOf(photo);
-  const off = fiducialsOn(photo).filter(one => one.state === "off").length;
-  const signature = JSON.stringify([photo, review, state.film?.missing, ui.fiducial, certified().size, off]);
+  const states = fiducialsOn(photo).map(one => one.state ?? "on");
+  const signature = JSON.stringify([photo, review, state.film?.missing, ui.fiducial, certified().size, states]);
   if (!root || drawn === signature) return;
   drawn = signature;
   root.replaceChildren(...about(photo, review));
@@ -53,7 +54,7 @@ function* about(photo, review) {
   if (certified().size === 0) return yield node("p", {class: "faint", text: t("certificateFirst")});
   const text = mapText(photo, review);
   yield node("p", {id: "film-map", "aria-live": "polite", text, class: isUnchecked(review) ? "review" : ""});
-  for (const suspicion of review?.suspicions ?? []) yield node("p", {class: "fail", text: suspicion});
+  for (const suspicion of review?.suspicions ?? []) yield node("p", {class: "fail", text: said(suspicion)});
   yield node(
     "table",
     {class: "rays", id: "film-marks"},
@@ -66,7 +67,7 @@ function* about(photo, review) {
         ...["markHead", "vFilm", "vPixels", "rHead", "wHead"].map(head => node("th", {text: t(head)}))
       )
     ),
-    node("tbody", {}, ...(review?.marks ?? []).map(placedLine), ...unplacedLines(photo, review))
+    node("tbody", {}, ...(review?.marks ?? []).map(one => placedLine(photo, one)), ...unplacedLines(photo, review))
   );
 }
 
@@ -93,16 +94,17 @@ function mapText(photo, review) {
   return `${quality}\n${scan}`;
 }
 
-const nameCell = (mark, level) =>
-  node("td", {}, button(`${mark}${level === "bad" ? " !" : ""}`, () => {
+const nameCell = (mark, level, isDubious = false) =>
+  node("td", {}, button(`${mark}${level === "bad" ? " !" : ""}${isDubious ? " ?" : ""}`, () => {
     chooseFiducial(mark);
     activePane()?.focus();
   }, {class: "small"}));
 
 const brief = px => shown(px, Math.abs(px) < 10 ? 2 : 0);
 
-function placedLine(one) {
-  const level = grade(one.w);
+function placedLine(photo, one) {
+  const level = grade(one.w),
+    isDubious = fiducial(photo, one.mark)?.state === "dubious";
   const cells = [
     Math.hypot(one.vx_mm, one.vy_mm) < 1
       ? `${shown(1000 * one.vx_mm, 1)} ${shown(1000 * one.vy_mm, 1)} µm`
@@ -111,12 +113,12 @@ function placedLine(one) {
     shown(one.r, 2),
     one.w === null ? "–" : shown(one.w, one.w < 100 ? 1 : 0)
   ];
-  const title =
-    one.off_px === null ? t("cannotCheck") : t("offOthers", {px: shown(one.off_px, 2)});
+  const checked = one.off_px === null ? t("cannotCheck") : t("offOthers", {px: shown(one.off_px, 2)});
+  const title = isDubious ? `${t("dubious")} (σ × 3): ${checked}` : checked;
   return node(
     "tr",
     {class: `${level}${one.mark === ui.fiducial ? " current" : ""}`, title, data: {fiducial: one.mark}},
-    nameCell(one.mark, level),
+    nameCell(one.mark, level, isDubious),
     ...cells.map(text => node("td", {text}))
   );
 }

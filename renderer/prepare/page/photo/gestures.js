@@ -2,6 +2,7 @@
 // Mouse, pen and fingers on a pane. A finger's lift does not place: Confirm does.
 
 import {clickAt, dragMark, isDraggable} from "../points/marking.js";
+import {pan, pinch, wheelScale} from "./pan_zoom.js";
 import {redraw} from "../site/signals.js";
 import {setActive, ui} from "../site/ui.js";
 
@@ -73,35 +74,13 @@ export function listenTo(pane) {
   stage.addEventListener(
     "wheel",
     event => {
-      const at = local(event),
-        lines = event.deltaMode === 1 ? 33 : 1;
-      pane.zoomAt(pane.k * 2 ** ((-event.deltaY * lines) / 250), at.x, at.y);
+      const at = local(event);
+      pane.zoomAt(wheelScale(pane.k, event), at.x, at.y);
       event.preventDefault();
     },
     {passive: false}
   );
   stage.addEventListener("focusin", () => setActive(ui.panes.indexOf(pane)));
-}
-
-function pan(pane, dx, dy) {
-  pane.isFitted = false;
-  // Unrounded sums, or slow drags would lag behind the hand.
-  pane.rest = {x: (pane.rest?.x ?? 0) + dx, y: (pane.rest?.y ?? 0) + dy};
-  const tx = pane.tx,
-    ty = pane.ty;
-  pane.setView(pane.k, tx + pane.rest.x, ty + pane.rest.y);
-  pane.rest = {x: pane.rest.x - (pane.tx - tx), y: pane.rest.y - (pane.ty - ty)};
-}
-
-/** Two fingers: what is between them stays between them. */
-function pinch(pane, down, id, at) {
-  const before = down.get(id);
-  const [, other] = /** @type {[number, any]} */ ([...down].find(([key]) => key !== id));
-  const scale =
-    Math.hypot(at.x - other.x, at.y - other.y) / Math.hypot(before.x - other.x, before.y - other.y);
-  const middle = {x: (before.x + other.x) / 2, y: (before.y + other.y) / 2};
-  if (Number.isFinite(scale) && scale > 0) pane.zoomAt(pane.k * scale, middle.x, middle.y);
-  pan(pane, (at.x - before.x) / 2, (at.y - before.y) / 2);
 }
 
 /** A finger brings the crosshair, or takes the mark that it meets. */

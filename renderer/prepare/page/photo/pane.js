@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A pane: one photograph with its own zoom, painted from tiles, and the crosshair on it.
-// screen = k (p + 1/2) + t in CSS pixels, p a pixel coordinate, (0, 0) being a pixel's centre.
 
 import {button, node, svg} from "../words/dom.js";
 import {drawFiducials} from "../film/fiducial_drawing.js";
@@ -12,20 +11,19 @@ import {drawSamples} from "../light/samples.js";
 import {photoOf, state} from "../site/state.js";
 import {emit, redraw} from "../site/signals.js";
 import {relit, stepLight} from "./relit.js";
-import {fetchTiles, kTile, tileIfHere, wishTile} from "./tiles.js";
+import {paintTiles} from "./tile_painter.js";
+import {fetchTiles} from "./tiles.js";
 import {activePane, currentPlace, hands, placeOf, stepLines, ui} from "../site/ui.js";
 import {said, t} from "../words/words.js";
+import {Zoomed} from "./zoom.js";
 
 const clamp = (value, low, high) => Math.min(Math.max(value, low), high);
 
-export class Pane {
+export class Pane extends Zoomed {
   constructor() {
+    super();
     /** @type {import("../site/state.js").Photo|null} */
     this.photo = null;
-    this.k = 1;
-    this.tx = 0;
-    this.ty = 0;
-    this.isFitted = true;
     /** @type {"photo"|"none"|"sun"} in which light it is shown */
     this.light = "photo";
     /** The crosshair [px], and whether someone has moved it since it was brought to the point. */
@@ -137,69 +135,11 @@ export class Pane {
     this.paint(); // at once: a resized canvas is empty
   }
 
-  /** The view: t on whole device pixels, so that at whole k every pixel is a sharp square. */
-  setView(k, tx, ty) {
-    const ratio = devicePixelRatio,
-      snap = value => Math.round(value * ratio) / ratio;
-    this.k = clamp(k, this.fitScale() / 4, 64);
-    this.tx = snap(tx);
-    this.ty = snap(ty);
-    redraw();
-  }
-
-  fitScale() {
-    if (!this.photo || !this.width) return 0.1;
-    return Math.min(this.width / this.photo.width, this.height / this.photo.height);
-  }
-
-  fit() {
-    if (!this.photo || !this.width) return;
-    const k = this.fitScale();
-    this.isFitted = true;
-    this.setView(k, (this.width - k * this.photo.width) / 2, (this.height - k * this.photo.height) / 2);
-  }
-
-  /** Zooms so that screen place (x, y) keeps its pixel. */
-  zoomAt(k, x, y) {
-    const p = this.toPhoto(x, y);
-    this.isFitted = false;
-    this.k = clamp(k, this.fitScale() / 4, 64);
-    this.setView(this.k, x - this.k * (p.x + 0.5), y - this.k * (p.y + 0.5));
-  }
-
   /** Zooms with the crosshair in the middle. */
   zoomAtCursor(k) {
     this.isFitted = false;
-    this.k = clamp(k, this.fitScale() / 4, 64);
+    this.k = this.limited(k);
     this.centre(this.cursor.x, this.cursor.y);
-  }
-
-  /** Pixel (x, y) to the middle of the pane. */
-  centre(x, y) {
-    this.isFitted = false;
-    this.setView(
-      this.k,
-      (this.width ?? 0) / 2 - this.k * (x + 0.5),
-      (this.height ?? 0) / 2 - this.k * (y + 0.5)
-    );
-  }
-
-  toScreen(x, y) {
-    return {x: this.k * (x + 0.5) + this.tx, y: this.k * (y + 0.5) + this.ty};
-  }
-
-  toPhoto(x, y) {
-    return {x: (x - this.tx) / this.k - 0.5, y: (y - this.ty) / this.k - 0.5};
-  }
-
-  isInFrame(x, y) {
-    return (
-      this.photo !== null &&
-      x >= -0.5 &&
-      y >= -0.5 &&
-      x <= this.photo.width - 0.5 &&
-      y <= this.photo.height - 0.5
-    );
   }
 
   /** The crosshair to a point, if its place is known; the view along, if asked. */
@@ -289,11 +229,11 @@ export class Pane {
     }
     this.chooser.value = this.photo?.name ?? "";
     const about = state.adjusted?.photos?.[this.photo?.name ?? ""],
-      fault = this.photo?.fault;
+      fault = said(this.photo, "fault");
     this.lines.textContent = t(`lines_${ui.lines}`);
     this.drawRelitNote();
     this.note.classList.toggle("fault", Boolean(fault));
-    this.note.title = fault ?? about?.why ?? "";
+    this.note.title = fault || said(about, "why");
     if (fault) return void (this.note.textContent = t("photoFault", {why: fault}));
     this.note.textContent = !this.photo
       ? ""
@@ -329,62 +269,10 @@ export class Pane {
   /** All in device pixels; relit as soon as that is made. */
   paintPhoto(context, k, tx, ty) {
     const picture = this.light === "photo" ? null : relit(this.index, this.light).picture;
-    if (!picture) return this.paintTiles(context, k, tx, ty);
+    if (!picture) return paintTiles(context, {index: this.index, .../** @type {any} */ (this.photo)}, k, tx, ty);
     const {width, height} = /** @type {any} */ (this.photo);
     context.imageSmoothingEnabled = true;
     context.drawImage(picture, tx, ty, k * width, k * height);
-  }
-
-  paintTiles(context, k, tx, ty) {
-    const {width, height, levels} = /** @type {any} */ (this.photo);
-    const level = clamp(Math.floor(-Math.log2(k) + 1e-6), 0, levels - 1),
-      side = kTile * 2 ** level;
-    context.imageSmoothingEnabled = k < 1;
-    context.save();
-    context.beginPath();
-    context.rect(
-      Math.round(tx),
-      Math.round(ty),
-      Math.round(k * width + tx) - Math.round(tx),
-      Math.round(k * height + ty) - Math.round(ty)
-    );
-    context.clip();
-    const last = (extent, shift, size) =>
-      Math.min(Math.floor((extent - shift) / k / side), Math.ceil(size / side) - 1);
-    const first = shift => Math.max(0, Math.floor(-shift / k / side));
-    wishTile(this.index, levels - 1, 0, 0); // the overview, which is shown until finer tiles are here
-    for (let y = first(ty); y <= last(this.canvas.height, ty, height); ++y) {
-      for (let x = first(tx); x <= last(this.canvas.width, tx, width); ++x) {
-        this.paintTile(context, {level, x, y}, k * side, tx, ty);
-      }
-    }
-    context.restore();
-  }
-
-  /** A tile, or until it is here its part of a coarser one. */
-  paintTile(context, {level, x, y}, size, tx, ty) {
-    const left = Math.round(tx + x * size),
-      right = Math.round(tx + (x + 1) * size);
-    const top = Math.round(ty + y * size),
-      bottom = Math.round(ty + (y + 1) * size);
-    for (let up = 0; level + up < /** @type {any} */ (this.photo).levels; ++up) {
-      const tile = tileIfHere(this.index, level + up, x >> up, y >> up);
-      if (up === 0 && !tile) wishTile(this.index, level, x, y);
-      if (!tile) continue;
-      const part = kTile / 2 ** up;
-      context.drawImage(
-        tile,
-        (x - ((x >> up) << up)) * part,
-        (y - ((y >> up) << up)) * part,
-        part,
-        part,
-        left,
-        top,
-        right - left,
-        bottom - top
-      );
-      return;
-    }
   }
 }
 

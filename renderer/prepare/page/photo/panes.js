@@ -5,11 +5,14 @@ import {byId} from "../words/dom.js";
 import {Pane} from "./pane.js";
 import {live, mark, state} from "../site/state.js";
 import {emit, on, redraw} from "../site/signals.js";
-import {onTiles} from "./tiles.js";
+import {onTiles, onUndecodable} from "./tiles.js";
 import {photosOf, ui} from "../site/ui.js";
 
 export function buildPanes() {
   onTiles(redraw);
+  onUndecodable((photo, why) => {
+    state.photos[photo].fault = why;
+  });
   setLayout(
     Number(localStorage.getItem("insitu-layout")) ||
       Math.min(state.photos.length > 2 ? 4 : state.photos.length || 1, 4)

@@ -12,15 +12,24 @@ const kept = new Map();
 /** @type {Map<string, {path: string, wanted: number}>} */
 const wishes = new Map();
 const underway = new Set();
+/** Keys of tiles that are shown until their newer state is here. */
+const stale = new Set();
 /** @type {Map<string, number>} until when a tile that failed is not asked for again */
 const failed = new Map();
 let turn = 0;
 /** @type {() => void} */
 let arrived = () => {};
+/** @type {(photo: number, why: string) => void} */
+let undecodable = () => {};
 
 /** @param {() => void} listener called when there are new tiles */
 export const onTiles = listener => {
   arrived = listener;
+};
+
+/** @param {(photo: number, why: string) => void} listener called when a photo cannot be decoded */
+export const onUndecodable = listener => {
+  undecodable = listener;
 };
 
 /** The tile, if it is here. */
@@ -37,8 +46,20 @@ export function tileIfHere(photo, level, x, y) {
 /** Asks for a tile; what is not asked for again in the next frames is given up. */
 export function wishTile(photo, level, x, y) {
   const key = `${photo}/${level}/${x}/${y}`;
-  if (kept.has(key) || underway.has(key) || (failed.get(key) ?? 0) > performance.now()) return;
+  if ((kept.has(key) && !stale.has(key)) || underway.has(key) || (failed.get(key) ?? 0) > performance.now()) return;
   wishes.set(key, {path: `/api/tile?photo=${photo}&level=${level}&x=${x}&y=${y}`, wanted: turn});
+}
+
+/**
+ * What changes on the server is asked for anew, and stays until that is here.
+ * @param {number} photo
+ * @param {(level: number, x: number, y: number) => boolean} [isChanged]
+ */
+export function renewTiles(photo, isChanged = () => true) {
+  for (const key of [...kept.keys(), ...underway]) {
+    const [of, level, x, y] = key.split("/").map(Number);
+    if (of === photo && isChanged(level, x, y)) stale.add(key);
+  }
 }
 
 /** After a frame's wishes. */
@@ -55,14 +76,18 @@ export function fetchTiles() {
 }
 
 async function fetchTile(key, path) {
+  stale.delete(key);
   try {
-    kept.set(key, await createImageBitmap(await getBlob(path)));
+    const tile = await createImageBitmap(await getBlob(path));
+    kept.get(key)?.close();
+    kept.set(key, tile);
     while (kept.size > kMostKept) {
       const [oldest, tile] = kept.entries().next().value;
       tile.close();
       kept.delete(oldest);
     }
-  } catch {
+  } catch (error) {
+    if (error.status === 400) undecodable(Number(key.split("/")[0]), error.message);
     failed.set(key, performance.now() + 2000);
     setTimeout(() => arrived(), 2100);
   }

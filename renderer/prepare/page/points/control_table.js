@@ -6,7 +6,7 @@ import {drawCoordinates} from "./coordinate_table.js";
 import {button, byId, dialog, node, select, table} from "../words/dom.js";
 import {edit, freeName, isReadOnly, nameFault, row, rows, state} from "../site/state.js";
 import {say} from "../around/notices.js";
-import {t} from "../words/words.js";
+import {formatText, said, t} from "../words/words.js";
 
 /** @type {import("./coordinate_table.js").Coordinates} */
 const kPoints = {
@@ -102,9 +102,9 @@ async function read(text, found) {
   if (answer.error) return found.replaceChildren(node("p", {class: "fail", text: answer.error}));
   const taken = answer.rows.filter(one => row("control_points", one.name)).length;
   found.replaceChildren(
-    node("p", {text: t("importFound", {n: answer.rows.length, format: answer.format ?? ""})}),
+    node("p", {text: t("importFound", {n: answer.rows.length, format: formatText(answer.format ?? "")})}),
     taken > 0 ? node("p", {class: "review", text: t("importTaken", {taken})}) : "",
-    ...(answer.remarks ?? []).map(remark => node("p", {class: "review", text: remark.text ?? remark})),
+    ...(answer.remarks ?? []).map(remark => node("p", {class: "review", text: said(remark)})),
     node(
       "div",
       {class: "scroll short"},

@@ -319,7 +319,9 @@ export function toggleOff(photo = activePhoto()) {
   changeMark(old => ({...old, state: old.state === "off" ? "on" : "off"}), "opSwitch", photo);
 }
 /** Dubious: σ is three times as large; and back. */
-export const toggleDubious = () =>
+export function toggleDubious() {
+  const other = hands();
+  if (other) return other.toggleDubious();
   changeMark(
     old =>
       old.state === "dubious"
@@ -327,6 +329,7 @@ export const toggleDubious = () =>
         : {...old, state: "dubious", sigma: old.sigma * kDubious},
     "opDubious"
   );
+}
 
 /** Brings the field for a point's name, with a free one in it. */
 export function askForPoint() {

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The server: requests with the token, and the live connection.
 
-import {said} from "../words/words.js";
-
 /** What the address says behind #: TOKEN or token=TOKEN, window=report. */
 function readFragment() {
   const parts = location.hash
@@ -33,6 +31,13 @@ addEventListener("hashchange", () => {
     location.reload();
   }
 });
+
+/** @type {(answer: any) => string} */
+let errorText = answer => answer?.error ?? "";
+/** @param {(answer: any) => string} worded what an answer says is wrong, in the page's language */
+export const wordErrors = worded => {
+  errorText = worded;
+};
 
 export const isReport = fragment.get("window") === "report";
 const token = () => sessionStorage.getItem("token") ?? "";
@@ -68,12 +73,13 @@ export async function getJson(path, answers = []) {
 /**
  * @param {string} path
  * @param {AbortSignal} [signal]
- * @returns {Promise<Blob>}
+ * @returns {Promise<Blob>} throws what the server says is wrong, with its `status`
  */
 export async function getBlob(path, signal) {
   const response = await request(path, {signal});
-  if (!response.ok) throw new Error(`${response.status} ${path}`);
-  return response.blob();
+  if (response.ok) return response.blob();
+  const why = errorText(await response.json().catch(() => ({})));
+  throw Object.assign(new Error(why || `${response.status} ${path}`), {status: response.status});
 }
 
 /**
@@ -107,7 +113,7 @@ export async function ask(path, body) {
     const answer = await post(path, body);
     const found = answer.body;
     if (answer.status === 200 && !found.error) return found;
-    return {...found, error: said(found, "error") || `${answer.status}`};
+    return {...found, error: errorText(found) || `${answer.status}`};
   } catch (error) {
     return {error: String(error.message ?? error)};
   }

@@ -4,6 +4,7 @@
 
 import {post} from "./api.js";
 import {drop, keep, keptOf} from "./keeping.js";
+import {said} from "../words/words.js";
 
 /** @typedef {{table: string, before: any, after: any}} Edit */
 /** @typedef {{id: string, label: string, edits: Edit[]}} Operation */
@@ -103,7 +104,7 @@ async function send(operation) {
     handlers.refused(operation, status, body);
     return true;
   }
-  storeFault = body.error ?? `${status}`; // 5xx: the disk is full, ...; 401: another server's token
+  storeFault = said(body, "error") || `${status}`; // 5xx: the disk is full, ...; 401: another server's token
   return false;
 }
 

@@ -5,6 +5,7 @@
 import {connectLive, getJson} from "./api.js";
 import {enqueue, newId, openOutbox, unconfirmed} from "./outbox.js";
 import {emit} from "./signals.js";
+import {said} from "../words/words.js";
 
 /** @typedef {Record<string, any>} Row */
 /** @typedef {{name: string, width: number, height: number, levels: number, camera: string, fault?: string}} Photo */
@@ -195,7 +196,7 @@ const takers = {
     emit("saved");
   },
   not_saved: message => {
-    state.notSaved = message.text;
+    state.notSaved = said(message);
     emit("saved");
   },
   adjusted: takeAdjusted,
@@ -247,7 +248,8 @@ async function load() {
     adjusted: site.adjusted,
     building: site.building ?? state.building,
     film: site.film ?? null,
-    notSaved: site.not_saved ?? "",
+    notSaved: said(site, "not_saved"),
+    faults: state.isLoaded ? state.faults : (site.found ?? []), // at the server's start
     isLoaded: true
   });
   base = site.revision;
@@ -270,7 +272,7 @@ export async function start() {
       state.refused.push({
         operation,
         conflicts: status === 409 ? (body.conflicts ?? []) : [],
-        error: body.error
+        error: said(body, "error")
       });
       for (const {table, before, current} of body.conflicts ?? []) {
         applyEdits(confirmed, [{table, before: before ?? current, after: current}]);
@@ -377,4 +379,4 @@ export function freeName(stem) {
  * Why a name cannot be in the files, or "".
  * @param {string} name
  */
-export const nameFault = name => (/^$|^\s|\s$|^#|,|["\n\r\t]/.test(name) ? "badName" : "");
+export const nameFault = name => (/^$|^\s|\s$|[\n\r\t]/.test(name) ? "badName" : "");

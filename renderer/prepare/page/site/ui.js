@@ -29,6 +29,7 @@ import {adjustedMark, mark} from "./state.js";
  * @property {(pane: any, dx: number, dy: number) => void} nudge
  * @property {() => void} remove
  * @property {() => void} toggleOff
+ * @property {() => void} toggleDubious
  * @property {(by: number) => void} step
  * @property {() => void} suspect the next worse
  * @property {(pane: any) => void} refine

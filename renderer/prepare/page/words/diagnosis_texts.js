@@ -33,6 +33,23 @@ export const kDiagnosisTexts = {
   axesMarksTopDo: "Höhe - 1 - y statt y schreiben: (0, 0) ist die Mitte des Pixels oben links",
   axesMarksRight: "mit den Messungen um 90 Grad nach rechts gedreht",
   axesMarksLeft: "mit den Messungen um 90 Grad nach links gedreht",
+  copyResized:
+    "gemessen wurde in einer Kopie, die {size}-mal so gross ist wie das Foto: x + 0.5 und y + 0.5 mit {factor} " +
+    "multiplizieren und 0.5 abziehen",
+  copyMillimetres:
+    "die Messungen sind Millimeter ab der Ecke, {factor} Pixel je Millimeter; erwartet sind Pixel des Fotos",
+  copyShares:
+    "die Messungen sind Anteile der Seiten des Fotos, erwartet sind Pixel: x mit seiner Breite, y mit seiner Höhe " +
+    "multiplizieren und 0.5 abziehen",
+  copyCropped:
+    "gemessen wurde in einer Kopie, der links {x} px und oben {y} px fehlen: zu x und y dazuzählen",
+  copyResizedCropped:
+    "gemessen wurde in einem Ausschnitt, {size}-mal so gross: x und y mit {factor} multiplizieren und {x} und {y} px " +
+    "dazuzählen",
+  copyNoFit:
+    "{copy}. Die Messungen von Passpunkten in {photos} passen so zu keinem Kamerastandort, dann auf {rms} px (RMS)",
+  copyFit:
+    "{copy}. Die Messungen von Passpunkten in {photos} passen so auf {given} px (RMS), dann auf {rms} px",
   axesMarksTurned: "gemessen wurde in einer gedrehten Kopie des Fotos",
   axesMarksTurnDo: "im Pixelraster des Fotos selbst messen, ohne seine EXIF-Orientierung",
   axesControlSwap: "mit vertauschten x und y der Passpunkte",

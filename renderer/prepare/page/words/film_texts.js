@@ -53,8 +53,8 @@ export const kFilmTexts = {
     "Der Kalibrierschein nennt keine Marke {name}."
   ],
   notInFilm: [
-    "Fiducial marks are placed, moved, switched off or deleted; points have this in mode 1.",
-    "Rahmenmarken werden gesetzt, verschoben, ausgeschaltet oder gelöscht; dies gilt für Punkte im Arbeitsgang 1."
+    "Fiducial marks are placed, moved, doubted, switched off or deleted; points have this in mode 1.",
+    "Rahmenmarken werden gesetzt, verschoben, bezweifelt, ausgeschaltet oder gelöscht; dies gilt für Punkte im Arbeitsgang 1."
   ],
   fiducialsDone: ["{photo} has all its fiducial marks.", "{photo} hat alle Rahmenmarken."],
   notPlaced: ["not placed", "nicht gesetzt"],

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Numbers as people write them, there and back.
 
-import {language} from "./words.js";
+import {language} from "./language.js";
 
 const formats = new Map();
 

@@ -3,6 +3,7 @@
 // the English stands in the server. scripts/check_pages compares keys and {values}.
 
 import {kDiagnosisTexts} from "./diagnosis_texts.js";
+import {kFaultTexts} from "./fault_texts.js";
 
 /** What can be left out, by its `kind`. @type {Record<string, string>} */
 export const kKinds = {
@@ -16,11 +17,25 @@ export const kKinds = {
   observation: "Bildmessung"
 };
 
+/** As what a pasted table was read. @type {Record<string, string>} */
+export const kFormats = {
+  "table with a header": "Tabelle mit Kopfzeile",
+  "reference table of Metashape (CSV)": "Referenztabelle von Metashape (CSV)",
+  "markers of Metashape (XML)": "Marken von Metashape (XML)",
+  "points of MicMac (DicoAppuisFlottant)": "Punkte von MicMac (DicoAppuisFlottant)",
+  "points of AICON (.obc, mm)": "Punkte von AICON (.obc, mm)",
+  "gcp_list.txt of OpenDroneMap or OpenSfM": "gcp_list.txt von OpenDroneMap oder OpenSfM",
+  "ground_control_points.json of OpenSfM": "ground_control_points.json von OpenSfM"
+};
+
 /** @type {Record<string, string>} */
 export const kServerTexts = {
   ...kDiagnosisTexts,
+  ...kFaultTexts,
   atPlace: "{place}: {message}",
   named: "{name}: {reason}",
+  and: "{one}, {other}",
+  then: "{one}; {other}",
   nameHorizon: "Horizont",
   nameHaze: "Dunst",
   nameDaylight: "Tageslicht",
@@ -63,7 +78,7 @@ export const kServerTexts = {
   doConvert: "das Modell des Baus umwandeln",
   whyConvert: "sein Drahtmodell steht dann in jedem Foto",
   whyFilmFault: "daraus lassen sich die Kameras der Scans nicht machen",
-  doCertificate: "dem Kalibrierschein des Films fehlt ({count}): {names}",
+  doCertificate: "dem Kalibrierschein des Films fehlt: {what}",
   whyCertificate: "er verbindet die Scans mit dem Objektiv der Kamera: eintippen",
   doScans: "die Scans kalibrieren",
   whyScans: "ihr Film ist vollständig",
@@ -137,6 +152,9 @@ export const kServerTexts = {
   lightSunUnseen: "keine Tageslichtprobe sieht die Sonne: sie bleibt dunkel",
   lightUnseen:
     "Tageslichtproben, die viel Licht von Flächen erhalten, die kein Foto zeigt, und weniger zählen: {samples}",
+  lightOtherSky:
+    "die Fotos zeigen einen {times}-mal so hellen Himmel, wie er die Tageslichtproben beleuchtet: stimmt ihre " +
+    "Albedo, und haben alle Fotos dieselbe Belichtung?",
   lightPoor:
     "die Tageslichtproben trennen Sonne, Himmel und Umgebungslicht kaum: einige in der Sonne, im offenen " +
     "und im tiefen Schatten wählen",

@@ -185,8 +185,8 @@ export const kTexts = {
   waiting: ["Changes still wait to be saved.", "Noch warten Änderungen auf die Sicherung."],
   nameIt: ["Name the point, then Enter.", "Punkt benennen, dann Enter."],
   badName: [
-    "Names are without comma, quote, leading # or outer blanks.",
-    "Namen ohne Komma, Anführungszeichen, # am Anfang, Leerzeichen aussen."
+    "Names are without outer blanks, and not empty.",
+    "Namen nicht leer und ohne Leerzeichen aussen."
   ],
   moveFirst: [
     "Nothing is known of its place here: move the crosshair first.",

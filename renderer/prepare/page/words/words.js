@@ -1,25 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The page's language and its texts; {name} stands for a value.
+// The texts of this page in its language, and the server's.
 
-import {kKinds, kServerTexts} from "./server_texts.js";
+import {filled, language} from "./language.js";
+import {kFormats, kKinds, kServerTexts} from "./server_texts.js";
 import {kTexts} from "./texts.js";
 
-/** @type {[string, string][]} */
-export const kLanguages = [
-  ["en", "EN"],
-  ["de", "DE"]
-];
-export const language =
-  localStorage.getItem("insitu-language") ?? (navigator.language.startsWith("de") ? "de" : "en");
-
-/**
- * Texts are built once: the page begins anew.
- * @param {string} chosen
- */
-export function setLanguage(chosen) {
-  localStorage.setItem("insitu-language", chosen);
-  location.reload();
-}
+export {kLanguages, language, setLanguage} from "./language.js";
 
 /** @param {number} n */
 export const raysText = n => t(n === 1 ? "oneRay" : "rays", {n});
@@ -36,8 +22,8 @@ export function t(key, values = {}) {
 /** Without the folders before the site's own. */
 export const nearPlace = text => text.replace(/\S*?(?=survey\/)/, "");
 
-const filled = (text, values) =>
-  text.replace(/\{(\w+)\}/g, (whole, name) => (values[name] === undefined ? whole : String(values[name])));
+/** As what a table was read, as the server names it. */
+export const formatText = format => (language === "de" && kFormats[format]) || format;
 
 /**
  * What the server says in a member of a message, in the page's language: `member`_said holds the

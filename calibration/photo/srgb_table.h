@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Linear light of every sRGB code.
+#pragma once
+
+#include <limits>
+#include <vector>
+
+#include "calibration/photo/color_space.h"
+
+namespace insitu {
+
+template <typename Code>
+const std::vector<float>& LinearTable() {
+  static const std::vector<float> table = [] {
+    constexpr int kHighest = std::numeric_limits<Code>::max();
+    std::vector<float> linear(kHighest + 1);
+    for (int code = 0; code <= kHighest; ++code) {
+      linear[code] = static_cast<float>(LinearFromSrgb(static_cast<double>(code) / kHighest));
+    }
+    return linear;
+  }();
+  return table;
+}
+
+}  // namespace insitu

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "radiometry/measure_sky.h"
+
+#include <algorithm>
+#include <iterator>
+#include <set>
+
+#include "calibration/files/wording.h"
+#include "calibration/foreground_matte.h"
+#include "radiometry/measure/sky_places.h"
+
+namespace insitu {
+
+namespace {
+
+void Average(const SpectralBins& bins, Spectrum* power) {
+  const double mean = power->head(bins.count).mean();
+  power->head(bins.count).setConstant(mean);
+}
+
+}  // namespace
+
+SeenSky MeasureSky(const SitePaths& site, const std::vector<Photograph>& photos,
+                   const std::vector<PixelSample>& horizon, bool is_average,
+                   NaturalEnvironment* environment) {
+  const SceneGeometry& scene = environment->scene;
+  const RayScene rays(MeshOfPolygons(scene).mesh);
+  std::vector<SkyRegion> regions;
+  for (size_t i = 0; i < photos.size(); ++i) {
+    const Camera& camera = scene.cameras[i].camera;
+    const auto matte =
+        ReadForegroundMatte(site, scene.cameras[i].photo, camera.width(), camera.height());
+    std::ranges::move(SkyRegionsIn(photos[i], static_cast<int>(i), scene, rays,
+                                   matte ? &*matte : nullptr, horizon),
+                      std::back_inserter(regions));
+  }
+  std::vector<SkyPlace> places;
+  std::set<int> photos_with_sky;
+  for (const SkyRegion& region : SkyAmong(std::move(regions))) {
+    photos_with_sky.insert(region.photo);
+    std::ranges::copy(region.places, std::back_inserter(places));
+  }
+  std::optional<Eigen::Vector3d> sun;
+  if (scene.sun) sun = scene.sun->unit;
+  SeenSky sky{FitSky(places, scene.zenith.unit, sun, environment->spectra),
+              static_cast<int>(photos_with_sky.size())};
+  if (sky.fit.shape.IsUniform()) return sky;
+  if (is_average) {
+    Average(environment->spectra.bins(), &sky.fit.shape.gradation);
+    Average(environment->spectra.bins(), &sky.fit.shape.glow);
+  }
+  environment->light.sky_shape = sky.fit.shape;
+  environment->light.photographed_sky = sky.fit.level;
+  return sky;
+}
+
+void WarnOfAnotherSky(const NaturalEnvironment& environment, const SeenSky& sky,
+                      std::vector<Sentence>* warnings) {
+  constexpr double kOtherSky = 1.5;  // times as bright
+  if (!sky.fit.level) return;
+  const SpectralBins& bins = environment.spectra.bins();
+  const Spectrum lighting = environment.light.sky_radiance + environment.light.ambient_radiance;
+  const double times =
+      Tristimulus(*sky.fit.level, bins).y() / std::max(1e-12, Tristimulus(lighting, bins).y());
+  if (times < kOtherSky && times > 1 / kOtherSky) return;
+  warnings->push_back(
+      Sentence("lightOtherSky",
+               "the photographs show a sky {times} times as bright as that which lights the "
+               "daylight samples: is their albedo right, and are all photographs of one exposure?",
+               {{"times", Number("%.2g", times)}}));
+}
+
+}  // namespace insitu

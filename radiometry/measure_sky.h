@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// How the sky of a site is spread, from what its photographs show of it.
+#pragma once
+
+#include <vector>
+
+#include "calibration/files/sentence.h"
+#include "calibration/program/site.h"
+#include "radiometry/measure/fit_sky.h"
+#include "radiometry/measure/samples.h"
+#include "radiometry/natural_environment.h"
+
+namespace insitu {
+
+struct SeenSky {
+  SkyFit fit;
+  int photos = 0;  // that show the sky
+};
+
+// From all photographs, what stands in front (survey/foreground/) left out; a shape that is not
+// uniform goes into the light of `environment`, whose scene and spectra are known. `horizon`
+// samples tell what is sky; `is_average`: one shape for all wavelengths. Throws InputError: a matte
+// at fault.
+SeenSky MeasureSky(const SitePaths& site, const std::vector<Photograph>& photos,
+                   const std::vector<PixelSample>& horizon, bool is_average,
+                   NaturalEnvironment* environment);
+
+// Warns where the photographs show another sky than that which lights the daylight samples: both
+// are told in one unit, if the samples' albedo is known.
+void WarnOfAnotherSky(const NaturalEnvironment& environment, const SeenSky& sky,
+                      std::vector<Sentence>* warnings);
+
+}  // namespace insitu

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What the server finds wrong with scanned film, files, photos and questions, in German (Swiss).
+
+/** @type {Record<string, string>} */
+export const kFaultTexts = {
+  // Scanned film: what the certificate lacks, what is wrong with it
+  filmNoFocal: "die Kammerkonstante",
+  filmNoMarks: "noch {count} Rahmenmarken mit ihren Millimetern",
+  filmListedTwice: "der Kalibrierschein nennt die Marke {mark} zweimal",
+  filmOtherMillimetres: "die Marke {mark} von {photo} hat andere Millimeter als im Kalibrierschein",
+  filmFolders: "mehrere Ordner in calibration/ enthalten Film; diese Seite zeigt jenen in {folder}",
+  filmNoPhoto: "das Foto {photo} ist nicht im Ordner photos",
+  filmOtherCamera:
+    "{file} gehört zu einer anderen Kamera: entfernen, oder in einen Ordner in calibration/ verschieben und " +
+    "insitu prepare neu starten; der Film hat dann den Ordner calibration/film/",
+  // What a scan's fiducial marks say of each other
+  filmOnLine: "die Marken liegen auf einer Geraden: eine daneben setzen",
+  filmSamePlace: "die Marken {one} und {other} stehen am selben Ort: eine davon gehört anderswohin",
+  filmMirrored:
+    "der Scan ist gegen seine Marken gespiegelt: x und y des Kalibrierscheins vertauscht, y nach unten gezählt, " +
+    "zwei gegenüberliegende Marken vertauscht, oder der Film von hinten gescannt",
+  filmStretched:
+    "der Scan wäre um {percent} % gestreckt oder geschert, was kein Scanner tut: eine Marke steht auf der " +
+    "falschen Rahmenmarke, oder x oder y einer Marke ist falsch",
+  filmExchanged: "die Marken {one} und {other} sind vertauscht",
+  filmWrongMark: "die Marke {one} steht auf der Marke {other}",
+  filmSwapped: "x und y der Marke {mark} sind im Kalibrierschein vertauscht",
+  filmWrongX: "x der Marke {mark} hat im Kalibrierschein das falsche Vorzeichen",
+  filmWrongY: "y der Marke {mark} hat im Kalibrierschein das falsche Vorzeichen",
+  filmOffOthers: "die Marke {mark} liegt {px} px ({mm} mm) von dort, wo die andern sie haben",
+  filmOr: "{one}, oder {other}",
+  filmExplained: "{what}: ohne das passen sie auf {px} px statt {now} px",
+  filmFewFit:
+    "die Marken passen nicht, bis {px} px daneben: bei so wenigen ist nicht zu sagen, welche falsch ist; " +
+    "mehr setzen",
+  filmSeveralWrong:
+    "die Marken passen nicht, bis {px} px daneben: mehrere sind falsch; mit der schlimmsten beginnen",
+  filmBuckled:
+    "die Marken passen nur auf {px} px: nochmals messen; bei altem oder welligem Film projektiv versuchen",
+  // Files and the disk
+  notWritable: "lässt sich nicht schreiben ({reason})",
+  diskFull: "kein Platz mehr auf dem Datenträger",
+  diskReadOnly: "der Datenträger ist schreibgeschützt",
+  noAccess: "keine Berechtigung",
+  journalLong: "lässt sich nicht kürzen: {why}",
+  journalTorn: "{place}: die letzte Zeile war abgerissen und ist entfernt; sie war nie bestätigt",
+  fileReadOnly: "ist schreibgeschützt; nötig ist eine Datei, die geschrieben werden darf",
+  fileNotWritten: "lässt sich nicht schreiben; ist der Datenträger voll?",
+  fileContended: "wird von einem anderen Programm geschrieben",
+  fileContendedLong: "wird von einem anderen Programm dauernd geschrieben",
+  fileRemoved: "{file} wurde entfernt; die Datei wird neu geschrieben",
+  columnMissing: "die Spalte «{column}» fehlt; nötig ist die Kopfzeile {header}",
+  columnTwice: "die Spalte «{column}» steht zweimal; nötig ist die Kopfzeile {header}",
+  cellCount: "{count} Zellen, nötig sind {expected}",
+  cellNumber: "«{text}» in der Spalte «{column}», nötig ist eine endliche Zahl",
+  outsideConflict:
+    "{table}: eine Zeile wurde hier und in der Datei geändert; jene der Datei gilt, Ihre war {row}",
+  // Photos
+  offPhoto: "{table}: das Pixel liegt ausserhalb des Fotos {photo}",
+  photoCut: "ist abgeschnitten; nötig ist ein ganzes Foto",
+  photoUndecoded: "lässt sich nicht lesen: {why}",
+  photoUnreadable: "kein lesbares Bild: {why}",
+  photoSize: "ist {size}, kalibriert wurde seine Kamera mit {expected}",
+  photoNone: "lässt sich nicht lesen; nötig ist ein Foto",
+  exifCameraThere: "eine Kamera ist schon da: insitu-calibrate ausführen",
+  exifNoFocal: "sein EXIF nennt keine brauchbare Brennweite",
+  exifOther:
+    "andere Grösse oder Brennweite als die Fotos davor: ihre Kameras gehören in Ordner in calibration/",
+  exifNoPhotos: "keine Fotos",
+  exifNoPlace: "EXIF keines Fotos nennt Ort oder Zeit: dort eintippen, wo der Name des Projekts steht",
+  // Questions
+  matchFirst: "der Punkt muss hier gemessen und bestimmt sein",
+  askedPhoto: "das Foto {photo} ist noch nicht orientiert",
+  askedPoint: "der Punkt {point} ist noch nicht bestimmt",
+  askedPoints: "nicht alle diese Punkte sind ausgeglichen, oder zwei liegen am selben Ort",
+  askedNothing: "noch ist nichts ausgeglichen",
+  askedTwo: "nötig sind zwei Punkte, oder drei für einen Winkel",
+  askedThree: "nötig sind drei Eckpunkte oder mehr",
+  pastedDegrees: "das sind Grade: insitu import-survey rechnet sie um",
+  pastedCrs: "Koordinatensystem {crs}: wird genommen, wie es dasteht",
+  pastedSigma: "kein σ angegeben: 0.01 m angenommen",
+  stageBusy: "ein anderer Schritt läuft: anhalten oder sein Ende abwarten"
+};

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "renderer/render_view.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "calibration/files/error.h"
+#include "calibration/foreground_matte.h"
+#include "calibration/lens/undistort.h"
+#include "radiometry/measure/photo_exposures.h"
+#include "renderer/photo_gain.h"
+#include "renderer/trace/profile.h"
+
+namespace insitu {
+namespace {
+
+// Pixels of a pinhole for one of its photograph, at a pixel of the photograph.
+double PinholeScale(const Camera& lens, const Camera& pinhole, const Eigen::Vector2d& pixel) {
+  const auto at = [&](double dx, double dy) {
+    return pinhole.Project(lens.Unproject(pixel + Eigen::Vector2d(dx, dy)));
+  };
+  const auto here = at(0, 0), right = at(1, 0), below = at(0, 1);
+  if (!here || !right || !below) return 1;
+  const Eigen::Vector2d u = *right - *here, v = *below - *here;
+  return std::sqrt(std::abs(u.x() * v.y() - u.y() * v.x()));
+}
+
+// What a photograph's point spread is in its input image.
+PointSpread InPinhole(PointSpread spread, const Camera& lens, const Camera& pinhole) {
+  const Eigen::Vector2d center((lens.width() - 1) / 2.0, (lens.height() - 1) / 2.0);
+  spread.center_sigma *= PinholeScale(lens, pinhole, center);
+  spread.corner_sigma *= PinholeScale(lens, pinhole, Eigen::Vector2d::Zero());
+  return spread;
+}
+
+// A matte in its photograph's frame as the pinhole sees it, resampled as the photograph is.
+Raster InPinhole(const Raster& share, const Camera& lens, const Camera& pinhole) {
+  constexpr float kRounding = 1e-4f;  // what resampling leaves of 0 and 1
+  Raster three(share.width, share.height);
+  for (size_t i = 0; i < three.data.size(); ++i) three.data[i] = share.data[i / 3];
+  const Raster resampled = Reproject(three, lens, pinhole);
+  Raster seen(resampled.width, resampled.height, 1);
+  for (size_t i = 0; i < seen.data.size(); ++i) {
+    const float m = resampled.data[3 * i];
+    seen.data[i] = m < kRounding ? 0 : m > 1 - kRounding ? 1 : m;
+  }
+  return seen;
+}
+
+// Photograph and grain in the site's unit.
+void SetGain(const Eigen::Vector3d& gain, RenderView* view) {
+  if (gain == kUnitGain) return;
+  view->gain = gain;
+  view->in_unit = view->photo.linear;
+  DivideByGain(gain, &view->in_unit);
+  if (auto& grain = view->quality.grain) grain = GrainInUnit(*grain, gain);
+}
+
+}  // namespace
+
+size_t CameraIndex(const SitePaths& site, const SceneGeometry& scene, const std::string& photo) {
+  for (size_t i = 0; i < scene.cameras.size(); ++i) {
+    if (scene.cameras[i].photo == photo) return i;
+  }
+  throw InputError(site.environment(), "has no camera for photograph " + photo +
+                                           "; run insitu-reconstruct and insitu-light again");
+}
+
+Raster ReadInputImage(const InputImage& image) {
+  RequireResult(image.file, "insitu-undistort");
+  RequirePhotographSize(image.file, image.camera.width(), image.camera.height());
+  return ReadPhotograph(image.file).linear;
+}
+
+const Raster& InUnit(const RenderView& view) {
+  return view.in_unit.data.empty() ? view.photo.linear : view.in_unit;
+}
+
+RenderView LoadView(const SitePaths& site, const MontageScene& scene,
+                    const std::vector<Eigen::Vector3d>& gains,
+                    const std::filesystem::path& photograph, Frame frame) {
+  const PhaseScope phase(Phase::kFiles);
+  const NaturalEnvironment& natural = scene.natural;
+  const size_t index = CameraIndex(site, natural.scene, photograph.stem().string());
+  RenderView view = {natural.scene.cameras[index], natural.qualities[index], {}};
+  RequirePhotographSize(photograph, view.camera.camera.width(), view.camera.camera.height());
+  view.photo = ReadPhotograph(photograph);
+  const Camera lens = view.camera.camera;
+  auto share = ReadForegroundMatte(site, photograph.stem().string(), lens.width(), lens.height());
+  view.drawn_shadows =
+      ReadShadowPicture(site, photograph.stem().string(), lens.width(), lens.height());
+  if (frame == Frame::kPinhole) {
+    const Camera& pinhole = natural.input_images[index].camera;
+    if (auto& spread = view.quality.point_spread) {
+      spread = InPinhole(*spread, lens, pinhole);
+    }
+    view.camera.camera = pinhole;
+    view.photo.linear = gains[index] == kUnitGain ? scene.input_images[index]
+                                                  : ReadInputImage(natural.input_images[index]);
+    if (share) share = InPinhole(*share, lens, pinhole);
+    if (view.drawn_shadows) view.drawn_shadows = InPinhole(*view.drawn_shadows, lens, pinhole);
+  }
+  SetGain(gains[index], &view);
+  if (share) {
+    view.foreground =
+        std::make_shared<const Foreground>(SeparateForeground(InUnit(view), std::move(*share)));
+  }
+  return view;
+}
+
+}  // namespace insitu

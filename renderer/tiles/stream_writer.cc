@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "renderer/tiles/stream_writer.h"
+
+#include <limits.h>
+#include <poll.h>
+#include <signal.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <chrono>
+#include <utility>
+
+namespace insitu {
+namespace {
+
+constexpr int kMostPhoto = 256;  // [px] of the reduced photograph
+constexpr auto kHeartbeat = std::chrono::seconds(1);
+constexpr int kPatienceMs = 3000;                 // at the end, with a reader that does not read
+constexpr size_t kMostAtOnce = size_t{64} << 10;  // [bytes]
+
+}  // namespace
+
+StreamWriter::StreamWriter(int file, StreamCoding coding) : file_(file), coding_(coding) {
+  signal(SIGPIPE, SIG_IGN);
+  head_ = StreamBegin();
+  thread_ = std::thread([this] { Run(); });
+}
+
+StreamWriter::~StreamWriter() {
+  {
+    const std::lock_guard lock(mutex_);
+    is_ended_ = true;
+  }
+  news_.notify_all();
+  thread_.join();
+}
+
+void StreamWriter::Begin(const std::string& name, const Raster& photo) {
+  const std::string photo_text = PhotoStatement(Reduced(photo, kMostPhoto));
+  const std::lock_guard lock(mutex_);
+  // Of the picture before, what was not sent is sent before this one.
+  head_ += std::exchange(tail_, {}) + ImageStatement(name, photo.width, photo.height) + photo_text;
+  width_ = photo.width;
+  height_ = photo.height;
+  photo_ = &photo;
+  done_ = 0;
+  news_.notify_all();
+}
+
+void StreamWriter::Take(const FinishedTile& tile) {
+  if (is_closed_) return;
+  std::vector<uint8_t> codes = TileCodes(tile, *photo_);
+  const std::lock_guard lock(mutex_);
+  tiles_[tile.index] = std::move(codes);
+  ++done_;
+  news_.notify_all();
+}
+
+void StreamWriter::End(bool is_whole) {
+  const std::lock_guard lock(mutex_);
+  for (const auto& [index, codes] : std::exchange(tiles_, {})) {
+    tail_ += TileStatement(width_, height_, index, codes, coding_);
+  }
+  tail_ += ProgressStatement(done_, TileCount(width_, height_)) + EndStatement(is_whole);
+  photo_ = nullptr;
+  news_.notify_all();
+}
+
+// Of what there is to be sent, as much as is written at once; a sign of life if there is nothing.
+std::string StreamWriter::NextText(std::unique_lock<std::mutex>* lock) {
+  const auto is_news = [this] {
+    return !head_.empty() || !tiles_.empty() || !tail_.empty() || is_ended_;
+  };
+  news_.wait_for(*lock, kHeartbeat, is_news);
+  std::string text = std::exchange(head_, {});
+  while (!tiles_.empty() && text.size() < kMostAtOnce) {
+    const auto first = tiles_.begin();
+    text += TileStatement(width_, height_, first->first, first->second, coding_);
+    tiles_.erase(first);
+  }
+  if (!tiles_.empty()) return text;
+  text += std::exchange(tail_, {});
+  if (photo_) text += ProgressStatement(done_, TileCount(width_, height_));
+  return text;
+}
+
+void StreamWriter::Run() {
+  std::unique_lock lock(mutex_);
+  while (true) {
+    const std::string text = NextText(&lock);
+    if (text.empty() && is_ended_) return;
+    lock.unlock();
+    const bool is_written = Write(text);
+    lock.lock();
+    if (!is_written) {
+      is_closed_ = true;
+      return;
+    }
+  }
+}
+
+// False: nobody reads any more. A pipe that is ready takes PIPE_BUF bytes without waiting; to make
+// it non-blocking would make it so for everybody who has it open.
+bool StreamWriter::Write(const std::string& text) {
+  size_t written = 0;
+  while (written < text.size()) {
+    pollfd ready = {file_, POLLOUT, 0};
+    const int found = poll(&ready, 1, kPatienceMs);
+    if (found < 0 && errno == EINTR) continue;
+    if (found > 0 && (ready.revents & (POLLERR | POLLHUP | POLLNVAL)) != 0) return false;
+    if (found == 0 && IsEnded()) return false;
+    if (found <= 0) continue;
+    const size_t most = std::min<size_t>(text.size() - written, PIPE_BUF);
+    const ssize_t count = write(file_, text.data() + written, most);
+    if (count < 0 && errno != EAGAIN && errno != EINTR) return false;
+    if (count <= 0) continue;
+    written += static_cast<size_t>(count);
+    bytes_ += count;
+  }
+  return true;
+}
+
+bool StreamWriter::IsEnded() {
+  const std::lock_guard lock(mutex_);
+  return is_ended_;
+}
+
+}  // namespace insitu

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "renderer/write_montage.h"
+
+#include <map>
+
+#include "calibration/files/sha256.h"
+#include "calibration/files/whole_file.h"
+#include "calibration/photo/exif.h"
+#include "renderer/trace/profile.h"
+
+namespace insitu {
+namespace {
+
+// Of all files of survey/, by their names and contents; "" if there are none.
+std::string SurveySha256(const SitePaths& site) {
+  if (!std::filesystem::is_directory(site.survey())) return "";
+  std::map<std::string, std::filesystem::path> files;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(site.survey())) {
+    if (!entry.is_regular_file()) continue;
+    files[entry.path().lexically_relative(site.survey()).generic_string()] = entry.path();
+  }
+  std::string text;
+  for (const auto& [name, file] : files) text += Sha256(file) + "  " + name + "\n";
+  return Sha256OfText(text);
+}
+
+MontageStatement StatementOf(MontageStatement statement, const std::filesystem::path& photograph,
+                             const RenderResult& result) {
+  statement.photograph_sha256 = Sha256(photograph);
+  statement.is_composite = result.building_pixels + result.changed_pixels > 0;
+  statement.computed = statement.is_composite ? std::to_string(result.building_pixels) +
+                                                    " pixels of the planned building, " +
+                                                    std::to_string(result.changed_pixels) +
+                                                    " pixels of its surroundings whose light it "
+                                                    "changes; all others are the photograph's"
+                                              : "nothing: all pixels are the photograph's";
+  return statement;
+}
+
+}  // namespace
+
+MontageStatement StatementOf(const SitePaths& site, bool with_building) {
+  MontageStatement statement;
+  statement.program = std::string("insitu ") + INSITU_VERSION;
+  statement.survey_sha256 = SurveySha256(site);
+  if (with_building) statement.model_sha256 = Sha256(site.artificial());
+  return statement;
+}
+
+std::vector<std::string> WriteMontage(const SitePaths& site,
+                                      const std::filesystem::path& photograph, Frame frame,
+                                      Photograph photo, const RenderResult& result,
+                                      const MontageStatement& statement) {
+  const PhaseScope phase(Phase::kFiles);
+  // As the EXR beside it is turned.
+  const CodedPhotograph layers =
+      Upright(CodesOf(result.layers, Encoding::kLinear, {}), ReadOrientation(photograph));
+  WriteWhole(site.montages() / (photograph.stem().string() + ".layers.exr"),
+             [&](const std::filesystem::path& temporary) { WriteCodes(temporary, layers); });
+  return WriteMontageFiles(site.montages() / photograph.stem(),
+                           {result.linear, std::move(photo), photograph, frame == Frame::kPhoto,
+                            StatementOf(statement, photograph, result)});
+}
+
+void WriteSunShares(const SitePaths& site, const std::filesystem::path& photograph,
+                    const std::optional<SunShares>& shares) {
+  const std::filesystem::path file =
+      site.montages() / (photograph.stem().string() + ".shadows.exr");
+  if (!shares) {
+    std::filesystem::remove(file);
+    return;
+  }
+  Raster picture(shares->share.width, shares->share.height);
+  for (size_t i = 0; i < shares->share.data.size(); ++i) {
+    picture.data[3 * i] = shares->share.data[i];
+    picture.data[3 * i + 1] = shares->sigma.data[i];
+  }
+  const CodedPhotograph upright =
+      Upright(CodesOf(picture, Encoding::kLinear, {}), ReadOrientation(photograph));
+  WriteWhole(file, [&](const std::filesystem::path& temporary) { WriteCodes(temporary, upright); });
+}
+
+void RemoveMontage(const SitePaths& site, const std::string& photo) {
+  for (const char* ending : {".exr", ".png", ".jpg", ".tif", ".layers.exr", ".shadows.exr"}) {
+    std::filesystem::remove(site.montages() / (photo + ending));
+  }
+}
+
+}  // namespace insitu

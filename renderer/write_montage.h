@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The pictures of a montage and what they state.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "calibration/photo/montage_files.h"
+#include "calibration/program/site.h"
+#include "renderer/render_view.h"
+#include "renderer/shadows/shadow_separation.h"
+#include "renderer/trace/render.h"
+
+namespace insitu {
+
+// What all pictures of a run state.
+MontageStatement StatementOf(const SitePaths& site, bool with_building);
+
+// montages/<photo>.exr and the others (montage_files.h), and <photo>.layers.exr. What of the
+// photograph could not be delivered is returned.
+std::vector<std::string> WriteMontage(const SitePaths& site,
+                                      const std::filesystem::path& photograph, Frame frame,
+                                      Photograph photo, const RenderResult& result,
+                                      const MontageStatement& statement);
+
+// montages/<photo>.shadows.exr, upright as the montage's EXR is; without `shares`, what an earlier
+// run has left goes.
+void WriteSunShares(const SitePaths& site, const std::filesystem::path& photograph,
+                    const std::optional<SunShares>& shares);
+
+// What an earlier run has left.
+void RemoveMontage(const SitePaths& site, const std::string& photo);
+
+}  // namespace insitu

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "radiometry/light/photographed_color.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace insitu {
+namespace {
+
+// A level square and an upright one that hides a part of it from the second camera. The photographs
+// tell places by red and green, and themselves by blue.
+class PhotographedColorTest : public testing::Test {
+ protected:
+  PhotographedColorTest() {
+    scene_.origin = {2600000, 1200000, 400};
+    AddPolygon({-20, -20, 0}, {40, 0, 0}, {0, 40, 0}, 0);
+    AddPolygon({1.5, -3, 0}, {0, 6, 0}, {0, 0, 9}, std::nullopt);
+    AddCamera({-9, 2, 14}, 200, 170);
+    AddCamera({4, -5, 10}, 180, 210);
+    const RayScene rays(MeshOfPolygons(scene_).mesh);
+    for (size_t i = 0; i < scene_.cameras.size(); ++i) Paint(rays, i);
+  }
+
+  void AddPolygon(const Eigen::Vector3d& corner, const Eigen::Vector3d& u, const Eigen::Vector3d& v,
+                  std::optional<int> photo) {
+    const Eigen::Vector3d a = scene_.origin + corner;
+    scene_.polygons.push_back(
+        {"polygon", {a, a + u, a + u + v, a + v}, u.cross(v).normalized(), photo, "stone"});
+  }
+
+  // Looks down; its x is east, and it sees 8 or 9 m to either side.
+  void AddCamera(const Eigen::Vector3d& from, int width, int height) {
+    Eigen::Matrix3d down;
+    down << 1, 0, 0, 0, -1, 0, 0, 0, -1;
+    const Eigen::Quaterniond rotation(down);
+    scene_.cameras.push_back({"photo",
+                              Camera::Pinhole(150, 150, width / 2.0, height / 2.0, width, height),
+                              {rotation, -(rotation * (scene_.origin + from))}});
+  }
+
+  static Eigen::Vector3d ColorAt(const Eigen::Vector3d& local, size_t photo) {
+    return {0.4 + 0.01 * local.x(), 0.4 + 0.01 * local.y(), 0.2 + 0.3 * static_cast<double>(photo)};
+  }
+
+  void Paint(const RayScene& rays, size_t index) {
+    const PosedCamera& posed = scene_.cameras[index];
+    Raster photo(posed.camera.width(), posed.camera.height());
+    const Eigen::Vector3d center = Center(posed.cam_from_world) - scene_.origin;
+    for (int y = 0; y < photo.height; ++y) {
+      for (int x = 0; x < photo.width; ++x) {
+        const Eigen::Vector3d sight =
+            posed.cam_from_world.rotation.conjugate() * posed.camera.Unproject({x, y});
+        const auto hit = rays.Nearest({center, sight});
+        if (hit) photo.SetRgb(x, y, ColorAt(center + hit->distance * sight, index));
+      }
+    }
+    photos_.push_back(photo);
+  }
+
+  // On the ground.
+  std::optional<Eigen::Vector3d> LookUp(double x, double y, double up = 1) const {
+    const PolygonMesh polygons = MeshOfPolygons(scene_);
+    const RayScene rays(polygons.mesh);
+    std::vector<LocalImage> images;
+    for (size_t i = 0; i < photos_.size(); ++i) {
+      images.emplace_back(scene_.cameras[i], scene_.origin, photos_[i]);
+    }
+    const PhotographedSite site = {scene_, rays, polygons.polygon_of_triangle,
+                                   images, air_, spectra_};
+    const auto color = LookUpColor(site, 0, {{x, y, 0}, {0, 0, up}});
+    if (!color) return std::nullopt;
+    return spectra_.RgbFromSpectrum(color->true_color);
+  }
+
+  void ExpectColor(double x, double y, size_t photo) const {
+    const auto color = LookUp(x, y);
+    ASSERT_TRUE(color) << x << " " << y;
+    EXPECT_LT((*color - ColorAt({x, y, 0}, photo)).norm(), 0.002) << x << " " << y;
+  }
+
+  SceneGeometry scene_;
+  std::vector<Raster> photos_;
+  Atmosphere air_;
+  SpectralBasis spectra_;
+};
+
+TEST_F(PhotographedColorTest, IsThatOfThePlaceInThePhotographOfTheAttribute) {
+  ExpectColor(-12, 4, 0);
+  ExpectColor(0, -5.5, 0);  // which both show
+  scene_.polygons[0].photo = 1;
+  ExpectColor(0, -5.5, 1);
+  ExpectColor(7, -9, 1);
+}
+
+TEST_F(PhotographedColorTest, WhatThatOneDoesNotShowAnotherDoes) {
+  ExpectColor(8, -8, 1);  // out of the first one's frame
+  scene_.polygons[0].photo = 1;
+  ExpectColor(-4, 3, 0);
+  EXPECT_FALSE(LookUp(3, 15));
+}
+
+TEST_F(PhotographedColorTest, WhatStandsBeforeItHidesIt) {
+  scene_.polygons[0].photo = 1;
+  ExpectColor(0, 0, 0);  // which the first one shows
+  EXPECT_FALSE(LookUp(1.2, 0));
+}
+
+TEST_F(PhotographedColorTest, TheOtherSideIsSeenByNone) { EXPECT_FALSE(LookUp(-4, 3, -1)); }
+
+TEST_F(PhotographedColorTest, Eq8_HazeIsTakenOff) {
+  air_.transmittance = 0.98 * spectra_.Ones();
+  air_.horizon = spectra_.SpectrumFromRgb({0.1, 0.1, 0.1});
+  const double tau = std::pow(0.98, std::sqrt(9 + 4 + 14 * 14));  // from above (-12, 4)
+  const Eigen::Vector3d apparent = ColorAt({-12, 4, 0}, 0);
+  const Eigen::Vector3d expected = (apparent - Eigen::Vector3d::Constant(0.1 * (1 - tau))) / tau;
+  EXPECT_LT((*LookUp(-12, 4) - expected).norm(), 0.004);
+}
+
+}  // namespace
+}  // namespace insitu
