@@ -77,7 +77,7 @@ TEST_F(StreamWriterTest, AReaderGetsEveryTileOfEveryPicture) {
   EXPECT_EQ(ended, 2);
   EXPECT_EQ(streamed.name(), "second");
   EXPECT_EQ(streamed.done(), 100);
-  EXPECT_EQ(streamed.picture().codes, std::vector<uint8_t>(3 * kSide * kSide, 255));
+  EXPECT_EQ(streamed.picture().codes, std::vector<uint8_t>(size_t{3} * kSide * kSide, 255));
 }
 
 // 1.2 MB do not fit into the pipe.
