@@ -79,6 +79,47 @@ void PrintQuality(FILE* out, const RenderSiteReport& report, const RenderSiteOpt
 
 constexpr int kStopped = 3;  // exit status
 
+// What decides on the pixels.
+void AddRenderOptions(CLI::App* app, RenderSiteOptions* options) {
+  app->add_option("--most-rays", options->render.most_rays, "rays a pixel at most")
+      ->check(CLI::IsMember({4, 8, 12, 16}))
+      ->capture_default_str();
+  app->add_flag("--uniform-ambient", options->uniform_ambient,
+                "the paper's ambient light, alike everywhere, instead of light among surfaces");
+  app->add_flag("!--no-shadow-search", options->find_shadows,
+                "take what no polygon shades as lit by the sun, whatever the photograph shows");
+  app->add_option("--reach", options->render.reach,
+                  "change in 8-bit codes up to which the photograph's pixel stays")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
+  AddSharpness(app, &options->sharpness);
+  app->add_flag("--grain", options->with_grain, "computed pixels get the photograph's grain");
+  app->add_option("--bounces", options->bounces,
+                  "bounces of light among surfaces; 0: sun and sky alone; without: all")
+      ->check(CLI::NonNegativeNumber);
+}
+
+struct Output {
+  bool streams = false, base64 = false, timing = false;
+};
+
+void RenderAndReport(const SitePaths& site, RenderSiteOptions* options, const Output& output) {
+  const auto profile = output.timing ? std::make_unique<Profile>() : nullptr;
+  FILE* const out = output.streams || output.base64 ? stderr : stdout;
+  std::optional<RenderStream> stream;
+  if (output.streams || output.base64) {
+    stream.emplace(STDOUT_FILENO, output.base64 ? StreamCoding::kBase64 : StreamCoding::kDecimal);
+    options->watcher = &*stream;
+  }
+  std::fputs(WarningLines(UnreadDrawings(site)).c_str(), out);
+  for (const RenderSiteReport& report : RenderSite(site, *options)) {
+    PrintReport(out, report);
+    if (!report.is_within_building) PrintQuality(out, report, *options);
+    std::fputs(WarningLines(report.remarks).c_str(), out);
+  }
+  if (profile) std::fputs(profile->Report().c_str(), out);
+}
+
 int RunRender(int argc, char** argv) {
   CLI::App app("Renders the planned building into the photographs of its site.", "insitu-render");
   app.footer(
@@ -93,57 +134,27 @@ int RunRender(int argc, char** argv) {
       "command goes on where it was and comes to the same bytes.");
   SitePaths site;
   RenderSiteOptions options;
-  bool no_building = false, timing = false, stopped = false, streams = false, base64 = false;
+  Output output;
+  bool no_building = false, stopped = false;
   AddSite(&app, &site);
   app.add_option("--photo", options.photos, "only this photograph (may be repeated)");
   AddFrame(&app, &options.frame);
   app.add_flag("--no-building", no_building, "render the empty site");
-  app.add_option("--most-rays", options.render.most_rays, "rays a pixel at most")
-      ->check(CLI::IsMember({4, 8, 12, 16}))
-      ->capture_default_str();
-  app.add_flag("--uniform-ambient", options.uniform_ambient,
-               "the paper's ambient light, alike everywhere, instead of light among surfaces");
-  app.add_flag("!--no-shadow-search", options.find_shadows,
-               "take what no polygon shades as lit by the sun, whatever the photograph shows");
-  app.add_option("--reach", options.render.reach,
-                 "change in 8-bit codes up to which the photograph's pixel stays")
-      ->check(CLI::NonNegativeNumber)
-      ->capture_default_str();
-  AddSharpness(&app, &options.sharpness);
-  app.add_flag("--grain", options.with_grain, "computed pixels get the photograph's grain");
-  app.add_option("--bounces", options.bounces,
-                 "bounces of light among surfaces; 0: sun and sky alone; without: all")
-      ->check(CLI::NonNegativeNumber);
+  AddRenderOptions(&app, &options);
   app.add_option("--threads", options.render.threads, "threads; 0: all cores")
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
-  app.add_flag("--stream", streams,
+  app.add_flag("--stream", output.streams,
                "the picture on standard output as it comes, for insitu view -; reports on standard "
                "error");
-  app.add_flag("--stream-base64", base64, "the same in a third of the bytes");
-  app.add_flag("--timing", timing, "print the shares of CPU time");
-  const auto render = [&] {
-    const auto profile = timing ? std::make_unique<Profile>() : nullptr;
-    FILE* const out = streams || base64 ? stderr : stdout;
-    std::optional<StreamWriter> stream;
-    if (streams || base64) {
-      stream.emplace(STDOUT_FILENO, base64 ? StreamCoding::kBase64 : StreamCoding::kDecimal);
-      options.watcher = &*stream;
-    }
-    std::fputs(WarningLines(UnreadDrawings(site)).c_str(), out);
-    for (const RenderSiteReport& report : RenderSite(site, options)) {
-      PrintReport(out, report);
-      if (!report.is_within_building) PrintQuality(out, report, options);
-      std::fputs(WarningLines(report.remarks).c_str(), out);
-    }
-    if (profile) std::fputs(profile->Report().c_str(), out);
-  };
+  app.add_flag("--stream-base64", output.base64, "the same in a third of the bytes");
+  app.add_flag("--timing", output.timing, "print the shares of CPU time");
   const int status = RunProgram(app, argc, argv, [&] {
     options.with_building = !no_building;
     NoteStopSignals();
     options.stops = IsStopSignalled;
     try {
-      render();
+      RenderAndReport(site, &options, output);
     } catch (const RenderStopped& told) {
       std::cerr << told.what() << "\n";
       stopped = true;

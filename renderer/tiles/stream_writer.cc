@@ -21,13 +21,13 @@ constexpr size_t kMostAtOnce = size_t{64} << 10;  // [bytes]
 
 }  // namespace
 
-StreamWriter::StreamWriter(int file, StreamCoding coding) : file_(file), coding_(coding) {
+RenderStream::RenderStream(int file, StreamCoding coding) : file_(file), coding_(coding) {
   signal(SIGPIPE, SIG_IGN);
   head_ = StreamBegin();
   thread_ = std::thread([this] { Run(); });
 }
 
-StreamWriter::~StreamWriter() {
+RenderStream::~RenderStream() {
   {
     const std::lock_guard lock(mutex_);
     is_ended_ = true;
@@ -36,7 +36,7 @@ StreamWriter::~StreamWriter() {
   thread_.join();
 }
 
-void StreamWriter::Begin(const std::string& name, const Raster& photo) {
+void RenderStream::Begin(const std::string& name, const Raster& photo) {
   const std::string photo_text = PhotoStatement(Reduced(photo, kMostPhoto));
   const std::lock_guard lock(mutex_);
   // Of the picture before, what was not sent is sent before this one.
@@ -48,7 +48,7 @@ void StreamWriter::Begin(const std::string& name, const Raster& photo) {
   news_.notify_all();
 }
 
-void StreamWriter::Take(const FinishedTile& tile) {
+void RenderStream::Take(const FinishedTile& tile) {
   if (is_closed_) return;
   std::vector<uint8_t> codes = TileCodes(tile, *photo_);
   const std::lock_guard lock(mutex_);
@@ -57,7 +57,7 @@ void StreamWriter::Take(const FinishedTile& tile) {
   news_.notify_all();
 }
 
-void StreamWriter::End(bool is_whole) {
+void RenderStream::End(bool is_whole) {
   const std::lock_guard lock(mutex_);
   for (const auto& [index, codes] : std::exchange(tiles_, {})) {
     tail_ += TileStatement(width_, height_, index, codes, coding_);
@@ -68,7 +68,7 @@ void StreamWriter::End(bool is_whole) {
 }
 
 // Of what there is to be sent, as much as is written at once; a sign of life if there is nothing.
-std::string StreamWriter::NextText(std::unique_lock<std::mutex>* lock) {
+std::string RenderStream::NextText(std::unique_lock<std::mutex>* lock) {
   const auto is_news = [this] {
     return !head_.empty() || !tiles_.empty() || !tail_.empty() || is_ended_;
   };
@@ -85,7 +85,7 @@ std::string StreamWriter::NextText(std::unique_lock<std::mutex>* lock) {
   return text;
 }
 
-void StreamWriter::Run() {
+void RenderStream::Run() {
   std::unique_lock lock(mutex_);
   while (true) {
     const std::string text = NextText(&lock);
@@ -102,7 +102,7 @@ void StreamWriter::Run() {
 
 // False: nobody reads any more. A pipe that is ready takes PIPE_BUF bytes without waiting; to make
 // it non-blocking would make it so for everybody who has it open.
-bool StreamWriter::Write(const std::string& text) {
+bool RenderStream::Write(const std::string& text) {
   size_t written = 0;
   while (written < text.size()) {
     pollfd ready = {file_, POLLOUT, 0};
@@ -121,7 +121,7 @@ bool StreamWriter::Write(const std::string& text) {
   return true;
 }
 
-bool StreamWriter::IsEnded() {
+bool RenderStream::IsEnded() {
   const std::lock_guard lock(mutex_);
   return is_ended_;
 }

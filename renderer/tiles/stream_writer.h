@@ -16,12 +16,12 @@ namespace insitu {
 
 // A reader that is slow gets the newest state when it reads again, one that has gone nothing more;
 // the render waits for neither. At its end it is waited for while it reads.
-class StreamWriter : public RenderWatcher {
+class RenderStream : public RenderWatcher {
  public:
   // `file`: a descriptor of a pipe, socket or file, which stays open. SIGPIPE is ignored from now
   // on.
-  StreamWriter(int file, StreamCoding coding);
-  ~StreamWriter() override;
+  RenderStream(int file, StreamCoding coding);
+  ~RenderStream() override;
 
   void Begin(const std::string& name, const Raster& photo) override;
   void Take(const FinishedTile& tile) override;

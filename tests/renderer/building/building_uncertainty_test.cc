@@ -54,7 +54,8 @@ TEST(BuildingUncertainty, IsUnknownWithoutCovariances) {
 TEST(ThinnedOut, KeepsTheLeastKnownOfWhatIsClose) {
   std::vector<CornerUncertainty> corners(30000);
   for (size_t i = 0; i < corners.size(); ++i) {
-    corners[i].image.pixel = {static_cast<double>(i % 150), static_cast<double>(i / 150)};
+    const size_t column = i % 150, row = i / 150;
+    corners[i].image.pixel = {static_cast<double>(column), static_cast<double>(row)};
     corners[i].image.major_px = i == 20250 ? 2 : 1;
   }
   const std::vector<CornerUncertainty> kept = ThinnedOut(corners);

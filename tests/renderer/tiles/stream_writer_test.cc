@@ -58,7 +58,7 @@ TEST_F(StreamWriterTest, AReaderGetsEveryTileOfEveryPicture) {
   std::string text;
   std::thread reader([&] { text = ReadAll(); });
   {
-    StreamWriter writer(ends_[1], StreamCoding::kBase64);
+    RenderStream writer(ends_[1], StreamCoding::kBase64);
     for (const char* name : {"first", "second"}) {
       writer.Begin(name, photo_);
       for (int i = 0; i < 100; ++i) writer.Take(WhiteTile(i));
@@ -77,12 +77,12 @@ TEST_F(StreamWriterTest, AReaderGetsEveryTileOfEveryPicture) {
   EXPECT_EQ(ended, 2);
   EXPECT_EQ(streamed.name(), "second");
   EXPECT_EQ(streamed.done(), 100);
-  EXPECT_EQ(streamed.picture().codes, std::vector<uint8_t>(3 * kSide * kSide, 255));
+  EXPECT_EQ(streamed.picture().codes, std::vector<uint8_t>(size_t{3} * kSide * kSide, 255));
 }
 
 // 1.2 MB do not fit into the pipe.
 TEST_F(StreamWriterTest, AReaderThatDoesNotReadCostsTheRenderNothing) {
-  std::optional<StreamWriter> writer;
+  std::optional<RenderStream> writer;
   writer.emplace(ends_[1], StreamCoding::kDecimal);
   writer->Begin("photo", photo_);
   const auto begin = Clock::now();
@@ -99,7 +99,7 @@ TEST_F(StreamWriterTest, AReaderThatDoesNotReadCostsTheRenderNothing) {
 TEST_F(StreamWriterTest, AReaderThatHasGoneEndsTheStreamAlone) {
   close(ends_[0]);
   ends_[0] = -1;
-  StreamWriter writer(ends_[1], StreamCoding::kDecimal);
+  RenderStream writer(ends_[1], StreamCoding::kDecimal);
   writer.Begin("photo", photo_);
   for (int i = 0; i < 100; ++i) writer.Take(WhiteTile(i));
   for (int i = 0; i < 500 && !writer.is_closed(); ++i) {
@@ -114,7 +114,7 @@ TEST_F(StreamWriterTest, TellsThatItLivesWhenNothingComes) {
   std::string text;
   std::thread reader([&] { text = ReadAll(); });
   {
-    StreamWriter writer(ends_[1], StreamCoding::kDecimal);
+    RenderStream writer(ends_[1], StreamCoding::kDecimal);
     writer.Begin("photo", photo_);
     std::this_thread::sleep_for(std::chrono::milliseconds(2500));
     writer.End(false);

@@ -71,7 +71,7 @@ TEST(TileStream, ComesOutAsItWentIn) {
     EXPECT_FALSE(streamed.IsDone(4));
     EXPECT_EQ(streamed.state(), StreamedPicture::State::kStopped);
     const auto at = [&](int x, int y) {
-      const uint8_t* rgb = &streamed.picture().codes[3 * (y * kWidth + x)];
+      const uint8_t* rgb = &streamed.picture().codes[3 * (size_t{kWidth} * y + x)];
       return std::vector<int>(rgb, rgb + 3);
     };
     EXPECT_EQ(at(65, 33), (std::vector{255, 0, 0}));  // of the last tile, which is 6 px wide
