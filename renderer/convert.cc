@@ -11,11 +11,11 @@
 #include "calibration/program/program.h"
 #include "renderer/building/building_lights.h"
 #include "renderer/building/building_materials.h"
+#include "renderer/building/open_glass.h"
 #include "renderer/building/site_check.h"
 #include "renderer/formats/model_list.h"
 #include "renderer/formats/model_textures.h"
 #include "renderer/mesh/overlaid_faces.h"
-#include "renderer/open_glass.h"
 
 namespace insitu {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "renderer/open_glass.h"
+#include "renderer/building/open_glass.h"
 
 #include "renderer/mesh/element_measures.h"
 
