@@ -11,6 +11,7 @@
 #include "calibration/program/program.h"
 #include "renderer/building/building_lights.h"
 #include "renderer/building/building_materials.h"
+#include "renderer/building/open_glass.h"
 #include "renderer/building/site_check.h"
 #include "renderer/formats/model_list.h"
 #include "renderer/formats/model_textures.h"
@@ -82,7 +83,6 @@ class Converter {
   int Unlisted(const SurfaceNames& names);
   std::string TextureOf(const SurfaceNames& names);
   void WarnOfMaterials();
-  void WarnOfOpenGlass();
   void WarnOfSolids();
   void DropHidden(const std::vector<std::optional<int>>& material_of_surface);
 
@@ -268,30 +268,6 @@ void Converter::WarnOfMaterials() {
   }
 }
 
-// Light is bent where it enters a body of glass and where it leaves it.
-void Converter::WarnOfOpenGlass() {
-  const ArtificialEnvironment& environment = conversion_.environment;
-  ModelMesh bodies;
-  for (const SurfaceMaterial& material : environment.materials) {
-    bodies.surfaces.emplace_back().layer = material.name;
-  }
-  for (size_t t = 0; t < mesh_.triangles.size(); ++t) {
-    const int material = environment.material_of_triangle[t];
-    const auto& glass = environment.materials[material].glass;
-    if (!glass || !glass->is_solid) continue;
-    bodies.triangles.push_back(mesh_.triangles[t]);
-    bodies.surface_of_triangle.push_back(material);
-  }
-  if (bodies.triangles.empty()) return;
-  bodies.vertices = mesh_.vertices;
-  for (const auto& [name, measures] : MeasuresByLayer(bodies)) {
-    if (measures.volume) continue;
-    Warn(file_, "\"" + name +
-                    "\" is solid glass, and its faces leave a body open: light that meets no face "
-                    "on its way out is lost; close it, or call it thin");
-  }
-}
-
 void Converter::WarnOfSolids() {
   const SolidsReport& s = conversion_.solids;
   const auto warn = [this](int count, const std::string& what) {
@@ -309,7 +285,11 @@ Conversion Converter::Finish() {
   conversion_.solids = MendSolids(&mesh_);
   ResolveMaterials();
   WarnOfMaterials();
-  WarnOfOpenGlass();
+  for (const std::string& name : OpenGlassBodies(mesh_, conversion_.environment)) {
+    Warn(file_, "\"" + name +
+                    "\" is solid glass, and its faces leave a body open: light that meets no face "
+                    "on its way out is lost; close it, or call it thin");
+  }
   WarnOfSolids();
   DropUnused(&mesh_);
   conversion_.elements = MeasuresByLayer(mesh_);

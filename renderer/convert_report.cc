@@ -9,6 +9,7 @@
 #include "calibration/files/whole_file.h"
 #include "calibration/files/wording.h"
 #include "calibration/photo/photograph.h"
+#include "calibration/program/html_text.h"
 #include "calibration/program/warnings.h"
 #include "renderer/preview_image.h"
 
@@ -127,27 +128,9 @@ Sums SumOver(const std::vector<ModelReport>& models) {
   return sums;
 }
 
-std::string Escaped(const std::string& text) {
-  std::string escaped;
-  for (const char c : text) {
-    if (c == '&') {
-      escaped += "&amp;";
-    } else if (c == '<') {
-      escaped += "&lt;";
-    } else if (c == '>') {
-      escaped += "&gt;";
-    } else if (c == '"') {
-      escaped += "&quot;";
-    } else {
-      escaped += c;
-    }
-  }
-  return escaped;
-}
-
 std::string Row(std::initializer_list<std::string> cells) {
   std::string row = "<tr>";
-  for (const std::string& cell : cells) row += "<td>" + Escaped(cell) + "</td>";
+  for (const std::string& cell : cells) row += "<td>" + HtmlText(cell) + "</td>";
   return row + "</tr>\n";
 }
 
@@ -223,11 +206,11 @@ std::string Page(const std::string& picture, const Conversion& conversion) {
           std::to_string(conversion.environment.lights.size()) +
           " lights. Arcs of drawings are within " + Number("%.3f", conversion.chord_tolerance) +
           " m of their facets. Seen from the south-west, z up; material colours.</p>\n";
-  page += "<img src=\"" + Escaped(picture) + "\" alt=\"three-quarter view of the building\">\n";
+  page += "<img src=\"" + HtmlText(picture) + "\" alt=\"three-quarter view of the building\">\n";
   if (!conversion.warnings.empty()) {
     page += "<h2>Warnings</h2><ul>\n";
     for (const std::string& warning : conversion.warnings) {
-      page += "<li>" + Escaped(warning) + "</li>\n";
+      page += "<li>" + HtmlText(warning) + "</li>\n";
     }
     page += "</ul>\n";
   }

@@ -7,6 +7,7 @@
 #include "calibration/files/whole_file.h"
 #include "calibration/files/wording.h"
 #include "calibration/photo/photograph.h"
+#include "calibration/program/html_text.h"
 #include "calibration/program/program.h"
 #include "renderer/building/building_materials.h"
 #include "renderer/swatch.h"
@@ -23,22 +24,6 @@ bool IsLamp(const LibraryEntry& entry) { return entry.content.At("kind").Text() 
 std::string TextOf(const LibraryEntry& entry, const std::string& key) {
   const auto node = entry.content.Find(key);
   return node ? node->Text() : "";
-}
-
-std::string EscapedForHtml(const std::string& text) {
-  std::string escaped;
-  for (const char c : text) {
-    if (c == '&') {
-      escaped += "&amp;";
-    } else if (c == '<') {
-      escaped += "&lt;";
-    } else if (c == '>') {
-      escaped += "&gt;";
-    } else {
-      escaped += c;
-    }
-  }
-  return escaped;
 }
 
 // By group, in it by name.
@@ -113,15 +98,15 @@ std::string Article(const LibraryEntry& entry, const std::string& picture, int r
       R"(<article><div class="swatch" role="img" aria-label="swatch" style="width: %dpx; )"
       R"(height: %dpx; background-image: url('%s'); background-position: 0 -%dpx"></div><div>)",
       is_wide ? width : 2 * kHeight, kHeight, picture.c_str(), row * kHeight);
-  article += "<h3>" + EscapedForHtml(entry.name) + "</h3>\n";
+  article += "<h3>" + HtmlText(entry.name) + "</h3>\n";
   for (const char* key : {"title", "note"}) {
     if (const std::string text = TextOf(entry, key); !text.empty()) {
-      article += "<p>" + EscapedForHtml(text) + "</p>\n";
+      article += "<p>" + HtmlText(text) + "</p>\n";
     }
   }
-  article += "<p><small>" + EscapedForHtml(TextOf(entry, "source")) + "<br>" +
-             EscapedForHtml(TextOf(entry, "licence")) + "<br>" +
-             EscapedForHtml(entry.content.path().string()) + "</small></p></div></article>\n";
+  article += "<p><small>" + HtmlText(TextOf(entry, "source")) + "<br>" +
+             HtmlText(TextOf(entry, "licence")) + "<br>" + HtmlText(entry.content.path().string()) +
+             "</small></p></div></article>\n";
   return article;
 }
 
@@ -153,7 +138,7 @@ void WriteMaterialPage(const fs::path& stem, const MaterialLibrary& library,
               : "<p>Each on a sphere and on a wall under D65. A lamp is its colour.</p>\n";
   std::string group = "\n";
   for (size_t i = 0; i < entries.size(); ++i) {
-    if (entries[i]->group != group) text += "<h2>" + EscapedForHtml(entries[i]->group) + "</h2>\n";
+    if (entries[i]->group != group) text += "<h2>" + HtmlText(entries[i]->group) + "</h2>\n";
     group = entries[i]->group;
     text += Article(*entries[i], picture.filename().string(), static_cast<int>(i), swatches.width);
   }

@@ -3,6 +3,7 @@
 
 #include <json/writer.h>
 
+#include "calibration/program/html_text.h"
 #include "calibration/program/report_page_parts.h"
 
 namespace insitu {
@@ -38,7 +39,7 @@ std::string Data(const Json::Value& report) {
 
 std::string ReportPage(const std::string& title, const Json::Value& report,
                        std::string_view script) {
-  const std::string escaped = Replaced(Replaced(title, '&', "&amp;"), '<', "&lt;");
+  const std::string escaped = HtmlText(title);
   return kPageHead + ("<title>" + escaped + "</title>\n<style>\n") + kPageStyle +
          "</style>\n</head>\n<body>\n<h1>" + escaped +
          "</h1>\n<noscript>This page builds its tables and plots with JavaScript from the JSON "

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "calibration/program/child_process.h"
+#include "calibration/program/html_text.h"
 
 namespace insitu {
 namespace {
@@ -19,26 +20,6 @@ namespace {
 bool IsSet(const char* variable) {
   const char* const value = std::getenv(variable);
   return value && *value;
-}
-
-std::string HtmlText(const std::string& text) {
-  std::string html;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        html += "&amp;";
-        break;
-      case '<':
-        html += "&lt;";
-        break;
-      case '"':
-        html += "&quot;";
-        break;
-      default:
-        html += c;
-    }
-  }
-  return html;
 }
 
 std::string LeadingPage(const std::string& url) {

@@ -9,6 +9,7 @@
 
 #include "calibration/camera_files/film.h"
 #include "calibration/files/error.h"
+#include "calibration/files/error_at.h"
 #include "calibration/files/whole_file.h"
 #include "calibration/program/site.h"
 #include "reconstruction/editing/journal.h"

@@ -13,7 +13,7 @@
 namespace insitu {
 namespace {
 
-constexpr double kMetresPerMm = 1e-3;
+constexpr double kMetresPerAiconUnit = 1e-3;
 
 using Indices = std::map<std::string, int>;
 
@@ -90,7 +90,7 @@ Indices ReadOrientations(const std::filesystem::path& path, const Indices& camer
     const auto camera = cameras.find(row.Text(1, "camera number"));
     if (camera == cameras.end()) throw row.Error("camera \"" + row.words[1] + "\" is not known");
     photo.camera = camera->second;
-    photo.center = kMetresPerMm * Vector(row, 2, "position");
+    photo.center = kMetresPerAiconUnit * Vector(row, 2, "position");
     photo.cam_from_local = CamFromWorldOmegaPhiKappa(Vector(row, 5, "angle about"));
     network->photos.push_back(photo);
   }
@@ -106,7 +106,7 @@ Indices ReadPoints(const std::filesystem::path& path, Network* network,
     if (row.words.size() > 8 && row.Integer(8, "flag") == 0 && ++unused) continue;
     const std::string& name = row.Text(0, "point number");
     Insert(row, name, "point", &indices);
-    network->points.push_back({name, kMetresPerMm * Vector(row, 1, "coordinate")});
+    network->points.push_back({name, kMetresPerAiconUnit * Vector(row, 1, "coordinate")});
   }
   if (unused) remarks->push_back(std::to_string(unused) + " points are flagged as not adjusted");
   return indices;
@@ -148,7 +148,7 @@ void ReadScales(const std::filesystem::path& path, const Indices& points, Networ
     const double length = row.Number(4, "length"), sigma = row.Number(5, "sigma");
     if (!(length > 0) || !(sigma > 0)) throw row.Error("length and sigma must be positive");
     network->distances.push_back(
-        {from->second, to->second, kMetresPerMm * length, kMetresPerMm * sigma});
+        {from->second, to->second, kMetresPerAiconUnit * length, kMetresPerAiconUnit * sigma});
   }
 }
 

@@ -34,8 +34,8 @@ double AreaOf(const Polygon& polygon);
 
 // A measured direction in the world frame.
 struct Direction {
-  Eigen::Vector3d unit;        // to the sun, or to the zenith
-  Eigen::Matrix3d covariance;  // of the unit vector (rank 2)
+  Eigen::Vector3d unit = Eigen::Vector3d::UnitZ();       // to the sun, or to the zenith
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  // of the unit vector (rank 2)
 };
 
 struct SceneGeometry {

@@ -10,8 +10,8 @@
 namespace insitu {
 namespace {
 
-constexpr int kMostInterfaces = 32;  // on one ray; light that has more is taken as lost
-constexpr double kStep = 1e-4;       // [m], beyond a face that was met
+constexpr int kMostInterfaces = 32;   // on one ray; light that has more is taken as lost
+constexpr double kBeyondFace = 1e-4;  // [m], beyond a face that was met
 
 // A body that the ray is inside of: where it came in, and how much longer its bent way is.
 struct Inside {
@@ -50,7 +50,7 @@ Spectrum TransmittanceAlong(const MontageScene& scene, const Ray& ray) {
       }
       inside = {hit->distance, longer};
     }
-    rest.near = hit->distance + kStep;
+    rest.near = hit->distance + kBeyondFace;
   }
   return Spectrum::Zero();
 }

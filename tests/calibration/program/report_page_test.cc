@@ -18,7 +18,7 @@ TEST(ReportPage, HoldsItsReportAndItsScript) {
   report["value"] = 0.1;
   const std::string page = ReportPage("Report of <a> & b", report, "show(report);");
   EXPECT_EQ(Embedded(page), report);
-  EXPECT_NE(page.find("<title>Report of &lt;a> &amp; b</title>"), std::string::npos);
+  EXPECT_NE(page.find("<title>Report of &lt;a&gt; &amp; b</title>"), std::string::npos);
   EXPECT_NE(page.find("<script>show(report);</script>"), std::string::npos);
 }
 

@@ -57,7 +57,11 @@ await until("values under the cursor", async () => {
 const told = await values();
 report("linear and encoded values of both stand below", JSON.stringify([told.left, told.right]) === JSON.stringify([before, after]), await page.textContent("#where"));
 await person.press("3", "b", "b");
-report("B shows before and after in turn", (await person.data()).mode === "flicker" && (await person.data()).side === "right");
+await until("B twice", async () => {
+  const {mode, side} = await person.data();
+  return mode === "flicker" && side === "right";
+});
+report("B shows before and after in turn", true);
 const inMiddle = value => until("the pixel is painted", async () => isNear(await painted(0.5), codes(value)), () => painted(0.5));
 // The cursor's square is around the pixel, its middle is free.
 await inMiddle(after);
@@ -72,7 +76,8 @@ await person.press("0");
 await person.drawn();
 await shot("side");
 await person.press("d", ",", ",");
-report("keys move the slider", Math.abs(Number(await page.inputValue("#split")) - 0.46) < 1e-6);
+await until("the slider", async () => Math.abs(Number(await page.inputValue("#split")) - 0.46) < 1e-6);
+report("keys move the slider", true);
 
 await person.press("o");
 await person.sees("#say", "outline: σ of its corners up to");
@@ -83,7 +88,8 @@ const {body: outline} = await server.ask("GET", "/api/outline?photo=left&frame=p
 report("the outline has a band, hidden parts are told", outline.known && outline.lines.some(line => line.low.length > 1) && outline.lines.some(line => line.hidden), `${outline.lines.length} pieces, ${outline.corners.length} corners`);
 await person.press("o", "0", "x");
 await person.sees("#say", "pixels differ");
-report("the difference is told in words", (await person.data()).right === String(difference.id), await page.textContent("#say"));
+await until("the difference", async () => (await person.data()).right === String(difference.id));
+report("the difference is told in words", true, await page.textContent("#say"));
 await person.press("s");
 await person.drawn();
 await until("its tiles", async () => isNear(await painted(0.98), [0, 0, 0]));
@@ -95,7 +101,11 @@ await person.sees(".label", "layer: computed share");
 await until("the share", async () => (await values()).right?.share === 1);
 report("layers are shown one by one, with the share under the cursor", true);
 await person.press("v", "PageDown");
-report("keys go to the next photo", (await person.data()).photo === "middle" && (await person.data()).right === idOf("montage", "", 1));
+await until("the next photo", async () => {
+  const {photo, right} = await person.data();
+  return photo === "middle" && right === idOf("montage", "", 1);
+});
+report("keys go to the next photo", true);
 await person.press("?");
 await person.sees("dialog", "one pixel a pixel");
 await person.press("Escape");
