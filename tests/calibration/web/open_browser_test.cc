@@ -58,7 +58,7 @@ TEST_F(OpenBrowser, GivesAPrivateFileInsteadOfTheAddress) {
     ASSERT_EQ(stat(file.c_str(), &status), 0);
     EXPECT_EQ(status.st_mode & 0777, 0600u);
     EXPECT_NE(ReadWhole(file).find("content=\"0; url=http://127.0.0.1:8080/#token=0123&amp;name="
-                                   "&quot;&lt;x>&quot;\""),
+                                   "&quot;&lt;x&gt;&quot;\""),
               std::string::npos);
   }
   EXPECT_FALSE(HasFiles());
