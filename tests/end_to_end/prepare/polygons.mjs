@@ -71,6 +71,7 @@ report("the panel lists it", (await person.page.textContent("#holes"))?.includes
 const file = JSON.parse(fs.readFileSync(`${site}/survey/polygons.json`, "utf8"));
 report("it is in polygons.json", JSON.stringify(file.polygons.find(one => one.name === "block_w0").holes) === JSON.stringify(holes));
 await person.press("Control+Z");
+await person.settled();
 report("undo takes it away", !(await polygon("block_w0")).holes && Math.abs((await area()) - whole) < 1e-6);
 await person.press("Control+Y");
 await person.settled();

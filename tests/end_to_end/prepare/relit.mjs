@@ -47,6 +47,7 @@ await person.sees(`${pane} .relit`, "sun alone: exposed");
 const alone = await shadeOverSun();
 report("in the sun alone the shadow is dark but for its haze", alone < before / 2 && alone < 0.15, `shade over sun ${alone.toFixed(2)}`);
 await person.click(`${pane} .relight`);
+await person.drawn(); // a click is seen in the next frame only
 report("a button goes on to the photo as it was taken", (await light()) === "photo" && !(await page.isVisible(`${pane} .relit`)));
 
 // Anew when the light is another one; not without.
