@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "calibration/files/delimited_rows.h"
+#include "calibration/files/error_at.h"
 #include "calibration/files/plain_text.h"
 #include "calibration/files/words.h"
 
@@ -22,9 +23,16 @@ void CheckHeader(const std::filesystem::path& path, int line,
   for (const std::string& column : columns) {
     const auto count = std::count(header.begin(), header.end(), column);
     if (count == 1) continue;
-    throw InputError(path, line,
-                     "column \"" + column + (count == 0 ? "\" is missing" : "\" stands twice") +
-                         ", expected the header " + Joined(columns));
+    const Sentence::Values values = {{"column", column}, {"header", Joined(columns)}};
+    throw ErrorAt(
+        {path, line},
+        count == 0
+            ? Sentence("columnMissing",
+                       "column \"{column}\" is missing, expected the header {header}", values)
+            : Sentence("columnTwice",
+                       "column \"{column}\" stands twice, expected the header "
+                       "{header}",
+                       values));
   }
 }
 
@@ -33,9 +41,11 @@ std::vector<std::string> CheckedCells(const std::filesystem::path& path, Delimit
                                       const std::vector<std::string>& header) {
   while (row.cells.size() > header.size() && row.cells.back().empty()) row.cells.pop_back();
   if (row.cells.size() == header.size()) return std::move(row.cells);
-  throw InputError(path, row.line,
-                   std::to_string(row.cells.size()) + " cells, expected " +
-                       std::to_string(header.size()) + " (" + Joined(header) + ")");
+  throw ErrorAt(
+      {path, row.line},
+      Sentence("cellCount", "{count} cells, expected {expected}",
+               {{"count", int(row.cells.size())},
+                {"expected", std::to_string(header.size()) + " (" + Joined(header) + ")"}}));
 }
 
 // Of the first line that holds something and is no comment.
@@ -77,16 +87,26 @@ const std::string* CsvRow::Find(const std::string& column) const {
 const std::string& CsvRow::Text(const std::string& column) const {
   if (const std::string* cell = Find(column)) return *cell;
   const bool is_there = std::ranges::find(*columns, column) != columns->end();
-  throw Error("column \"" + column + (is_there ? "\" is empty" : "\" is missing"));
+  throw ErrorAt(
+      {path, line},
+      is_there ? Sentence("cellEmpty", "column \"{column}\" is empty", {{"column", column}})
+               : Sentence("columnNone", "column \"{column}\" is missing", {{"column", column}}));
 }
 
 double CsvRow::Number(const std::string& column) const {
   const std::string& text = Text(column);
   const auto value = style.Parse(text);
   if (value) return *value;
-  throw Error(
-      "\"" + text + "\" in column \"" + column + "\", expected a finite number" +
-      (style.is_mixed() ? "; some numbers of the table have decimal commas, others points" : ""));
+  const Sentence::Values values = {{"text", text}, {"column", column}};
+  throw ErrorAt(
+      {path, line},
+      style.is_mixed()
+          ? Sentence("cellMixed",
+                     "\"{text}\" in column \"{column}\", expected a finite number; some "
+                     "numbers of the table have decimal commas, others points",
+                     values)
+          : Sentence("cellNumber", "\"{text}\" in column \"{column}\", expected a finite number",
+                     values));
 }
 
 InputError CsvRow::Error(const std::string& message) const {
@@ -98,7 +118,10 @@ std::vector<CsvRow> ReadCsv(const std::filesystem::path& path,
   const std::string content = ReadPlainText(path);
   const char separator = SeparatorOf(content);
   std::vector<DelimitedRow> lines = SplitDelimited(path, content, separator);
-  if (lines.empty()) throw InputError(path, "empty, expected the header " + Joined(columns));
+  if (lines.empty()) {
+    throw ErrorAt({path}, Sentence("tableEmpty", "empty, expected the header {header}",
+                                   {{"header", Joined(columns)}}));
+  }
   CheckHeader(path, lines[0].line, lines[0].cells, columns);
   const auto header = std::make_shared<const std::vector<std::string>>(std::move(lines[0].cells));
   lines.erase(lines.begin());

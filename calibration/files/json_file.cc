@@ -9,6 +9,7 @@
 #include <cstdio>
 #include <sstream>
 
+#include "calibration/files/error_at.h"
 #include "calibration/files/whole_file.h"
 
 namespace insitu {
@@ -23,35 +24,47 @@ struct JsonNode::Document {
 namespace {
 
 // jsoncpp reports "* Line 3, Column 5\n  message\n..."; the first of them becomes ours.
-InputError SyntaxError(const std::filesystem::path& path, const std::string& report) {
+SaidError SyntaxError(const std::filesystem::path& path, const std::string& report) {
   std::istringstream stream(report);
   std::string position, message;
   std::getline(stream, position);
   std::getline(stream >> std::ws, message);
   int line = 0;
   std::sscanf(position.c_str(), "* Line %d", &line);
-  return InputError(path, line, "not valid JSON: " + message);
+  return ErrorAt({path, line},
+                 Sentence("jsonInvalid", "not valid JSON: {why}", {{"why", message}}));
 }
 
-const char* TypeName(const Json::Value& value) {
+Sentence TypeOf(const Json::Value& value) {
   switch (value.type()) {
     case Json::nullValue:
-      return "null";
+      return Sentence("jsonNull", "null");
     case Json::booleanValue:
-      return "a boolean";
+      return Sentence("jsonBoolean", "a boolean");
     case Json::stringValue:
-      return "a text";
+      return Sentence("jsonText", "a text");
     case Json::arrayValue:
-      return "an array";
+      return Sentence("jsonArray", "an array");
     case Json::objectValue:
-      return "an object";
+      return Sentence("jsonObject", "an object");
     default:
-      return "a number";
+      return Sentence("jsonNumber", "a number");
   }
 }
 
-std::string Expected(const std::string& what, const Json::Value& value) {
-  return std::string("is ") + TypeName(value) + ", expected " + what;
+// What a value is and should be, thrown from its node.
+SaidError Fault(const JsonNode& node, const Sentence& what) {
+  return {node.Error(what.text()), {node.path(), node.line()}, what};
+}
+
+Sentence NumbersExpected(size_t count, Eigen::Index expected) {
+  return Sentence("jsonNumbers", "has {count} numbers, expected {expected}",
+                  {{"count", int(count)}, {"expected", int(expected)}});
+}
+
+SaidError OtherType(const JsonNode& node, const Json::Value& value, const Sentence& expected) {
+  return Fault(node, Sentence("jsonOther", "is {what}, expected {expected}",
+                              {{"what", TypeOf(value).ToJson()}, {"expected", expected.ToJson()}}));
 }
 
 }  // namespace
@@ -67,19 +80,22 @@ JsonNode JsonNode::Load(const std::filesystem::path& path) {
 
 JsonNode JsonNode::At(const std::string& key) const {
   std::optional<JsonNode> node = Find(key);
-  if (!node) throw Error("\"" + key + "\" is missing");
+  if (!node) throw Fault(*this, Sentence("jsonMissing", "\"{key}\" is missing", {{"key", key}}));
   return *std::move(node);
 }
 
 std::optional<JsonNode> JsonNode::Find(const std::string& key) const {
-  if (!value_->isObject()) throw Error(Expected("an object with \"" + key + "\"", *value_));
+  if (!value_->isObject()) {
+    throw OtherType(*this, *value_,
+                    Sentence("jsonObjectWith", "an object with \"{key}\"", {{"key", key}}));
+  }
   const Json::Value* found = value_->find(key.data(), key.data() + key.size());
   if (!found || found->isNull()) return std::nullopt;
   return JsonNode(document_, found, place_.empty() ? key : place_ + "." + key);
 }
 
 std::vector<JsonNode> JsonNode::Items() const {
-  if (!value_->isArray()) throw Error(Expected("an array", *value_));
+  if (!value_->isArray()) throw OtherType(*this, *value_, Sentence("jsonArray", "an array"));
   std::vector<JsonNode> items;
   for (Json::ArrayIndex i = 0; i < value_->size(); ++i) {
     items.push_back(
@@ -89,7 +105,7 @@ std::vector<JsonNode> JsonNode::Items() const {
 }
 
 std::vector<std::pair<std::string, JsonNode>> JsonNode::Members() const {
-  if (!value_->isObject()) throw Error(Expected("an object", *value_));
+  if (!value_->isObject()) throw OtherType(*this, *value_, Sentence("jsonObject", "an object"));
   std::vector<std::pair<std::string, JsonNode>> members;
   for (const std::string& key : value_->getMemberNames()) {
     const std::string place = place_.empty() ? key : place_ + "." + key;
@@ -99,25 +115,31 @@ std::vector<std::pair<std::string, JsonNode>> JsonNode::Members() const {
 }
 
 double JsonNode::Number() const {
-  if (!value_->isNumeric()) throw Error(Expected("a number", *value_));
+  if (!value_->isNumeric()) throw OtherType(*this, *value_, Sentence("jsonNumber", "a number"));
   const double number = value_->asDouble();
-  if (!std::isfinite(number)) throw Error("is not finite, expected a finite number");
+  if (!std::isfinite(number)) {
+    throw Fault(*this, Sentence("jsonNotFinite", "is not finite, expected a finite number"));
+  }
   return number;
 }
 
 int JsonNode::Integer() const {
-  if (!value_->isNumeric()) throw Error(Expected("a whole number", *value_));
-  if (!value_->isInt()) throw Error("is " + value_->asString() + ", expected a whole number");
+  const Sentence whole("jsonWhole", "a whole number");
+  if (!value_->isNumeric()) throw OtherType(*this, *value_, whole);
+  if (!value_->isInt()) {
+    throw Fault(*this, Sentence("jsonOther", "is {what}, expected {expected}",
+                                {{"what", value_->asString()}, {"expected", whole.ToJson()}}));
+  }
   return value_->asInt();
 }
 
 bool JsonNode::Boolean() const {
-  if (!value_->isBool()) throw Error(Expected("true or false", *value_));
+  if (!value_->isBool()) throw OtherType(*this, *value_, Sentence("jsonBool", "true or false"));
   return value_->asBool();
 }
 
 std::string JsonNode::Text() const {
-  if (!value_->isString()) throw Error(Expected("a text", *value_));
+  if (!value_->isString()) throw OtherType(*this, *value_, Sentence("jsonText", "a text"));
   return value_->asString();
 }
 
@@ -136,7 +158,7 @@ std::vector<std::string> JsonNode::Texts() const {
 Eigen::Vector3d JsonNode::Vector3() const {
   const std::vector<double> numbers = Numbers();
   if (numbers.size() != 3) {
-    throw Error("has " + std::to_string(numbers.size()) + " numbers, expected 3");
+    throw Fault(*this, NumbersExpected(numbers.size(), 3));
   }
   return {numbers[0], numbers[1], numbers[2]};
 }
@@ -147,8 +169,7 @@ Eigen::MatrixXd JsonNode::Matrix() const {
   for (Eigen::Index i = 0; i < matrix.rows(); ++i) {
     const std::vector<double> row = rows[i].Numbers();
     if (static_cast<Eigen::Index>(row.size()) != matrix.cols()) {
-      throw rows[i].Error("has " + std::to_string(row.size()) + " numbers, expected " +
-                          std::to_string(matrix.cols()));
+      throw Fault(rows[i], NumbersExpected(row.size(), matrix.cols()));
     }
     matrix.row(i) = Eigen::Map<const Eigen::RowVectorXd>(row.data(), matrix.cols());
   }
@@ -195,7 +216,8 @@ Json::Value ParseJson(const std::filesystem::path& path, const std::string& text
   try {
     if (reader->parse(text.data(), text.data() + text.size(), &root, &report)) return root;
   } catch (const Json::Exception& exception) {  // nested too deeply
-    throw InputError(path, std::string("not valid JSON: ") + exception.what());
+    throw ErrorAt({path},
+                  Sentence("jsonInvalid", "not valid JSON: {why}", {{"why", exception.what()}}));
   }
   throw SyntaxError(path, report);
 }

@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "calibration/files/delimited_rows.h"
+#include "calibration/files/error_at.h"
 #include "calibration/files/number_style.h"
 #include "calibration/files/plain_text.h"
 
@@ -84,8 +85,9 @@ InputError TextRow::Error(const std::string& message) const {
 
 const std::string& TextRow::Text(size_t index, const std::string& what) const {
   if (index >= words.size() || words[index].empty()) {
-    throw Error(what + " is missing, expected it as value " + std::to_string(index + 1) +
-                " of the line");
+    throw ErrorAt(place(), Sentence("wordMissing",
+                                    "{what} is missing, expected it as value {index} of the line",
+                                    {{"what", what}, {"index", int(index) + 1}}));
   }
   return words[index];
 }
@@ -93,15 +95,17 @@ const std::string& TextRow::Text(size_t index, const std::string& what) const {
 double TextRow::Number(size_t index, const std::string& what) const {
   const std::string& text = Text(index, what);
   const auto value = ParseNumber(text);
-  if (!value) throw Error("\"" + text + "\" for " + what + ", expected a finite number");
-  return *value;
+  if (value) return *value;
+  throw ErrorAt(place(), Sentence("wordNumber", "\"{text}\" for {what}, expected a finite number",
+                                  {{"text", text}, {"what", what}}));
 }
 
 int TextRow::Integer(size_t index, const std::string& what) const {
   const double value = Number(index, what);
   const bool fits = std::abs(value) <= std::numeric_limits<int>::max();
   if (!fits || value != std::floor(value)) {
-    throw Error("\"" + words[index] + "\" for " + what + ", expected a whole number");
+    throw ErrorAt(place(), Sentence("wordWhole", "\"{text}\" for {what}, expected a whole number",
+                                    {{"text", words[index]}, {"what", what}}));
   }
   return static_cast<int>(value);
 }

@@ -15,7 +15,7 @@
 namespace insitu {
 namespace {
 
-using Fault = std::optional<std::string>;
+using Fault = std::optional<Sentence>;
 using Texts = std::vector<std::string>;
 
 constexpr double kLargestFrame = 100000;  // [px], as reconstruction/survey reads it
@@ -24,44 +24,53 @@ bool IsIn(const Texts& texts, const std::string& text) {
   return std::find(texts.begin(), texts.end(), text) != texts.end();
 }
 
-std::string OrList(const Texts& texts) {
+std::string ListOf(const Texts& texts) {
   std::string list;
-  for (const std::string& text : texts) list += (list.empty() ? "" : " or ") + text;
+  for (const std::string& text : texts) list += (list.empty() ? "" : ", ") + text;
   return list;
 }
 
 Fault FaultOfName(const std::string& what, const std::string& name) {
-  if (name.empty()) return what + " is empty";
-  if (TrimmedView(name) != name) return what + " " + Quoted(name) + " begins or ends with a blank";
+  if (name.empty()) return Sentence("rowEmpty", "{what} is empty", {{"what", what}});
+  const Sentence::Values values = {{"what", what}, {"name", Quoted(name)}};
+  if (TrimmedView(name) != name) {
+    return Sentence("rowBlanks", "{what} {name} begins or ends with a blank", values);
+  }
   const bool has_control = std::any_of(name.begin(), name.end(), [](char c) {
     return static_cast<unsigned char>(c) < 0x20 || c == 0x7F;
   });
-  if (has_control) return what + " " + Quoted(name) + " has a control character";
-  if (FirstNotUtf8(name)) return what + " " + Quoted(name) + " is not UTF-8";
+  if (has_control) return Sentence("rowControl", "{what} {name} has a control character", values);
+  if (FirstNotUtf8(name)) return Sentence("rowNotUtf8", "{what} {name} is not UTF-8", values);
   return std::nullopt;
 }
 
 Fault FaultOfPoint(const std::string& what, const std::string& name) {
   if (!IsTiePointName(name)) return FaultOfName(what, name);
-  return what + " " + Quoted(name) + " is named as tie points are, expected another name";
+  return Sentence("rowTiePoint", "{what} {name} is named as tie points are, expected another name",
+                  {{"what", what}, {"name", Quoted(name)}});
 }
 
 Fault FaultOfNumber(const Json::Value& row, const std::string& field) {
   const Json::Value& value = row[field];
-  if (!value.isNumeric()) return field + " is no number";
-  return std::isfinite(value.asDouble()) ? Fault() : field + " is not finite";
+  if (!value.isNumeric())
+    return Sentence("rowNoNumber", "{field} is no number", {{"field", field}});
+  if (std::isfinite(value.asDouble())) return std::nullopt;
+  return Sentence("rowNotFinite", "{field} is not finite", {{"field", field}});
 }
 
 Fault FaultOfSigma(const Json::Value& row, const std::string& field) {
   if (const Fault fault = FaultOfNumber(row, field)) return fault;
-  return row[field].asDouble() > 0 ? Fault() : field + " is not more than 0";
+  if (row[field].asDouble() > 0) return std::nullopt;
+  return Sentence("rowNotPositive", "{field} is not more than 0", {{"field", field}});
 }
 
 Fault FaultOfPixel(const Json::Value& row) {
   for (const std::string field : {"x", "y"}) {
     if (const Fault fault = FaultOfNumber(row, field)) return fault;
     const double value = row[field].asDouble();
-    if (value < -0.5 || value > kLargestFrame) return field + " is outside any photograph";
+    if (value < -0.5 || value > kLargestFrame) {
+      return Sentence("rowOutside", "{field} is outside any photograph", {{"field", field}});
+    }
   }
   return std::nullopt;
 }
@@ -75,7 +84,8 @@ Fault FaultOfPhotoName(const Json::Value& row, const Texts& photos) {
 Fault FaultOfWord(const Json::Value& row, const std::string& field, const Texts& words) {
   const std::string word = RowText(row, field);
   if (IsIn(words, word)) return std::nullopt;
-  return field + " is " + Quoted(word) + ", expected " + OrList(words);
+  return Sentence("rowWord", "{field} is {word}, expected one of: {words}",
+                  {{"field", field}, {"word", Quoted(word)}, {"words", ListOf(words)}});
 }
 
 template <typename... Faults>
@@ -92,14 +102,17 @@ Fault FaultOfTwo(const Json::Value& row, const std::string& from, const std::str
     if (const Fault fault = FaultOfPoint(field, RowText(row, field))) return fault;
   }
   if (RowText(row, from) != RowText(row, to)) return std::nullopt;
-  return from + " and " + to + " are the same point";
+  return Sentence("rowSamePoint", "{from} and {to} are the same point",
+                  {{"from", from}, {"to", to}});
 }
 
 // Cells that the checks of the table do not look at.
 Fault FaultOfOtherCells(const EditedTable& table, const Json::Value& row) {
   for (auto member = row.begin(); member != row.end(); ++member) {
     if (IsIn(table.columns, member.name()) || member->isNull()) continue;
-    if (!member->isString()) return member.name() + " is no text";
+    if (!member->isString()) {
+      return Sentence("rowNoText", "{field} is no text", {{"field", member.name()}});
+    }
     if (member->asString().empty()) continue;
     if (const Fault fault = FaultOfName(member.name(), member->asString())) return fault;
   }
@@ -116,14 +129,17 @@ Fault FaultOfPosition(const Json::Value& row) {
 // Every vertex of a polygon occurs once, in its outline or in one hole.
 Fault FaultOfHoles(const Json::Value& holes, std::set<std::string> taken) {
   if (holes.isNull()) return std::nullopt;
-  if (!holes.isArray()) return "holes are no list";
+  if (!holes.isArray()) return Sentence("rowNoHoles", "holes are no list");
   for (const Json::Value& hole : holes) {
-    if (!hole.isArray() || hole.size() < 3) return "a hole has not three vertices";
+    if (!hole.isArray() || hole.size() < 3) {
+      return Sentence("rowFewInHole", "a hole has not three vertices");
+    }
     for (const Json::Value& vertex : hole) {
-      if (!vertex.isString()) return "a hole's vertex is no name";
+      if (!vertex.isString()) return Sentence("rowNoHoleVertex", "a hole's vertex is no name");
       if (const Fault fault = FaultOfPoint("vertex", vertex.asString())) return fault;
       if (!taken.insert(vertex.asString()).second) {
-        return "vertex " + Quoted(vertex.asString()) + " occurs twice, in the outline or a hole";
+        return Sentence("rowVertexTwice", "vertex {name} occurs twice, in the outline or a hole",
+                        {{"name", Quoted(vertex.asString())}});
       }
     }
   }
@@ -132,19 +148,23 @@ Fault FaultOfHoles(const Json::Value& holes, std::set<std::string> taken) {
 
 Fault FaultOfPolygon(const Json::Value& row, const Texts& photos) {
   std::set<std::string> distinct;
-  if (!row["vertices"].isArray()) return "vertices are no list";
+  if (!row["vertices"].isArray()) return Sentence("rowNoVertices", "vertices are no list");
   for (const Json::Value& vertex : row["vertices"]) {
-    if (!vertex.isString()) return "a vertex is no name";
+    if (!vertex.isString()) return Sentence("rowNoVertex", "a vertex is no name");
     if (const Fault fault = FaultOfPoint("vertex", vertex.asString())) return fault;
     distinct.insert(vertex.asString());
   }
   if (distinct.size() < 3 || distinct.size() < row["vertices"].size()) {
-    return "has " + std::to_string(row["vertices"].size()) + " vertices, " +
-           std::to_string(distinct.size()) +
-           " of them distinct; expected at least three, all distinct";
+    return Sentence(
+        "rowVertices",
+        "has {count} vertices, {distinct} of them distinct; expected at least three, all "
+        "distinct",
+        {{"count", row["vertices"].size()}, {"distinct", int(distinct.size())}});
   }
   if (const Fault fault = FaultOfHoles(row["holes"], distinct)) return fault;
-  if (!row["mask"].isNull() && !row["mask"].isString()) return "mask is no name of a file";
+  if (!row["mask"].isNull() && !row["mask"].isString()) {
+    return Sentence("rowNoMask", "mask is no name of a file");
+  }
   return FirstFault(FaultOfName("name", RowText(row, "name")),
                     FaultOfName("material", RowText(row, "material")),
                     row["photo"].isNull() ? Fault() : FaultOfPhotoName(row, photos));
@@ -153,7 +173,9 @@ Fault FaultOfPolygon(const Json::Value& row, const Texts& photos) {
 Fault FaultOfKeys(const Json::Value& row, Texts keys) {
   keys.push_back("comment");
   for (const std::string& key : row.getMemberNames()) {
-    if (!IsIn(keys, key)) return Quoted(key) + " is no key here, expected " + OrList(keys);
+    if (IsIn(keys, key)) continue;
+    return Sentence("rowNoKey", "{key} is no key here, expected one of: {keys}",
+                    {{"key", Quoted(key)}, {"keys", ListOf(keys)}});
   }
   return std::nullopt;
 }
@@ -176,17 +198,26 @@ Fault FaultOfSubjects(const Json::Value& row, const ConstraintShape& shape) {
   const size_t expected = has_points ? shape.points : shape.polygons;
   if (!names.isArray() || names.size() != expected || expected == 0 ||
       (has_points && !row["polygons"].empty())) {
-    return "names " + std::to_string(names.size()) + " points or polygons, expected " +
-           std::to_string(shape.points) + " points" +
-           (shape.polygons ? " or " + std::to_string(shape.polygons) + " polygons" : "");
+    if (shape.polygons == 0) {
+      return Sentence("rowPoints", "names {count} points, expected {points}",
+                      {{"count", names.size()}, {"points", int(shape.points)}});
+    }
+    return Sentence("rowSubjects",
+                    "names {count} points or polygons, expected {points} points or {polygons} "
+                    "polygons",
+                    {{"count", names.size()},
+                     {"points", int(shape.points)},
+                     {"polygons", int(shape.polygons)}});
   }
   std::set<std::set<std::string>> edges;
   for (Json::ArrayIndex i = 0; i < names.size(); ++i) {
-    if (!names[i].isString()) return "a point or polygon is no name";
+    if (!names[i].isString()) return Sentence("rowNoSubject", "a point or polygon is no name");
     if (const Fault fault = FaultOfPoint("name", names[i].asString())) return fault;
     if (i % 2 == 0) continue;
     const std::set<std::string> edge = {names[i - 1].asString(), names[i].asString()};
-    if (edge.size() < 2 || !edges.insert(edge).second) return "names one of them twice";
+    if (edge.size() < 2 || !edges.insert(edge).second) {
+      return Sentence("rowSubjectTwice", "names one of them twice");
+    }
   }
   return std::nullopt;
 }
@@ -194,7 +225,7 @@ Fault FaultOfSubjects(const Json::Value& row, const ConstraintShape& shape) {
 Fault FaultOfConstraint(const Json::Value& row) {
   const auto shape = ConstraintShapes().find(RowText(row, "kind"));
   if (shape == ConstraintShapes().end())
-    return "kind " + Quoted(RowText(row, "kind")) + " is unknown";
+    return Sentence("rowKind", "kind {word} is unknown", {{"word", Quoted(RowText(row, "kind"))}});
   Texts keys = {"kind", "points"};
   if (shape->second.polygons > 0) keys.push_back("polygons");
   const Texts values =
@@ -210,7 +241,7 @@ Fault FaultOfConstraint(const Json::Value& row) {
   }
   const bool has_degrees = !row["sigma_deg"].isNull();
   if (has_degrees == !row["sigma_mm_per_m"].isNull()) {
-    return "expected either sigma_deg or sigma_mm_per_m";
+    return Sentence("rowEitherSigma", "expected either sigma_deg or sigma_mm_per_m");
   }
   return FaultOfSigma(row, has_degrees ? "sigma_deg" : "sigma_mm_per_m");
 }
@@ -222,7 +253,9 @@ Fault FaultOfReflectance(const Json::Value& rgb) {
   };
   const bool is_fine =
       rgb.isArray() && rgb.size() == 3 && std::all_of(rgb.begin(), rgb.end(), is_part);
-  return is_fine ? Fault() : "daylight_reflectance_rgb: expected three numbers above 0 and up to 1";
+  if (is_fine) return std::nullopt;
+  return Sentence("rowReflectance",
+                  "daylight_reflectance_rgb: expected three numbers above 0 and up to 1");
 }
 
 Fault FaultOfMillimetres(const Json::Value& row) {
@@ -236,10 +269,14 @@ Fault FaultOfDistortion(const Json::Value& rows) {
   for (const Json::Value& row : rows) {
     const bool rises = row.isArray() && row.size() == 2 && row[0].isNumeric() &&
                        row[1].isNumeric() && row[0].asDouble() > last;
-    if (!rises) return "distortion: expected [radius_mm, distortion_mm] with radii rising from > 0";
+    if (!rises) {
+      return Sentence("rowDistortion",
+                      "distortion: expected [radius_mm, distortion_mm] with radii rising from > 0");
+    }
     last = row[0].asDouble();
   }
-  return rows.isArray() && rows.size() != 1 ? Fault() : "distortion: expected two radii or more";
+  if (rows.isArray() && rows.size() != 1) return std::nullopt;
+  return Sentence("rowTwoRadii", "distortion: expected two radii or more");
 }
 
 // Of a certificate as far as it is typed.
@@ -247,7 +284,9 @@ Fault FaultOfCertificate(const Json::Value& row) {
   const Json::Value& point = row["principal_point_mm"];
   const bool has_point =
       point.isArray() && point.size() == 2 && point[0].isNumeric() && point[1].isNumeric();
-  if (!point.isNull() && !has_point) return "principal_point_mm: expected two numbers";
+  if (!point.isNull() && !has_point) {
+    return Sentence("rowPrincipalPoint", "principal_point_mm: expected two numbers");
+  }
   return FirstFault(row["focal_mm"].isNull() ? Fault() : FaultOfSigma(row, "focal_mm"),
                     FaultOfDistortion(row["distortion"]),
                     row["transformation"].isNull()
@@ -257,8 +296,12 @@ Fault FaultOfCertificate(const Json::Value& row) {
 
 // Anywhere in a value: what JSON could not hold.
 Fault FaultWithin(const Json::Value& value) {
-  if (value.isNumeric() && !std::isfinite(value.asDouble())) return "a number is not finite";
-  if (value.isString() && FirstNotUtf8(value.asString())) return "a text is not UTF-8";
+  if (value.isNumeric() && !std::isfinite(value.asDouble())) {
+    return Sentence("rowNumberNotFinite", "a number is not finite");
+  }
+  if (value.isString() && FirstNotUtf8(value.asString())) {
+    return Sentence("rowTextNotUtf8", "a text is not UTF-8");
+  }
   if (!value.isArray() && !value.isObject()) return std::nullopt;
   for (const Json::Value& item : value) {
     if (const Fault fault = FaultWithin(item)) return fault;
@@ -285,8 +328,8 @@ Fault FaultOfCsvRow(const EditedTable& table, const Json::Value& row, const Text
 
 }  // namespace
 
-std::optional<std::string> FaultOfRow(const EditedTable& table, const Json::Value& row,
-                                      const std::vector<std::string>& photos) {
+std::optional<Sentence> FaultOfRow(const EditedTable& table, const Json::Value& row,
+                                   const std::vector<std::string>& photos) {
   if (const Fault fault = FaultWithin(row)) return fault;
   if (table.form == TableForm::kCsv) return FaultOfCsvRow(table, row, photos);
   if (table.name == "polygons") {
@@ -306,7 +349,7 @@ std::optional<std::string> FaultOfRow(const EditedTable& table, const Json::Valu
   if (table.name == "film") return FaultOfCertificate(row);
   if (table.name == "film_marks") return FaultOfMillimetres(row);
   if (table.name == "materials") return FaultOfName("name", RowText(row, "name"));
-  if (table.name == "drafts" && row["id"].isNull()) return "id is missing";
+  if (table.name == "drafts" && row["id"].isNull()) return Sentence("rowNoId", "id is missing");
   return std::nullopt;
 }
 

@@ -8,12 +8,13 @@
 #include <string>
 #include <vector>
 
+#include "calibration/files/sentence.h"
 #include "reconstruction/editing/edited_tables.h"
 
 namespace insitu {
 
 // What is wrong with a row; nullopt: nothing. `photos` are the names that rows may give.
-std::optional<std::string> FaultOfRow(const EditedTable& table, const Json::Value& row,
-                                      const std::vector<std::string>& photos);
+std::optional<Sentence> FaultOfRow(const EditedTable& table, const Json::Value& row,
+                                   const std::vector<std::string>& photos);
 
 }  // namespace insitu

@@ -12,7 +12,7 @@
 namespace insitu {
 namespace {
 
-EditOutcome Refused(int revision, const std::string& why) {
+EditOutcome Refused(int revision, const Sentence& why) {
   EditOutcome outcome{revision};
   outcome.refused = why;
   return outcome;
@@ -78,33 +78,39 @@ std::optional<std::string> SiteEdit::ToRedo() const {
   return step ? std::optional(step->operation.label) : std::nullopt;
 }
 
-std::string SiteEdit::RefusalOfRow(const RowEdit& edit) const {
+Sentence SiteEdit::RefusalOfRow(const RowEdit& edit) const {
   const EditedTable& table = *FindEditedTable(edit.table);
   const SurveyText& text = *FileOf(table).now;
   for (const std::string& field : edit.after.getMemberNames()) {
     const Json::Value& value = edit.after[field];
     const bool is_default = value.isNull() || (value.isString() && value.asString().empty());
     if (!is_default && !text.CanHold(table, field)) {
-      return table.name + ": there is no column \"" + field + "\"";
+      return Sentence("rowNoColumn", "{table}: there is no column \"{field}\"",
+                      {{"table", table.name}, {"field", field}});
     }
   }
   const auto fault = FaultOfRow(table, edit.after, photos_);
-  return fault ? table.name + ": " + *fault : "";
+  if (!fault) return {};
+  return Sentence("rowOf", "{table}: {fault}", {{"table", table.name}, {"fault", fault->ToJson()}});
 }
 
-// Why edits cannot be made; "" if they can. Rows that are taken back were there before.
-std::string SiteEdit::RefusalOf(const std::vector<RowEdit>& edits, bool is_new) const {
+// Why edits cannot be made; empty if they can. Rows that are taken back were there before.
+Sentence SiteEdit::RefusalOf(const std::vector<RowEdit>& edits, bool is_new) const {
   for (const RowEdit& edit : edits) {
     const EditedTable* table = FindEditedTable(edit.table);
-    if (!table) return "there is no table \"" + edit.table + "\"";
-    if (const auto& fault = FileOf(*table).fault) {
-      return fault->file + ":" + std::to_string(fault->line) + ": " + fault->text.text() +
-             "; the table is read-only until that is mended";
+    if (!table) {
+      return Sentence("rowNoTable", "there is no table \"{table}\"", {{"table", edit.table}});
     }
-    const std::string refusal = is_new && !edit.after.isNull() ? RefusalOfRow(edit) : "";
+    if (const auto& fault = FileOf(*table).fault) {
+      return Sentence("rowReadOnly",
+                      "{place}: {fault}; the table is read-only until that is mended",
+                      {{"place", fault->file + ":" + std::to_string(fault->line)},
+                       {"fault", fault->text.ToJson()}});
+    }
+    const Sentence refusal = is_new && !edit.after.isNull() ? RefusalOfRow(edit) : Sentence();
     if (!refusal.empty()) return refusal;
   }
-  return "";
+  return {};
 }
 
 // `note` puts it into the journal; if it throws, the texts are as they were.
@@ -136,9 +142,13 @@ EditOutcome SiteEdit::Do(const Operation& operation, EqualRows equal_rows,
 
 EditOutcome SiteEdit::Apply(const Operation& operation) {
   if (const auto seen = history_.RevisionOf(operation.id)) return Repeated(*seen);
-  if (operation.id.empty()) return Refused(revision(), "the operation has no id");
-  if (operation.edits.empty()) return Refused(revision(), "the operation has no edits");
-  const std::string refusal = RefusalOf(operation.edits, true);
+  if (operation.id.empty()) {
+    return Refused(revision(), Sentence::Verbatim("the operation has no id"));
+  }
+  if (operation.edits.empty()) {
+    return Refused(revision(), Sentence::Verbatim("the operation has no edits"));
+  }
+  const Sentence refusal = RefusalOf(operation.edits, true);
   if (!refusal.empty()) return Refused(revision(), refusal);
   return Do(operation, EqualRows::kRefused, {},
             [&](const std::vector<Json::Value>& traces) { history_.AddEdit(operation, traces); });
@@ -147,9 +157,9 @@ EditOutcome SiteEdit::Apply(const Operation& operation) {
 EditOutcome SiteEdit::Undo(const std::string& id) {
   if (const auto seen = history_.RevisionOf(id)) return Repeated(*seen);
   const HistoryStep* step = history_.ToUndo();
-  if (!step) return Refused(revision(), "there is nothing to undo");
+  if (!step) return Refused(revision(), Sentence("nothingToUndo", "there is nothing to undo"));
   const Operation inverse = Inverse(step->operation);
-  const std::string refusal = RefusalOf(inverse.edits, false);
+  const Sentence refusal = RefusalOf(inverse.edits, false);
   if (!refusal.empty()) return Refused(revision(), refusal);
   EditOutcome outcome = Do(inverse, EqualRows::kAllowed, Reversed(step->traces),
                            [&](const std::vector<Json::Value>&) { history_.AddUndo(id); });
@@ -160,9 +170,9 @@ EditOutcome SiteEdit::Undo(const std::string& id) {
 EditOutcome SiteEdit::Redo(const std::string& id) {
   if (const auto seen = history_.RevisionOf(id)) return Repeated(*seen);
   const HistoryStep* step = history_.ToRedo();
-  if (!step) return Refused(revision(), "there is nothing to redo");
+  if (!step) return Refused(revision(), Sentence("nothingToRedo", "there is nothing to redo"));
   const Operation operation = step->operation;
-  const std::string refusal = RefusalOf(operation.edits, false);
+  const Sentence refusal = RefusalOf(operation.edits, false);
   if (!refusal.empty()) return Refused(revision(), refusal);
   EditOutcome outcome =
       Do(operation, EqualRows::kAllowed, {},
@@ -182,12 +192,13 @@ SiteEdit::MergeReport SiteEdit::Merge(const SitePaths& other, const std::string&
       report.conflicts.insert(report.conflicts.end(), merged.conflicts.begin(),
                               merged.conflicts.end());
       for (RowEdit& edit : merged.edits) {
-        const std::string refusal = RefusalOf({edit}, true);
+        const Sentence refusal = RefusalOf({edit}, true);
         if (refusal.empty()) {
           operation.edits.push_back(std::move(edit));
         } else {
-          report.remarks.push_back(Sentence::Verbatim(
-              theirs.path.string() + ": " + OneLineJson(edit.after) + " is left out: " + refusal));
+          report.remarks.push_back(Sentence::Verbatim(theirs.path.string() + ": " +
+                                                      OneLineJson(edit.after) +
+                                                      " is left out: " + refusal.text()));
         }
       }
     } catch (const InputError& error) {

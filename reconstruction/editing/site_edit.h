@@ -32,7 +32,7 @@ struct EditOutcome {
   std::optional<Operation> operation = {};  // what was done now
   bool is_repeated = false;                 // the id was done before; nothing was done now
   std::vector<RowConflict> conflicts = {};  // nothing was done: rows are not what was expected
-  std::string refused = {};                 // nothing was done: why; else ""
+  Sentence refused = {};                    // nothing was done: why; else empty
 
   bool is_done() const { return conflicts.empty() && refused.empty(); }
 };
@@ -111,8 +111,8 @@ class SiteEdit {
   void SaveFile(SiteFile& file, SaveReport* report);
   SiteFile& FileOf(const EditedTable& table);
   const SiteFile& FileOf(const EditedTable& table) const;
-  std::string RefusalOf(const std::vector<RowEdit>& edits, bool is_new) const;
-  std::string RefusalOfRow(const RowEdit& edit) const;
+  Sentence RefusalOf(const std::vector<RowEdit>& edits, bool is_new) const;
+  Sentence RefusalOfRow(const RowEdit& edit) const;
   EditOutcome Do(const Operation& operation, EqualRows equal_rows,
                  const std::vector<Json::Value>& traces,
                  const std::function<void(std::vector<Json::Value>)>& note);

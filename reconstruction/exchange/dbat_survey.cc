@@ -34,8 +34,10 @@ SurveyFile ReadDbatSurvey(const std::filesystem::path& path) {
     file.marks.push_back({photo->second, mark.point, mark.pixel.array() - kDbatFirstPixelCenter,
                           mark.sigma_px, mark.place});
   }
-  if (fixed)
-    file.remarks.push_back(std::to_string(fixed) + " points are fixed there, without sigma");
+  if (fixed) {
+    file.remarks.push_back(Sentence("remarkFixed", "{count} points are fixed there, without sigma",
+                                    {{"count", fixed}}));
+  }
   return file;
 }
 

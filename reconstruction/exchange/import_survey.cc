@@ -209,7 +209,7 @@ void ReportFile(const SurveyFile& file, std::vector<std::string>* report) {
   add(file.marks.size(), "mark");
   report->push_back(name + ": " + file.format + ", " + counts);
   const std::string prefix = name + ": ";
-  for (const std::string& remark : file.remarks) report->push_back(prefix + remark);
+  for (const Sentence& remark : file.remarks) report->push_back(prefix + remark.text());
 }
 
 std::string DigitsOf(const Eigen::Vector3d& v) {

@@ -75,8 +75,9 @@ void ReadMetashapeMarks(const XmlNode& chunk, SurveyFile* file) {
     }
   }
   if (unpinned) {
-    file->remarks.push_back(std::to_string(unpinned) +
-                            " projections are not pinned, only predicted, and are left out");
+    file->remarks.push_back(Sentence(
+        "remarkUnpinned", "{count} projections are not pinned, only predicted, and are left out",
+        {{"count", unpinned}}));
   }
 }
 

@@ -112,8 +112,9 @@ SurveyFile ReadMicMacXml(const XmlNode& given) {
     throw root.Error("is no survey that we know, expected XML of Metashape, MicMac, MMVII or DBAT");
   }
   if (unstated) {
-    file.remarks.push_back(std::to_string(unstated) +
-                           " uncertainties are 1, which MicMac writes when none was stated");
+    file.remarks.push_back(Sentence(
+        "remarkUnstated", "{count} uncertainties are 1, which MicMac writes when none was stated",
+        {{"count", unstated}}));
   }
   return file;
 }

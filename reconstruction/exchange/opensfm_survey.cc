@@ -12,7 +12,8 @@ void ReadPosition(const JsonNode& point, const std::string& id, SurveyFile* file
   if (!position) return;
   const auto altitude = position->Find("altitude");
   if (!altitude) {
-    file->remarks.push_back("point \"" + id + "\" has no altitude and is left out");
+    file->remarks.push_back(Sentence(
+        "remarkNoAltitude", "point \"{point}\" has no altitude and is left out", {{"point", id}}));
     return;
   }
   SurveyedPoint surveyed;
@@ -59,8 +60,9 @@ SurveyFile ReadOpenSfmJson(const std::filesystem::path& path, const PhotoSize& p
     }
   }
   if (unseen) {
-    file.remarks.push_back(std::to_string(unseen) +
-                           " marks are on photos that are not in the folder photos");
+    file.remarks.push_back(Sentence("remarkNoPhoto",
+                                    "{count} marks are on photos that are not in the folder photos",
+                                    {{"count", unseen}}));
   }
   return file;
 }

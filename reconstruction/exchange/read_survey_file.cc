@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "reconstruction/exchange/read_survey_file.h"
 
+#include "calibration/files/error_at.h"
 #include "calibration/files/plain_text.h"
 #include "reconstruction/exchange/survey_file_formats.h"
 
@@ -15,7 +16,7 @@ SurveyFile ReadXml(const std::filesystem::path& path) {
 }
 
 SurveyFile ReadText(const SurveyText& text, const SurveyReading& reading) {
-  if (text.rows.empty()) throw InputError(text.path, "is empty");
+  if (text.rows.empty()) throw ErrorAt({text.path}, Sentence("fileEmpty", "is empty"));
   if (IsOdmList(text)) return ReadOdmList(text);
   if (IsHeaderTable(text, reading)) return ReadHeaderTable(text, reading);
   if (HasMarksBelowSystem(text)) return ReadOdmList(text);
@@ -23,10 +24,14 @@ SurveyFile ReadText(const SurveyText& text, const SurveyReading& reading) {
   if (IsMarkList(text)) return ReadMarkList(text);
   if (IsPointList(text)) return ReadPointList(text);
   if (const auto fault = FaultOfHeader(text)) throw text.rows[0].Error(*fault);
-  throw text.rows[0].Error(
-      "is of no format that we know, expected for example a coordinate system and lines \"X Y Z px "
-      "py image name\" (OpenDroneMap), a header \"name,x,y,z\", lines \"name X Y Z\", lines "
-      "\"image,point,x,y\" (Pix4D), XML of Metashape, MicMac or DBAT, JSON of OpenSfM");
+  throw ErrorAt(
+      text.rows[0].place(),
+      Sentence(
+          "formatUnknown",
+          "is of no format that we know, expected for example a coordinate system and lines "
+          "\"X Y Z px py image name\" (OpenDroneMap), a header \"name,x,y,z\", lines \"name X Y "
+          "Z\", lines \"image,point,x,y\" (Pix4D), XML of Metashape, MicMac or DBAT, JSON of "
+          "OpenSfM"));
 }
 
 }  // namespace
@@ -45,7 +50,9 @@ SurveyFile ReadSurveyFile(const std::filesystem::path& path, const PhotoSize& ph
   }
   file.path = path;
   if (file.points.empty() && file.marks.empty() && file.centers.empty()) {
-    throw InputError(path, "holds neither points nor marks (read as " + file.format + ")");
+    throw ErrorAt({path},
+                  Sentence("surveyNothing", "holds neither points nor marks (read as {format})",
+                           {{"format", file.format}}));
   }
   return file;
 }

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "calibration/files/sentence.h"
 #include "reconstruction/survey/survey.h"
 #include "reconstruction/survey/survey_columns.h"
 
@@ -41,7 +42,7 @@ struct SurveyFile {
   std::vector<SurveyedPoint> points;
   std::vector<SurveyedPoint> centers;  // camera positions
   std::vector<SurveyedMark> marks;
-  std::vector<std::string> remarks;  // what was left out or assumed
+  std::vector<Sentence> remarks;  // what was left out or assumed
 };
 
 // The size of a photo [px], which some formats divide by. nullopt: there is no such photo.

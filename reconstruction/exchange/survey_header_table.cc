@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "calibration/files/delimited_rows.h"
+#include "calibration/files/error_at.h"
 #include "calibration/files/number_style.h"
 #include "calibration/files/plain_text.h"
 #include "reconstruction/exchange/survey_file_formats.h"
@@ -124,26 +125,38 @@ class Line {
     const bool is_angle = (column == Column::kX || column == Column::kY) && columns_.has_degrees;
     if (!value && is_angle) value = ParseAngle(text);
     if (value) return *value * FactorOf(column);
-    throw row_.Error("\"" + text + "\" for " + what + ", expected a finite number" +
-                     (style_.is_mixed()
-                          ? "; some numbers of the table have decimal commas, others points"
-                          : ""));
+    const Sentence::Values values = {{"text", text}, {"what", what}};
+    throw ErrorAt(
+        row_.place(),
+        style_.is_mixed()
+            ? Sentence("wordMixed",
+                       "\"{text}\" for {what}, expected a finite number; some numbers of "
+                       "the table have decimal commas, others points",
+                       values)
+            : Sentence("wordNumber", "\"{text}\" for {what}, expected a finite number", values));
   }
   std::optional<double> Sigma(Column column) const {
     if (!Has(column)) return std::nullopt;
-    return Positive(Number(column, "the accuracy"));
+    return Positive(Number(column, "accuracy"));
   }
   // "0.01/0.01/0.02", as Metashape writes what differs by axis; one number stands for all three.
   std::optional<Eigen::Vector3d> SigmaOfAxes() const {
     if (!Has(Column::kSigmaXyz)) return std::nullopt;
-    const auto parts = SplitAt(Text(Column::kSigmaXyz, "the accuracy"), '/');
+    const auto parts = SplitAt(Text(Column::kSigmaXyz, "accuracy"), '/');
     if (parts.size() == 1) return Eigen::Vector3d::Constant(*Sigma(Column::kSigmaXyz));
-    if (parts.size() > 3) throw row_.Error("expected an accuracy of one to three parts");
+    if (parts.size() > 3) {
+      throw ErrorAt(row_.place(),
+                    Sentence("accuracyParts", "expected an accuracy of one to three parts"));
+    }
     Eigen::Vector3d sigma;
     for (size_t axis = 0; axis < 3; ++axis) {  // of two, plan and height
       const std::string& part = parts[parts.size() == 3 ? axis : axis / 2];
       const auto value = style_.Parse(part);
-      if (!value) throw row_.Error("\"" + part + "\" for the accuracy, expected a finite number");
+      if (!value) {
+        throw ErrorAt(row_.place(),
+                      Sentence("wordNumber", "\"{text}\" for {what}, expected a finite number",
+                               {{"text", part}, {"what", "accuracy"}}));
+      }
       sigma[static_cast<Eigen::Index>(axis)] = Positive(*value * FactorOf(Column::kSigmaXyz));
     }
     return sigma;
@@ -157,8 +170,8 @@ class Line {
     return unit == columns_.unit.end() ? 1 : unit->second.factor;
   }
   double Positive(double sigma) const {
-    if (!(sigma > 0)) throw row_.Error("an accuracy that is not positive");
-    return sigma;
+    if (sigma > 0) return sigma;
+    throw ErrorAt(row_.place(), Sentence("accuracyBad", "an accuracy that is not positive"));
   }
   const SurveyColumns& columns_;
   const NumberStyle& style_;
@@ -178,23 +191,25 @@ std::optional<Eigen::Vector3d> SigmaOf(const Line& line) {
 
 ControlRole RoleOf(const Line& line) {
   if (line.Has(Column::kEnabled)) {
-    const std::string& enabled = line.Text(Column::kEnabled, "the enable flag");
+    const std::string& enabled = line.Text(Column::kEnabled, "enable");
     if (enabled != "0" && enabled != "1" && enabled != "true" && enabled != "false" &&
         enabled != "True" && enabled != "False") {
-      throw line.row().Error("\"" + enabled + "\" for the enable flag, expected 0 or 1");
+      throw ErrorAt(line.row().place(),
+                    Sentence("flagBad", "\"{text}\" for the enable flag, expected 0 or 1",
+                             {{"text", enabled}}));
     }
     const bool is_on = enabled == "1" || enabled == "true" || enabled == "True";
     return is_on ? ControlRole::kControl : ControlRole::kCheck;
   }
   if (!line.Has(Column::kRole)) return ControlRole::kControl;
-  std::string role = line.Text(Column::kRole, "the role");
+  std::string role = line.Text(Column::kRole, "role");
   for (char& letter : role) letter = static_cast<char>(std::tolower(letter));
   return role.find("check") == std::string::npos ? ControlRole::kControl : ControlRole::kCheck;
 }
 
 SurveyedPoint PointOf(const Line& line) {
   return {
-      line.Text(Column::kName, "the name"),
+      line.Text(Column::kName, "name"),
       {line.Number(Column::kX, "x"), line.Number(Column::kY, "y"), line.Number(Column::kZ, "z")},
       SigmaOf(line),
       RoleOf(line),
@@ -202,8 +217,8 @@ SurveyedPoint PointOf(const Line& line) {
 }
 
 SurveyedMark MarkOf(const Line& line) {
-  return {PhotoName(line.Text(Column::kPhoto, "the photo")),
-          line.Text(Column::kName, "the point"),
+  return {PhotoName(line.Text(Column::kPhoto, "photo")),
+          line.Text(Column::kName, "point"),
           {line.Number(Column::kX, "x"), line.Number(Column::kY, "y")},
           line.Sigma(Column::kSigmaXyz),
           line.Place()};
@@ -242,10 +257,9 @@ void RequirePixels(const SurveyFile& file) {
                   [](const SurveyedMark& mark) { return mark.pixel.cwiseAbs().maxCoeff() <= 1; });
   if (!are_shares) return;
   const FilePlace& place = file.marks[0].place;
-  throw InputError(
-      place.path, place.line,
-      "all marks are between -1 and 1: shares of the picture's sides, expected pixels of the "
-      "original photograph");
+  throw ErrorAt(place, Sentence("marksShares",
+                                "all marks are between -1 and 1: shares of the picture's sides, "
+                                "expected pixels of the original photograph"));
 }
 
 void AddRemarks(const SurveyColumns& columns, const std::vector<std::string>& titles,
@@ -253,19 +267,28 @@ void AddRemarks(const SurveyColumns& columns, const std::vector<std::string>& ti
   std::string units, left_out;
   for (const auto& [column, unit] : columns.unit) {
     if (unit.factor == 1) continue;
-    units += (units.empty() ? "" : ", ") + titles[columns.index.at(column)] + " from " + unit.name;
+    units +=
+        (units.empty() ? "" : ", ") + titles[columns.index.at(column)] + " (" + unit.name + ")";
   }
-  if (!units.empty()) file->remarks.push_back("converted to metres or degrees: " + units);
+  if (!units.empty()) {
+    file->remarks.push_back(
+        Sentence("remarkUnits", "converted to metres or degrees: {units}", {{"units", units}}));
+  }
   for (const std::string& title : columns.left_out)
     left_out += (left_out.empty() ? "" : ", ") + title;
-  if (!left_out.empty())
-    file->remarks.push_back("left out beside the columns that are taken: " + left_out);
+  if (!left_out.empty()) {
+    file->remarks.push_back(Sentence("remarkColumns",
+                                     "left out beside the columns that are taken: {columns}",
+                                     {{"columns", left_out}}));
+  }
   if (!columns.has_marks) {
     file->has_units = columns.unit.contains(Column::kX) && columns.unit.contains(Column::kZ);
     return;
   }
   file->remarks.push_back(
-      "it does not say where its pixels count from: taken from the centre of the top-left pixel");
+      Sentence("remarkPixels",
+               "it does not say where its pixels count from: taken from the centre of the top-left "
+               "pixel"));
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "calibration/camera_files/aicon_camera.h"
+#include "calibration/files/error_at.h"
 #include "reconstruction/exchange/survey_file_formats.h"
 
 namespace insitu {
@@ -35,9 +36,11 @@ Eigen::Vector3d Position(const TextRow& row, size_t first) {
 }
 
 double Sigma(const TextRow& row, size_t index) {
-  const double sigma = row.Number(index, "the accuracy");
+  const double sigma = row.Number(index, "accuracy");
   if (!(sigma > 0))
-    throw row.Error("the accuracy is " + row.words[index] + ", expected more than 0");
+    throw ErrorAt(row.place(),
+                  Sentence("accuracyNotPositive", "the accuracy is {text}, expected more than 0",
+                           {{"text", row.words[index]}}));
   return sigma;
 }
 
@@ -79,7 +82,9 @@ class OdmPoints {
     const auto [named, is_new] =
         names_.emplace(place, name.empty() ? "gcp_" + std::to_string(names_.size() + 1) : name);
     if (!name.empty() && named->second != name) {
-      throw row.Error("point \"" + name + "\" stands at the place of \"" + named->second + "\"");
+      throw ErrorAt(row.place(), Sentence("pointsOnePlace",
+                                          "point \"{point}\" stands at the place of \"{other}\"",
+                                          {{"point", name}, {"other", named->second}}));
     }
     if (is_new) {
       file_->points.push_back({named->second, Eigen::Vector3d(place.data()), std::nullopt,
@@ -90,8 +95,9 @@ class OdmPoints {
 
   void Finish() const {
     if (!without_height_) return;
-    file_->remarks.push_back(std::to_string(without_height_) +
-                             " marks are of points without height and are left out");
+    file_->remarks.push_back(Sentence("remarkNoHeight",
+                                      "{count} marks are of points without height and are left out",
+                                      {{"count", without_height_}}));
   }
 
  private:
@@ -151,7 +157,10 @@ void ReadAiconMarks(const SurveyText& text, SurveyFile* file) {
     file->marks.push_back({row.Text(0, "photo"), row.Text(1, "point"),
                            AiconPixel(cameras[0].lens, mm), std::nullopt, row.place()});
   }
-  if (flagged) file->remarks.push_back(std::to_string(flagged) + " marks are flagged as unused");
+  if (flagged) {
+    file->remarks.push_back(
+        Sentence("remarkUnusedMarks", "{count} marks are flagged as unused", {{"count", flagged}}));
+  }
 }
 
 void ReadAiconPoints(const SurveyText& text, SurveyFile* file) {
@@ -162,7 +171,10 @@ void ReadAiconPoints(const SurveyText& text, SurveyFile* file) {
     file->points.push_back({row.Text(0, "point"), kMetresPerMm * Position(row, 1),
                             kMetresPerMm * sigma, ControlRole::kControl, row.place()});
   }
-  if (unused) file->remarks.push_back(std::to_string(unused) + " points are flagged as unused");
+  if (unused) {
+    file->remarks.push_back(Sentence("remarkUnusedPoints", "{count} points are flagged as unused",
+                                     {{"count", unused}}));
+  }
 }
 
 // ---- lists ---------------------------------------------------------------------------------
@@ -170,15 +182,18 @@ void ReadAiconPoints(const SurveyText& text, SurveyFile* file) {
 // name x y z, with accuracies of plan and height or of each axis.
 SurveyedPoint ReadPoint(const TextRow& row) {
   SurveyedPoint point;
-  point.name = row.Text(0, "the name");
+  point.name = row.Text(0, "name");
   point.position = Position(row, 1);
   point.place = row.place();
   if (row.words.size() == 6) point.sigma = {Sigma(row, 4), Sigma(row, 4), Sigma(row, 5)};
   if (row.words.size() == 7) point.sigma = {Sigma(row, 4), Sigma(row, 5), Sigma(row, 6)};
   if (row.words.size() == 5 || row.words.size() > 7) {
-    throw row.Error(std::to_string(row.words.size()) +
-                    " values, expected name x y z, then nothing, or accuracies of plan and height, "
-                    "or of x, y and z");
+    throw ErrorAt(
+        row.place(),
+        Sentence("listValues",
+                 "{count} values, expected name x y z, then nothing, or accuracies of plan "
+                 "and height, or of x, y and z",
+                 {{"count", int(row.words.size())}}));
   }
   return point;
 }
@@ -272,7 +287,8 @@ SurveyFile ReadMarkList(const SurveyText& text) {
   }
   if (is_pix4d && text.rows[0].words.size() > 4) {
     file.remarks.push_back(
-        "its fifth column (zoom or accuracy, by version) is not taken for sigma");
+        Sentence("remarkFifthColumn",
+                 "its fifth column (zoom or accuracy, by version) is not taken for sigma"));
   }
   return file;
 }

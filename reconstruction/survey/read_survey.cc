@@ -82,7 +82,7 @@ SurveySoFar ReadSurveySoFar(const SitePaths& site, const std::vector<std::string
     try {
       take_in(file);
     } catch (const InputError& fault) {
-      read.faults.push_back(fault);
+      read.faults.push_back(SentenceOf(fault));
     }
   };
   Survey& survey = read.survey;

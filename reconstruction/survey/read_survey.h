@@ -27,7 +27,7 @@ Survey ReadSurvey(const SitePaths& site, const std::vector<std::string>& photos,
 // A survey that is still being made.
 struct SurveySoFar {
   Survey survey;  // without files at fault, and without constraints of what they hold
-  std::vector<InputError> faults;  // one for each of these
+  std::vector<Sentence> faults;  // one for each of these
 };
 
 // As ReadSurvey, but no file needs to be there, a name needs not mean anything yet, and all

@@ -136,14 +136,16 @@ std::string SitePhotoName(const std::string& photo, const std::vector<std::strin
   return same == photos.end() ? photo : *same;
 }
 
-std::optional<std::string> FaultOfPhoto(const std::string& photo,
-                                        const std::vector<std::string>& photos) {
+std::optional<Sentence> FaultOfPhoto(const std::string& photo,
+                                     const std::vector<std::string>& photos) {
   if (std::find(photos.begin(), photos.end(), photo) != photos.end()) return std::nullopt;
-  std::string hint = DidYouMean(photo, Names(photos.begin(), photos.end()));
+  Sentence hint = SaidMeant(photo, Names(photos.begin(), photos.end()));
   for (const std::string& known : photos) {
-    if (photo.starts_with(known + ".")) hint = "; write '" + known + "', without the ending";
+    if (!photo.starts_with(known + ".")) continue;
+    hint = Sentence("photoEnding", "; write '{photo}', without the ending", {{"photo", known}});
   }
-  return "photo '" + photo + "' is not in the folder photos" + hint;
+  return Sentence("photoNotThere", "photo '{photo}' is not in the folder photos{hint}",
+                  {{"photo", photo}, {"hint", hint.ToJson()}});
 }
 
 void RequireKnownPoints(const Survey& survey) {

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "calibration/files/sentence.h"
 #include "reconstruction/survey/survey.h"
 
 namespace insitu {
@@ -14,8 +15,8 @@ namespace insitu {
 std::string SitePhotoName(const std::string& photo, const std::vector<std::string>& photos);
 
 // What is wrong with the name of a photo; nullopt if it is among `photos`.
-std::optional<std::string> FaultOfPhoto(const std::string& photo,
-                                        const std::vector<std::string>& photos);
+std::optional<Sentence> FaultOfPhoto(const std::string& photo,
+                                     const std::vector<std::string>& photos);
 
 // Marks must be of points that another file names, that an edge or a constraint joins, or that two
 // photos show; the ends of pairs, edges and constraints must be surveyed, marked or vertices.

@@ -17,20 +17,30 @@ namespace {
 
 using Kind = GeometricConstraint::Kind;
 
+// At a value, with its place within the file in English.
+SaidError Fault(const JsonNode& node, const Sentence& what) {
+  return {node.Error(what.text()), {node.path(), node.line()}, what};
+}
+
 std::optional<std::string> ReadMask(const JsonNode& polygon) {
   const auto mask = polygon.Find("mask");
   if (!mask) return std::nullopt;
   if (!std::filesystem::exists(polygon.path().parent_path() / mask->Text())) {
-    throw mask->Error("mask '" + mask->Text() + "' is not in the folder survey");
+    throw Fault(*mask, Sentence("maskNotThere", "mask '{mask}' is not in the folder survey",
+                                {{"mask", mask->Text()}}));
   }
   return mask->Text();
 }
 
-InputError UnknownKey(const JsonNode& member, const std::string& what,
-                      const std::vector<std::string>& keys) {
+SaidError UnknownKey(const std::string& key, const JsonNode& member, const std::string& what,
+                     const std::vector<std::string>& keys) {
   std::string expected;
   for (const std::string& known : keys) expected += (expected.empty() ? "" : ", ") + known;
-  return member.Error("is not a key of " + what + ", expected " + expected);
+  const InputError english = member.Error("is not a key of " + what + ", expected " + expected);
+  return {english,
+          {member.path(), member.line()},
+          Sentence("keyUnknown", "\"{key}\" is not a key there, expected {expected}",
+                   {{"key", key}, {"expected", expected}})};
 }
 
 // A key that is misspelt would be left out without a word. Every object may hold a comment.
@@ -39,7 +49,7 @@ void RequireKnownKeys(const JsonNode& node, const std::string& what,
   keys.push_back("comment");
   for (const auto& [key, member] : node.Members()) {
     if (std::find(keys.begin(), keys.end(), key) != keys.end()) continue;
-    throw UnknownKey(member, what, keys);
+    throw UnknownKey(key, member, what, keys);
   }
 }
 
@@ -49,13 +59,17 @@ void ReadHoles(const JsonNode& node, std::set<std::string> taken, PolygonOutline
     polygon->holes.push_back(hole.Texts());
     const std::vector<std::string>& names = polygon->holes.back();
     if (names.size() < 3) {
-      throw hole.Error("a hole of polygon '" + polygon->name + "' has " +
-                       std::to_string(names.size()) + " vertices, expected at least three");
+      throw Fault(hole, Sentence("holeFew",
+                                 "a hole of polygon '{polygon}' has {count} vertices, expected at "
+                                 "least three",
+                                 {{"polygon", polygon->name}, {"count", int(names.size())}}));
     }
     for (const std::string& name : names) {
       if (taken.insert(name).second) continue;
-      throw hole.Error("a hole of polygon '" + polygon->name + "' has vertex '" + name +
-                       "', which the polygon has already; expected each vertex once");
+      throw Fault(hole, Sentence("holeVertexTwice",
+                                 "a hole of polygon '{polygon}' has vertex '{vertex}', which the "
+                                 "polygon has already; expected each vertex once",
+                                 {{"polygon", polygon->name}, {"vertex", name}}));
     }
   }
 }
@@ -68,15 +82,17 @@ PolygonOutline ReadPolygon(const JsonNode& node, const std::vector<std::string>&
   polygon.vertices = node.At("vertices").Texts();
   const std::set<std::string> distinct(polygon.vertices.begin(), polygon.vertices.end());
   if (distinct.size() < 3 || distinct.size() < polygon.vertices.size()) {
-    throw node.Error("polygon '" + polygon.name + "' has " +
-                     std::to_string(polygon.vertices.size()) + " vertices, " +
-                     std::to_string(distinct.size()) +
-                     " of them distinct; expected at least three, all distinct");
+    throw Fault(node, Sentence("polygonVertices",
+                               "polygon '{polygon}' has {count} vertices, {distinct} of them "
+                               "distinct; expected at least three, all distinct",
+                               {{"polygon", polygon.name},
+                                {"count", int(polygon.vertices.size())},
+                                {"distinct", int(distinct.size())}}));
   }
   if (const auto holes = node.Find("holes")) ReadHoles(*holes, distinct, &polygon);
   if (const auto photo = node.Find("photo")) {
     polygon.photo = SitePhotoName(photo->Text(), photos);
-    if (const auto fault = FaultOfPhoto(*polygon.photo, photos)) throw photo->Error(*fault);
+    if (const auto fault = FaultOfPhoto(*polygon.photo, photos)) throw Fault(*photo, *fault);
   }
   polygon.material = node.At("material").Text();
   polygon.mask = ReadMask(node);
@@ -92,7 +108,9 @@ std::vector<DirectionPair> ReadPairs(const JsonNode& root, const std::string& ke
     RequireKnownKeys(node, "a " + key + " pair", {from, to});
     pairs.push_back({node.At(from).Text(), node.At(to).Text(), {node.path(), node.line()}});
     if (pairs.back().from == pairs.back().to) {
-      throw node.Error("the pair names point '" + pairs.back().to + "' twice, expected two points");
+      throw Fault(node,
+                  Sentence("pairTwice", "the pair names point '{point}' twice, expected two points",
+                           {{"point", pairs.back().to}}));
     }
   }
   return pairs;
@@ -124,7 +142,8 @@ const KindOfConstraint& ReadKind(const JsonNode& node) {
     if (kind.name == name) return kind;
     expected += (expected.empty() ? "" : ", ") + kind.name;
   }
-  throw node.Error("kind is '" + name + "', expected one of " + expected);
+  throw Fault(node, Sentence("kindUnknown", "kind is '{word}', expected one of {words}",
+                             {{"word", name}, {"words", expected}}));
 }
 
 std::vector<std::string> KeysOf(const KindOfConstraint& kind) {
@@ -162,23 +181,34 @@ void ReadSubjects(const JsonNode& node, const KindOfConstraint& kind,
   const bool is_distinct = HasTwoEnds(names);
   const bool is_either = constraint->points.empty() || constraint->polygons.empty();
   if (is_either && is_distinct && !names.empty() && names.size() == count) return;
-  throw node.Error("is about " + std::to_string(constraint->points.size()) + " points and " +
-                   std::to_string(constraint->polygons.size()) + " polygons" +
-                   (is_distinct ? "" : ", one of them named twice") + "; a " + kind.name +
-                   " constraint expects " + ExpectedSubjects(kind));
+  const InputError english =
+      node.Error("is about " + std::to_string(constraint->points.size()) + " points and " +
+                 std::to_string(constraint->polygons.size()) + " polygons" +
+                 (is_distinct ? "" : ", one of them named twice") + "; a " + kind.name +
+                 " constraint expects " + ExpectedSubjects(kind));
+  throw SaidError(
+      english, {node.path(), node.line()},
+      Sentence("constraintSubjects",
+               "a constraint \"{kind_name}\" is about {points} distinct points or {polygons} "
+               "polygons",
+               {{"kind_name", kind.name},
+                {"points", int(kind.points)},
+                {"polygons", int(kind.polygons)}}));
 }
 
 double PositiveNumber(const JsonNode& node) {
   const double number = node.Number();
-  if (number <= 0) throw node.Error("is " + std::to_string(number) + ", expected more than 0");
-  return number;
+  if (number > 0) return number;
+  throw Fault(node, Sentence("notPositive", "is {number}, expected more than 0",
+                             {{"number", std::to_string(number)}}));
 }
 
 double AngleSigma(const JsonNode& node) {
   const auto degrees = node.Find("sigma_deg");
   const auto slope = node.Find("sigma_mm_per_m");
   if (degrees.has_value() == slope.has_value()) {
-    throw node.Error("expected either \"sigma_deg\" or \"sigma_mm_per_m\"");
+    throw Fault(node,
+                Sentence("eitherSigma", "expected either \"sigma_deg\" or \"sigma_mm_per_m\""));
   }
   return degrees ? PositiveNumber(*degrees) * std::numbers::pi / 180
                  : PositiveNumber(*slope) / 1000;
@@ -193,8 +223,11 @@ GeometricConstraint ReadConstraint(const JsonNode& node, const std::set<std::str
   ReadSubjects(node, kind, &constraint);
   for (const std::string& polygon : constraint.polygons) {
     if (polygons.contains(polygon)) continue;
-    throw node.Error("names polygon '" + polygon + "', expected a polygon of polygons.json" +
-                     DidYouMean(polygon, polygons));
+    throw Fault(node,
+                Sentence("constraintPolygon",
+                         "names polygon '{polygon}', expected a polygon of "
+                         "polygons.json{hint}",
+                         {{"polygon", polygon}, {"hint", SaidMeant(polygon, polygons).ToJson()}}));
   }
   if (kind.has_value) {
     const JsonNode value = node.At("value_m");
@@ -217,7 +250,8 @@ std::vector<PolygonOutline> ReadPolygons(const std::filesystem::path& path,
   for (const JsonNode& node : root.At("polygons").Items()) {
     polygons.push_back(ReadPolygon(node, photos));
     if (!names.insert(polygons.back().name).second) {
-      throw node.Error("polygon '" + polygons.back().name + "' occurs twice");
+      throw Fault(node, Sentence("polygonTwice", "polygon '{polygon}' occurs twice",
+                                 {{"polygon", polygons.back().name}}));
     }
   }
   return polygons;

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "calibration/files/csv_file.h"
+#include "calibration/files/error_at.h"
 #include "reconstruction/survey/survey_names.h"
 
 namespace insitu {
@@ -13,10 +14,15 @@ namespace {
 
 constexpr double kLargestFrame = 100000;  // [px], no photograph is wider or higher
 
+SaidError Fault(const CsvRow& row, const Sentence& what) {
+  return ErrorAt({row.path, row.line}, what);
+}
+
 double PositiveNumber(const CsvRow& row, const std::string& column) {
   const double value = row.Number(column);
-  if (value <= 0) throw row.Error(column + " is " + row.Text(column) + ", expected more than 0");
-  return value;
+  if (value > 0) return value;
+  throw Fault(row, Sentence("cellNotPositive", "{column} is {text}, expected more than 0",
+                            {{"column", column}, {"text", row.Text(column)}}));
 }
 
 Eigen::Vector3d Position(const CsvRow& row) {
@@ -35,17 +41,19 @@ Role RoleOf(const CsvRow& row, const std::vector<std::pair<std::string, Role>>& 
   std::string expected;
   for (const auto& [name, role] : roles) {
     if (text == name) return role;
-    expected += (expected.empty() ? "'" : " or '") + name + "'";
+    expected += (expected.empty() ? "'" : ", '") + name + "'";
   }
-  throw row.Error("role is '" + text + "', expected " + expected);
+  throw Fault(row, Sentence("cellRole", "role is '{text}', expected one of {words}",
+                            {{"text", text}, {"words", expected}}));
 }
 
 double FrameCoordinate(const CsvRow& row, const std::string& column) {
   const double value = row.Number(column);
   if (value < -0.5 || value > kLargestFrame) {
-    throw row.Error(column + " is " + row.Text(column) +
-                    ", expected a pixel position of the original photograph, counted from the "
-                    "centre of its top-left pixel");
+    throw Fault(row, Sentence("cellPixel",
+                              "{column} is {text}, expected a pixel position of the original "
+                              "photograph, counted from the centre of its top-left pixel",
+                              {{"column", column}, {"text", row.Text(column)}}));
   }
   return value;
 }
@@ -64,7 +72,7 @@ class PhotosOfRows {
     const auto known = names_.find(text);
     if (known != names_.end()) return known->second;
     const std::string photo = SitePhotoName(text, photos_);
-    if (const auto fault = FaultOfPhoto(photo, photos_)) throw row.Error(*fault);
+    if (const auto fault = FaultOfPhoto(photo, photos_)) throw Fault(row, *fault);
     return names_.emplace(text, photo).first->second;
   }
 
@@ -89,8 +97,10 @@ std::vector<ControlPoint> ReadControlPoints(const std::filesystem::path& path) {
     point.place = {row.path, row.line};
     const auto [first, is_new] = line_of_name.emplace(point.name, row.line);
     if (!is_new) {
-      throw row.Error("point '" + point.name + "' stands already in line " +
-                      std::to_string(first->second) + ", expected each name once");
+      throw Fault(row, Sentence("pointTwice",
+                                "point '{point}' stands already in line {line}, expected each name "
+                                "once",
+                                {{"point", point.name}, {"line", first->second}}));
     }
     points.push_back(std::move(point));
   }
@@ -110,9 +120,11 @@ std::vector<ImageObservation> ReadObservations(const std::filesystem::path& path
                           {row.path, row.line}};
     const auto [first, is_new] = line_of_mark.emplace(std::pair(mark.photo, mark.point), row.line);
     if (!is_new) {
-      throw row.Error("point '" + mark.point + "' is marked on photo '" + mark.photo +
-                      "' already in line " + std::to_string(first->second) +
-                      ", expected one mark a photo: remove one row, or name the point it shows");
+      throw Fault(
+          row, Sentence("markTwice",
+                        "point '{point}' is marked on photo '{photo}' already in line {line}, "
+                        "expected one mark a photo: remove one row, or name the point it shows",
+                        {{"point", mark.point}, {"photo", mark.photo}, {"line", first->second}}));
     }
     observations.push_back(std::move(mark));
   }
@@ -132,8 +144,10 @@ std::vector<CameraPosition> ReadCameraPositions(const std::filesystem::path& pat
     CameraPosition position{photo_of(row), Position(row), Sigma(row), role, {row.path, row.line}};
     const auto [first, is_new] = line_of_photo.emplace(position.photo, row.line);
     if (!is_new) {
-      throw row.Error("photo '" + position.photo + "' has a position already in line " +
-                      std::to_string(first->second) + ", expected each photo once");
+      throw Fault(row, Sentence("positionTwice",
+                                "photo '{photo}' has a position already in line {line}, expected "
+                                "each photo once",
+                                {{"photo", position.photo}, {"line", first->second}}));
     }
     positions.push_back(std::move(position));
   }
@@ -152,8 +166,9 @@ std::vector<EdgeMark> ReadEdges(const std::filesystem::path& path,
                      PositiveNumber(row, "sigma"),
                      {row.path, row.line}});
     if (edges.back().from == edges.back().to) {
-      throw row.Error("the edge joins point '" + edges.back().to +
-                      "' with itself, expected two points");
+      throw Fault(row, Sentence("edgeItself",
+                                "the edge joins point '{point}' with itself, expected two points",
+                                {{"point", edges.back().to}}));
     }
   }
   return edges;

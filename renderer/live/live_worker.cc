@@ -1,21 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "renderer/live/live_worker.h"
 
-#include <filesystem>
 #include <utility>
 
-#include "calibration/files/error.h"
 #include "reconstruction/survey/read_survey.h"
 #include "renderer/live/live_lenses.h"
 
 namespace insitu {
 
-LiveWorker::LiveWorker(SitePaths site) : site_(std::move(site)), linear_(site_) {}
+LiveWorker::LiveWorker(SitePaths site) : site_(std::move(site)) {}
 
-void LiveWorker::ForgetStages() {
-  has_lenses_ = false;
-  building_.reset();
-}
+void LiveWorker::ForgetStages() { has_lenses_ = false; }
 
 LiveState LiveWorker::Adjust(int revision) {
   if (!has_lenses_) photos_ = ReadLivePhotos(site_);
@@ -24,7 +19,8 @@ LiveState LiveWorker::Adjust(int revision) {
   for (const LivePhoto& photo : photos_) names.push_back(photo.name);
   SurveySoFar read = ReadSurveySoFar(site_, names);
   LiveState state;
-  for (const InputError& fault : read.faults) state.file_faults.emplace_back(fault.what());
+  state.serial = ++serial_;
+  state.file_faults = std::move(read.faults);
   state.result = SolveLive({.survey = std::move(read.survey),
                             .photos = photos_,
                             .last_poses = poses_,
@@ -33,28 +29,6 @@ LiveState LiveWorker::Adjust(int revision) {
   state.result.message["type"] = "adjusted";
   state.result.message["revision"] = revision;
   return state;
-}
-
-void LiveWorker::AddLight(int revision, LiveState* state) {
-  state->is_lit = true;
-  if (!state->result.scene) return;
-  state->light = LiveLight(site_, *state->result.scene, linear_, &state->environment);
-  if (state->light.isNull()) return;
-  state->light["type"] = "light";
-  state->light["revision"] = revision;
-}
-
-void LiveWorker::AddBuilding(LiveState* state) {
-  if (!state->result.scene) return;
-  try {
-    if (!building_ && std::filesystem::exists(site_.artificial())) {
-      building_ = ReadBuildingWireframe(site_);
-    }
-    if (building_) state->building = LiveBuilding(*building_, *state->result.scene);
-  } catch (const InputError& error) {
-    state->file_faults.emplace_back(error.what());
-  }
-  if (!state->building.isNull()) state->building["type"] = "building";
 }
 
 }  // namespace insitu

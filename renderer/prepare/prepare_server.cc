@@ -72,6 +72,8 @@ class PrepareService {
     return route->second(request);
   }
 
+  std::string Hello() const { return OneLineJson(session_.Hello()); }
+
   void Stop() {
     runs_.End();
     relit_.Stop();
@@ -356,10 +358,14 @@ void ServePrepare(const SitePaths& site, const PrepareOptions& options, const Te
     if (LoopbackServer* server = windows) server->Send(std::move(text));
   };
   PrepareService service(site, send, warn);
+  const auto greet = [&](int window) {
+    if (LoopbackServer* server = windows) server->SendTo(window, service.Hello());
+  };
   std::string remark;
-  const auto made =
-      MakeServer(site, options, token,
-                 {.on_request = [&](const WebRequest& r) { return service.Answer(r); }}, &remark);
+  const auto made = MakeServer(
+      site, options, token,
+      {.on_request = [&](const WebRequest& r) { return service.Answer(r); }, .on_opened = greet},
+      &remark);
   LoopbackServer& server = *made;
   NotePort(site, server.port());
   windows = &server;  // what was told before that, the page asks for when it comes

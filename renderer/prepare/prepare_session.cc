@@ -2,6 +2,7 @@
 #include "renderer/prepare/prepare_session.h"
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <condition_variable>
 #include <mutex>
@@ -10,12 +11,12 @@
 #include <utility>
 
 #include "calibration/files/error.h"
-#include "calibration/photo/photograph.h"
 #include "reconstruction/editing/edited_tables.h"
 #include "reconstruction/editing/site_edit.h"
 #include "renderer/live/live_worker.h"
 #include "renderer/prepare/edit_messages.h"
 #include "renderer/prepare/film_message.h"
+#include "renderer/prepare/site_of_photos.h"
 #include "renderer/prepare/to_do.h"
 
 namespace insitu {
@@ -23,24 +24,6 @@ namespace {
 
 constexpr auto kQuiet = std::chrono::milliseconds(60);  // after the last operation
 constexpr auto kLook = std::chrono::seconds(1);         // between looks at the files
-
-std::vector<std::string> NamesOf(const SitePaths& site) {
-  std::vector<std::string> names;
-  for (const auto& path : ListPhotographs(site)) names.push_back(path.stem().string());
-  return names;
-}
-
-// By name; photographs that cannot be read have none.
-std::map<std::string, Eigen::Vector2i> SizesOf(const SitePaths& site) {
-  std::map<std::string, Eigen::Vector2i> sizes;
-  for (const auto& path : ListPhotographs(site)) {
-    try {
-      sizes[path.stem().string()] = ReadPhotographSize(path);
-    } catch (const InputError&) {  // the page shows that it cannot be shown
-    }
-  }
-  return sizes;
-}
 
 Json::Value OrNull(const std::optional<std::string>& text) {
   return text ? Json::Value(*text) : Json::Value();
@@ -54,9 +37,12 @@ struct PrepareSession::Parts {
       : site(s),
         send(std::move(tell)),
         warn(std::move(w)),
-        photos(NamesOf(s)),
+        photos(PhotoNames(s)),
         edit(s, photos),
-        worker(s) {
+        worker(s),
+        appearance(s, [this](const LiveAppearance& now, const Json::Value& message) {
+          TellAppearance(now, message);
+        }) {
     for (const Sentence& sentence : SentencesOf(edit.found())) warn(sentence.text());
     if (!read_only.empty()) warn(read_only);
   }
@@ -65,9 +51,11 @@ struct PrepareSession::Parts {
   const std::function<void(std::string)> send;
   const std::function<void(const std::string&)> warn;
   const std::vector<std::string> photos;
-  const std::map<std::string, Eigen::Vector2i> sizes = SizesOf(site);
+  const std::map<std::string, Eigen::Vector2i> sizes = PhotoSizes(site);
 
-  std::mutex mutex;  // of all below but the worker, which only the thread uses
+  std::atomic<int> news = 0;  // messages told
+
+  std::mutex mutex;  // of all below but the worker, which only `thread` uses
   std::condition_variable_any changed;
   SiteEdit edit;
   std::shared_ptr<const LiveState> live = std::make_shared<LiveState>();
@@ -77,9 +65,13 @@ struct PrepareSession::Parts {
   std::set<std::string> warned_photos;  // with why
   bool is_due = true, forgets_stages = false;
   LiveWorker worker;
+  AppearanceThread appearance;
   std::jthread thread;
 
-  void Tell(const Json::Value& message) const { send(OneLineJson(message)); }
+  void Tell(const Json::Value& message) {
+    ++news;  // before it is sent: a window that opens in between asks once too often
+    send(OneLineJson(message));
+  }
 
   Json::Value History() const {
     Json::Value json;
@@ -90,14 +82,18 @@ struct PrepareSession::Parts {
 
   Json::Value ToDoNow() const {
     const Json::Value tables = edit.Tables();
-    return ToDo({site, tables, live->result.message, live->light, FilmMessage(site, tables, sizes),
-                 live->file_faults});
+    std::vector<Sentence> faults = live->file_faults;
+    if (const Sentence& fault = live->appearance.building_fault; !fault.empty()) {
+      faults.push_back(fault);
+    }
+    return ToDo({site, tables, live->result.message, live->appearance.light,
+                 FilmMessage(site, tables, sizes), std::move(faults)});
   }
 
   // Null where there is no film.
   Json::Value FilmNow() const { return FilmMessage(site, edit.Tables(), sizes); }
 
-  void TellOperation(const Operation& operation, const char* kind) const {
+  void TellOperation(const Operation& operation, const char* kind) {
     Json::Value message;
     message["type"] = "op";
     message["revision"] = edit.revision();
@@ -122,7 +118,7 @@ struct PrepareSession::Parts {
   }
 
   Answer Done(const EditOutcome& outcome, const char* kind) {
-    if (!outcome.refused.empty()) return Refused(400, Sentence::Verbatim(outcome.refused));
+    if (!outcome.refused.empty()) return Refused(400, outcome.refused);
     Answer answer;
     if (!outcome.conflicts.empty()) {
       answer.status = 409;
@@ -158,7 +154,7 @@ struct PrepareSession::Parts {
     return {};
   }
 
-  void TellSentence(const char* type, const Sentence& sentence) const {
+  void TellSentence(const char* type, const Sentence& sentence) {
     Json::Value message;
     message["type"] = type;
     sentence.SayIn(&message, "text");
@@ -167,7 +163,7 @@ struct PrepareSession::Parts {
   }
 
   // True if the tables are others now.
-  bool TellOutside(const OutsideChanges& outside) const {
+  bool TellOutside(const OutsideChanges& outside) {
     for (const Operation& operation : outside.operations) TellOperation(operation, "outside");
     for (const Sentence& sentence : SentencesOf(outside)) TellSentence("outside", sentence);
     return !outside.operations.empty() || !outside.reread.empty();
@@ -214,23 +210,29 @@ struct PrepareSession::Parts {
     warned_photos = std::move(faults);
   }
 
-  void Publish(const std::shared_ptr<const LiveState>& state) {
-    const std::lock_guard lock(mutex);
-    live = state;
-  }
-
+  // The light and the building stay those of the adjustment before until they are known anew.
   void Solve(int revision) {
     auto state = std::make_shared<LiveState>(worker.Adjust(revision));
-    Publish(state);
+    {
+      const std::lock_guard lock(mutex);
+      state->appearance = live->appearance;
+      live = state;
+    }
     Tell(state->result.message);
     WarnOfPhotos(state->result.message["photos"]);
     TellToDo();
-    auto lit = std::make_shared<LiveState>(*state);
-    worker.AddLight(revision, lit.get());
-    if (!lit->light.isNull()) Tell(lit->light);
-    worker.AddBuilding(lit.get());
-    if (!lit->building.isNull()) Tell(lit->building);
-    Publish(lit);
+    appearance.Order({state->serial, revision, state->result.scene});
+  }
+
+  // By the thread that makes it.
+  void TellAppearance(const LiveAppearance& now, const Json::Value& message) {
+    {
+      const std::lock_guard lock(mutex);
+      auto state = std::make_shared<LiveState>(*live);
+      state->appearance = now;
+      live = std::move(state);
+    }
+    Tell(message);
     TellToDo();
   }
 
@@ -250,7 +252,10 @@ struct PrepareSession::Parts {
         is_due = false;
         if (changed.wait_for(lock, stop, kQuiet, [&] { return is_due; })) continue;
         SaveAndTell();
-        if (std::exchange(forgets_stages, false)) worker.ForgetStages();
+        if (std::exchange(forgets_stages, false)) {
+          worker.ForgetStages();
+          appearance.ForgetBuilding();
+        }
         return edit.saved_revision();
       }
       if (changed.wait_for(lock, stop, kLook, [&] { return is_due; })) continue;
@@ -289,12 +294,14 @@ void PrepareSession::Stop() {
   if (!parts_->thread.joinable()) return;
   parts_->thread.request_stop();
   parts_->thread.join();
+  parts_->appearance.Stop();
 }
 
 Json::Value PrepareSession::Site() {
   Parts& parts = *parts_;
   const std::lock_guard lock(parts.mutex);
   Json::Value site;
+  site["news"] = parts.news.load();
   site["revision"] = parts.edit.revision();
   site["saved"] = parts.edit.saved_revision();
   parts.not_saved.SayIn(&site, "not_saved");
@@ -309,8 +316,8 @@ Json::Value PrepareSession::Site() {
   }
   site["history"] = parts.History();
   site["adjusted"] = parts.live->result.message;
-  site["light"] = parts.live->light;
-  site["building"] = parts.live->building;
+  site["light"] = parts.live->appearance.light;
+  site["building"] = parts.live->appearance.building;
   site["film"] = parts.FilmNow();
   site["todo"] = parts.ToDoNow();
   return site;
@@ -355,6 +362,13 @@ PrepareSession::Answer PrepareSession::TakeSite(const Json::Value& members,
   const std::string id = "exif-site-" + std::to_string(parts_->edit.revision());
   const Operation operation{id, label, {{"site", before, after}}};
   return parts_->Do([&] { return parts_->edit.Apply(operation); }, "outside");
+}
+
+Json::Value PrepareSession::Hello() const {
+  Json::Value message;
+  message["type"] = "hello";
+  message["news"] = parts_->news.load();
+  return message;
 }
 
 std::shared_ptr<const LiveState> PrepareSession::live() const {

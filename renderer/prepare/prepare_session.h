@@ -28,6 +28,9 @@ class PrepareSession {
 
   // Each from any thread.
   Json::Value Site();  // all that a page begins with, but the photographs
+  // The first message to a window: how much has been told, so that it asks again for what it missed
+  // since it asked for the site.
+  Json::Value Hello() const;
   struct Answer {
     int status = 200;
     Json::Value body;

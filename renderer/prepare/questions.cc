@@ -145,8 +145,7 @@ Json::Value ImportAnswer(const SitePaths& site, const Json::Value& question) {
   Json::Value answer;
   answer["format"] = file.format;
   answer["rows"] = answer["remarks"] = Json::Value(Json::arrayValue);
-  for (const std::string& remark : file.remarks)
-    answer["remarks"].append(Sentence::Verbatim(remark).ToJson());
+  for (const Sentence& remark : file.remarks) answer["remarks"].append(remark.ToJson());
   if (file.has_degrees) {
     throw ErrorAt({pasted}, Sentence("pastedDegrees",
                                      "these are degrees: use insitu import-survey, which converts "

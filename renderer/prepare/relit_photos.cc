@@ -108,10 +108,11 @@ struct RelitPhotos::Parts {
 
   // Why there is no light to relight by; its status is 202 while there may be one soon.
   static Answer NoLight(const LiveState& state) {
-    if (!state.is_lit && state.result.scene) return Soon();
-    if (state.light["failed"].isString()) {
+    if (!state.is_lit() && state.result.scene) return Soon();
+    const Json::Value& measured = state.appearance.light;
+    if (measured["failed"].isString()) {
       return Refused(409, Sentence("relitFailed", "the light is not measured: {why}",
-                                   {{"why", Sentence::SaidIn(state.light, "failed").ToJson()}}));
+                                   {{"why", Sentence::SaidIn(measured, "failed").ToJson()}}));
     }
     return Refused(409, Sentence("relitNoLight",
                                  "no light is measured yet: it needs oriented photographs, "
@@ -127,14 +128,15 @@ struct RelitPhotos::Parts {
 
   Answer Ask(int photo, const std::string& light) {
     const std::shared_ptr<const LiveState> state = live();
-    if (!state->environment) return NoLight(*state);
-    if (!CameraOf(photo, *state->environment)) {
+    const std::shared_ptr<const NaturalEnvironment>& newest = state->appearance.environment;
+    if (!newest) return NoLight(*state);
+    if (!CameraOf(photo, *newest)) {
       return Refused(409, Sentence("relitNotOriented", "the photograph is not oriented yet"));
     }
     const std::lock_guard lock(mutex);
-    if (environment != state->environment) {
-      environment = state->environment;
-      revision = state->light["revision"];
+    if (environment != newest) {
+      environment = newest;
+      revision = state->appearance.light["revision"];
       made.clear();
       wanted.clear();
     }
@@ -184,8 +186,9 @@ struct RelitPhotos::Parts {
       const int photo = wanted.front();
       const std::shared_ptr<const NaturalEnvironment> by = environment;
       lock.unlock();
-      Lights lights =
-          Make(*by, photo, [&] { return stop.stop_requested() || live()->environment != by; });
+      Lights lights = Make(*by, photo, [&] {
+        return stop.stop_requested() || live()->appearance.environment != by;
+      });
       lock.lock();
       if (environment != by) continue;
       if (!wanted.empty() && wanted.front() == photo) wanted.pop_front();

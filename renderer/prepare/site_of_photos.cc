@@ -7,10 +7,28 @@
 #include <vector>
 
 #include "calibration/files/error.h"
+#include "calibration/photo/photograph.h"
 #include "reconstruction/editing/edited_tables.h"
 #include "reconstruction/editing/site_edit.h"
 
 namespace insitu {
+
+std::vector<std::string> PhotoNames(const SitePaths& site) {
+  std::vector<std::string> names;
+  for (const auto& path : ListPhotographs(site)) names.push_back(path.stem().string());
+  return names;
+}
+
+std::map<std::string, Eigen::Vector2i> PhotoSizes(const SitePaths& site) {
+  std::map<std::string, Eigen::Vector2i> sizes;
+  for (const auto& path : ListPhotographs(site)) {
+    try {
+      sizes[path.stem().string()] = ReadPhotographSize(path);
+    } catch (const InputError&) {  // the page shows that it cannot be shown
+    }
+  }
+  return sizes;
+}
 
 int MakeSiteOfPhotographs(const SitePaths& site) {
   namespace fs = std::filesystem;
@@ -34,9 +52,7 @@ int MakeSiteOfPhotographs(const SitePaths& site) {
 }
 
 std::string MergeColleague(const SitePaths& site, const SitePaths& colleague) {
-  std::vector<std::string> photos;
-  for (const auto& path : ListPhotographs(site)) photos.push_back(path.stem().string());
-  SiteEdit edit(site, photos);
+  SiteEdit edit(site, PhotoNames(site));
   const std::string id = "merge-" + std::to_string(edit.revision());
   const SiteEdit::MergeReport report = edit.Merge(colleague, id);
   const size_t rows = report.outcome.operation ? report.outcome.operation->edits.size() : 0;
@@ -48,7 +64,9 @@ std::string MergeColleague(const SitePaths& site, const SitePaths& colleague) {
             OneLineJson(conflict.after) + "\n";
   }
   for (const Sentence& remark : report.remarks) text += remark.text() + "\n";
-  if (!report.outcome.refused.empty()) throw InputError(colleague.root, report.outcome.refused);
+  if (!report.outcome.refused.empty()) {
+    throw InputError(colleague.root, report.outcome.refused.text());
+  }
   for (const FileFault& fault : edit.Save().faults) {
     throw InputError(site.root / fault.file, fault.line, fault.text.text());
   }

@@ -90,9 +90,8 @@ class List {
   bool Has(const std::filesystem::path& path) const { return std::filesystem::exists(path); }
 
   void Files() {
-    for (const std::string& fault : input_.file_faults) {
-      Add(Sentence::Verbatim(fault),
-          Sentence("whyFile", "the file takes no part until this is mended"), "");
+    for (const Sentence& fault : input_.file_faults) {
+      Add(fault, Sentence("whyFile", "the file takes no part until this is mended"), "");
     }
     const Json::Value& failed = input_.adjusted["failed"];
     if (failed.isString()) {

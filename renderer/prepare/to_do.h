@@ -4,18 +4,18 @@
 
 #include <json/value.h>
 
-#include <string>
 #include <vector>
 
+#include "calibration/files/sentence.h"
 #include "calibration/program/site.h"
 
 namespace insitu {
 
 struct ToDoInput {
   SitePaths site;
-  Json::Value tables;                    // as SiteEdit has them
-  Json::Value adjusted, light, film;     // messages, maybe null
-  std::vector<std::string> file_faults;  // files that take no part
+  Json::Value tables;                 // as SiteEdit has them
+  Json::Value adjusted, light, film;  // messages, maybe null
+  std::vector<Sentence> file_faults;  // files that take no part
 };
 
 // [{text, why, where: {photo, point, table, mode}, run}], of `where` and `run` what applies.

@@ -3,7 +3,7 @@
 // one large photograph: first tile, frames while panning, from a mark to the adjustment and to the light.
 import fs from "node:fs";
 import {open} from "./page.mjs";
-import {start} from "./server.mjs";
+import {start, until} from "./server.mjs";
 
 const [site, ...large] = process.argv.slice(2);
 const median = (values, share = 0.5) => [...values].sort((a, b) => a - b)[Math.floor(share * (values.length - 1))];
@@ -77,20 +77,14 @@ async function feedback(person, marks) {
     await person.photo(photo);
     await person.point(point);
     await person.goTo(...(await nearby(photo, point)));
-    const told = person.told.length, begun = performance.now();
+    const begun = performance.now();
     await person.press("Shift+Enter");
     await person.settled();
-    await person.page.waitForFunction(() => document.body.dataset.pending === "0");
-    const until = async type => {
-      for (let i = 0; i < 1500; ++i) {
-        const found = person.told.slice(told).filter(one => one.type === type).pop();
-        if (found && found.at > begun) return found.at - begun;
-        await new Promise(resolve => setTimeout(resolve, 20));
-      }
-      return NaN;
-    };
-    adjusted.push(await until("adjusted"));
-    light.push(await until("light"));
+    const revision = Number((await person.data()).revision);
+    const when = type => until(`${type} of revision ${revision}`,
+      () => person.told.find(one => one.type === type && one.revision === revision && one.at > begun));
+    adjusted.push((await when("adjusted")).at - begun);
+    light.push((await when("light")).at - begun);
   }
   return {adjusted, light};
 }

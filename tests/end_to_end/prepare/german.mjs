@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// german.mjs SITE [SCREENSHOTS]: the page in German: what the survey's diagnosis, the to-do list, dialogs and refusals
-// say, and that no English sentence is left on it.
+// german.mjs SITE [SCREENSHOTS]: the page in German: what the survey's diagnosis, the to-do list, dialogs, refusals
+// and readers of files say, and that no English sentence is left on it.
 import fs from "node:fs";
 import {open} from "./page.mjs";
 import {report, start} from "./server.mjs";
@@ -71,6 +71,30 @@ report("a line that does not parse is told in German", true, await page.textCont
 await shot("does_not_parse");
 fs.writeFileSync(marks, whole);
 await page.waitForSelector(".banner", {state: "detached"});
+const outlines = `${site}/survey/polygons.json`, drawn = fs.readFileSync(outlines, "utf8");
+for (const [change, said] of [[/"material"\s*:\s*"[^"]*"/, "«material» fehlt"], [/"photo"\s*:\s*"[^"]*"/, "ist nicht im Ordner photos"]]) {
+  fs.writeFileSync(outlines, drawn.replace(change, said.includes("photos") ? '"photo": "lefft"' : '"comment": ""'));
+  await person.sees("#todo", said);
+  await isGerman(`a file that takes no part: ${said}`);
+}
+fs.writeFileSync(outlines, drawn);
+await page.waitForFunction(() => !document.querySelector("#todo").textContent.includes("ist nicht im Ordner"));
+const mark = {photo: "left", point: "p", x: 1, y: 1, sigma: 0.5};
+for (const [table, row, said] of [
+  ["observations", {...mark, photo: "lefft"}, "observations: das Foto «lefft» ist nicht im Ordner photos; ist «left» gemeint?"],
+  ["observations", {...mark, sigma: 0}, "observations: sigma ist nicht grösser als 0"],
+  ["observations", {...mark, point: "tie_000001"}, "heisst wie ein Verknüpfungspunkt"],
+  ["control_points", {name: "P", x: 1, y: 2, z: 3, sigma_x: 1, sigma_y: 1, sigma_z: 1, role: "x"}, "nötig ist eines von: control, check"],
+  ["polygons", {name: "p", vertices: ["a", "b"], material: "m", photo: null, mask: null}, "hat 2 Eckpunkte, davon 2 verschiedene"],
+  ["constraints", {kind: "vertical", points: ["a"], sigma_deg: 1}, "nennt 1 Punkte oder Polygone, nötig sind 2 Punkte oder 1 Polygone"],
+]) {
+  const answer = await page.evaluate(async operation => {
+    const {post} = await import("/page/site/api.js"), {said: worded} = await import("/page/words/words.js");
+    const {status, body} = await post("/api/op", operation);
+    return {status, text: worded(body, "error")};
+  }, {id: `${table} ${said}`, label: "refused", edits: [{table, before: null, after: row}]});
+  report(`a row is refused in German: ${said}`, answer.status === 400 && answer.text.includes(said) && !kEnglish.test(answer.text), answer.text);
+}
 fs.chmodSync(marks, 0o444);
 await person.photo("left");
 await person.point("neu");
@@ -93,6 +117,15 @@ await page.click("[data-menu=controlTable]");
 await page.fill("#pasted", "name;x;y;z\nneu_1;1,5;2,25;3\n");
 await person.sees("#import-found", "1.5");
 report("decimal commas are taken", (await page.textContent("#import-found")).includes("2.25"));
+for (const [text, said] of [
+  ["nichts davon\n", "hat kein bekanntes Format"],
+  ["name;x;y;z\nneu_1;abc;2;3\n", "«abc» für x, nötig ist eine endliche Zahl"],
+  ["name;x [mm];y [mm];z [mm]\nneu_1;1500;2250;3000\n", "umgerechnet in Meter oder Grad"],
+]) {
+  await page.fill("#pasted", text);
+  await person.sees("#import-found", said);
+  await isGerman(`what is pasted: ${said}`);
+}
 await person.press("Escape");
 
 // Film beside another camera.

@@ -114,3 +114,9 @@ await picture("6_relit", {survey: all}, async (person, server) => {
   await person.press("*", "/", "3");
   await person.sees('.pane[data-photo="right"] .relit', "exposed");
 });
+await picture("7_building", {survey: all, parts: ["calibration", "work/calibration", "work/building.json", "work/building.bin"]}, async person => {
+  await person.press("Alt+2");
+  await person.photo("left");
+  await person.press("'", "/");
+  await person.page.waitForSelector('.pane[data-photo="left"] path.building.corner', {state: "attached"});
+});

@@ -82,7 +82,7 @@ TEST_F(SiteEditTest, RefusesRowsThatNoProgramWouldRead) {
   const auto refusal = [&](const std::string& table, const std::string& row) {
     const EditOutcome outcome = Apply("x", table, none_, RowOf(row));
     EXPECT_EQ(outcome.revision, 0);
-    return outcome.refused;
+    return outcome.refused.text();
   };
   const auto mark = [&](const std::string& point, const std::string& rest) {
     return refusal("observations", R"({"photo": "A", "point": ")" + point + "\"," + rest + "}");
@@ -131,10 +131,11 @@ TEST_F(SiteEditTest, NamesThatNeedQuotesAreQuoted) {
   Open();
   for (const std::string name : {"a,b", "#a", "5\" pipe"}) {
     const Json::Value mark = MarkOn("B", name, 7, 8);
-    EXPECT_EQ(Apply("add " + name, "observations", none_, mark).refused, "") << name;
+    EXPECT_EQ(Apply("add " + name, "observations", none_, mark).refused.text(), "") << name;
     edit_->Save();
     Reopen();
-    EXPECT_EQ(Apply("move " + name, "observations", mark, MarkOn("B", name, 9, 8)).refused, "")
+    EXPECT_EQ(Apply("move " + name, "observations", mark, MarkOn("B", name, 9, 8)).refused.text(),
+              "")
         << name;
   }
   edit_->Save();
@@ -186,7 +187,7 @@ TEST_F(SiteEditTest, AFileThatDoesNotParseIsReadOnlyUntilMended) {
   EXPECT_EQ(edit_->read_only()[0].fault.line, 2);
   EXPECT_THAT(edit_->read_only()[0].fault.text.text(), HasSubstr("not valid JSON"));
   const Json::Value polygon = RowOf(kPolygons)["polygons"][0];
-  EXPECT_THAT(Apply("1", "polygons", none_, polygon).refused, HasSubstr("polygons.json:2:"));
+  EXPECT_THAT(Apply("1", "polygons", none_, polygon).refused.text(), HasSubstr("polygons.json:2:"));
   folder_.Write("survey/polygons.json", kPolygons);
   EXPECT_THAT(edit_->Refresh().reread, ElementsAre("survey/polygons.json"));
   EXPECT_THAT(edit_->read_only(), IsEmpty());

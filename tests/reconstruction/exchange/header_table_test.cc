@@ -27,8 +27,9 @@ class HeaderTable : public TextFiles {
     ExpectError([&] { Read(text); }, "t.csv", line, why);
   }
   static bool Says(const SurveyFile& file, const std::string& words) {
-    return std::any_of(file.remarks.begin(), file.remarks.end(),
-                       [&](const auto& remark) { return remark.find(words) != std::string::npos; });
+    return std::any_of(file.remarks.begin(), file.remarks.end(), [&](const auto& remark) {
+      return remark.text().find(words) != std::string::npos;
+    });
   }
 
   SurveyReading reading_;

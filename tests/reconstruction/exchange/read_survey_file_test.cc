@@ -157,7 +157,7 @@ TEST_F(SurveyFileRead, MetashapeXmlTakesPinnedProjectionsOnly) {
   EXPECT_EQ(file.marks[0].photo, "IMG_1");
   EXPECT_EQ(file.marks[0].pixel, Eigen::Vector2d(100, 200));  // from (0.5, 0.5)
   ASSERT_EQ(file.remarks.size(), 1u);
-  EXPECT_NE(file.remarks[0].find("not pinned"), std::string::npos);
+  EXPECT_NE(file.remarks[0].text().find("not pinned"), std::string::npos);
 }
 
 TEST_F(SurveyFileRead, MicMacXml) {

@@ -169,7 +169,7 @@ TEST_F(FilmMessageTest, AFileAtFaultIsReadOnlyAndNamedWithItsLine) {
   Reopen();
   EXPECT_THAT(
       Put("fiducials", R"({"mark": "2", "x_mm": 1, "y_mm": 2, "photo": "A", "x": 1, "y": 2})")
-          .refused,
+          .refused.text(),
       HasSubstr("calibration/fiducials.csv:2:"));
 }
 
@@ -187,15 +187,15 @@ TEST_F(FilmMessageTest, WhatTheReaderObjectsToIsTold) {
 
 TEST_F(FilmMessageTest, WhatNoReaderTakesIsRefused) {
   const std::string nan = R"({"mark": "1", "x_mm": "nan", "y_mm": 2})";
-  EXPECT_EQ(Put("film_marks", nan).refused, "film_marks: x_mm is no number");
-  EXPECT_EQ(Put("film", R"({"focal_mm": 0})").refused, "film: focal_mm is not more than 0");
-  EXPECT_THAT(Put("film", R"({"focal_mm": 9, "distortion": [[10, 0], [5, 0]]})").refused,
+  EXPECT_EQ(Put("film_marks", nan).refused.text(), "film_marks: x_mm is no number");
+  EXPECT_EQ(Put("film", R"({"focal_mm": 0})").refused.text(), "film: focal_mm is not more than 0");
+  EXPECT_THAT(Put("film", R"({"focal_mm": 9, "distortion": [[10, 0], [5, 0]]})").refused.text(),
               HasSubstr("radii rising"));
-  EXPECT_THAT(Put("film", R"({"focal_mm": 9, "transformation": "helmert"})").refused,
+  EXPECT_THAT(Put("film", R"({"focal_mm": 9, "transformation": "helmert"})").refused.text(),
               HasSubstr("expected affine or projective"));
   EXPECT_THAT(
       Put("fiducials", R"({"mark": "1", "x_mm": 1, "y_mm": 2, "photo": "Z", "x": 1, "y": 2})")
-          .refused,
+          .refused.text(),
       HasSubstr("Z"));
 }
 

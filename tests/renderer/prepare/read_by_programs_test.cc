@@ -21,7 +21,7 @@ void CopyRows(const SiteEdit& from, SiteEdit& to) {
       const Operation operation{
           "copy " + std::to_string(to.revision()), "copy", {{table.name, Json::Value(), row}}};
       const EditOutcome outcome = to.Apply(operation);
-      ASSERT_TRUE(outcome.is_done()) << outcome.refused << OneLineJson(row);
+      ASSERT_TRUE(outcome.is_done()) << outcome.refused.text() << OneLineJson(row);
     }
   }
   ASSERT_TRUE(to.Save().is_saved());

@@ -170,7 +170,7 @@ TEST_F(ToDoTest, WhatOnlyMakesItBetterStandsBehindTheMontage) {
 
 TEST_F(ToDoTest, AFileAtFaultAndAGrossErrorComeFirst) {
   Complete();
-  input_.file_faults = {"polygons.json:3: no such key"};
+  input_.file_faults = {Sentence::Verbatim("polygons.json:3: no such key")};
   input_.adjusted["diagnoses"] =
       RowOf(R"([{"kind": "misfit", "text": "x and y exchanged", "point": "p"},
     {"kind": "question", "text": "on purpose?"}])");

@@ -9,7 +9,7 @@ import {say} from "../around/notices.js";
 import {parseNumber} from "../words/numbers.js";
 import {sampleAt, sampleKey, samples} from "./samples.js";
 import {emit} from "../site/signals.js";
-import {edit, isReadOnly, row, rows, state} from "../site/state.js";
+import {edit, isLightAwaited, isReadOnly, row, rows, state} from "../site/state.js";
 import {activePane, setMode, setTool, ui} from "../site/ui.js";
 import {area, isSeenAt, placed} from "../tools/outlines.js";
 import {t} from "../words/words.js";
@@ -148,6 +148,7 @@ export function updateLightPanel() {
     about = byId("light-about");
   const signature = JSON.stringify([
     state.light,
+    isLightAwaited(),
     rows("light"),
     ...["horizon", "haze", "daylight"].map(kind => rows(kind).length)
   ]);

@@ -3,7 +3,7 @@
 
 import {node} from "../words/dom.js";
 import {shown, withSigma} from "../words/numbers.js";
-import {rows, state} from "../site/state.js";
+import {isLightAwaited, rows, state} from "../site/state.js";
 import {nearPlace, said, t} from "../words/words.js";
 
 const kPoorCondition = 100,
@@ -149,6 +149,7 @@ export function drawLightReport(root) {
   const leftOut = (light?.left_out ?? []).map(one => nearPlace(said(one))),
     advice = (light?.advice ?? []).map(one => said(one));
   root.replaceChildren(
+    node("p", {class: "faint soon", hidden: !isLightAwaited(), text: t("lightSoon")}),
     ...(light?.failed ? [node("p", {class: "review", text: nearPlace(said(light, "failed"))})] : []),
     heading("haze"),
     ...(light?.haze ? hazeOf(light.haze) : []),

@@ -4,7 +4,7 @@
 import {svg} from "../words/dom.js";
 import {shown} from "../words/numbers.js";
 import {emit} from "../site/signals.js";
-import {rows, state} from "../site/state.js";
+import {isLightAwaited, rows, state} from "../site/state.js";
 import {ui} from "../site/ui.js";
 import {t} from "../words/words.js";
 
@@ -32,17 +32,18 @@ const kSuspect = 0.1,
 export const sampleKey = (kind, row) => [kind, row.photo, row.x, row.y].join("\n");
 
 /** @typedef {{key: string, kind: string, row: any, residual: number|null, level: string, isOut: boolean}} Sample */
-/** @type {{light: any, tables: any, all: Sample[]}} */
-let made = {light: null, tables: null, all: []};
+/** @type {{from: any[], all: Sample[]}} */
+let made = {from: [], all: []};
 
 /**
  * All samples with what the light's measurement says of them; `isOut`: it left them out.
  * @returns {Sample[]}
  */
 export function samples() {
-  const {light, tables} = state;
-  const current = [light, ...kKinds.map(kind => tables[kind])];
-  if (made.tables?.every((one, i) => one === current[i]) && made.all.length === count()) return made.all;
+  const {light, tables} = state,
+    isAwaited = isLightAwaited();
+  const from = [light, isAwaited, ...kKinds.map(kind => tables[kind])];
+  if (from.every((one, i) => one === made.from[i]) && made.all.length === count()) return made.all;
   const residuals = new Map();
   for (const kind of kKinds)
     for (const one of light?.samples?.[kind] ?? []) residuals.set(sampleKey(kind, one), one.residual);
@@ -50,11 +51,11 @@ export function samples() {
     rows(kind).map(row => {
       const key = sampleKey(kind, row),
         residual = residuals.get(key) ?? null;
-      const isOut = residual === null && (light?.samples?.[kind]?.length ?? 0) > 0;
+      const isOut = !isAwaited && residual === null && (light?.samples?.[kind]?.length ?? 0) > 0;
       return {key, kind, row, residual, level: isOut ? "off" : gradeOf(residual), isOut};
     })
   );
-  made = {light, tables: current, all};
+  made = {from, all};
   return all;
 }
 const count = () => kKinds.reduce((sum, kind) => sum + rows(kind).length, 0);

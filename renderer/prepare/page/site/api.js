@@ -131,7 +131,10 @@ export function connectLive(received, changed) {
   let pause = 250;
   if (!("WebSocket" in globalThis)) {
     // then the page looks for news itself
-    setInterval(() => changed(true), 1500);
+    setInterval(() => {
+      changed(true);
+      received({type: "hello"});
+    }, 1500);
     return {send: () => {}};
   }
   const open = () => {

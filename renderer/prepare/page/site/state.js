@@ -3,6 +3,7 @@
 // since. What the server has computed from them stands beside, as it was last told.
 
 import {connectLive, getJson} from "./api.js";
+import {firstSite} from "./first.js";
 import {enqueue, newId, openOutbox, unconfirmed} from "./outbox.js";
 import {emit} from "./signals.js";
 import {said} from "../words/words.js";
@@ -71,6 +72,8 @@ export const state = {
   siteFolder: "",
   revision: 0,
   saved: 0,
+  /** How much the server had told when it was asked for everything. */
+  news: -1,
   notSaved: "",
   /** Changes that wait for an answer before they can be made. */
   asking: 0,
@@ -113,6 +116,9 @@ export const mark = (photo, point) => row("observations", photo, point);
  * @returns {Photo|undefined}
  */
 export const photoOf = name => state.photos.find(photo => photo.name === name);
+/** Whether what is known of the light, if anything, is of an earlier adjustment. */
+export const isLightAwaited = () =>
+  state.adjusted !== null && !(state.light?.revision >= state.adjusted.revision);
 /** @param {string} table */
 export const isReadOnly = table => state.readOnly.some(one => one.table === table);
 
@@ -185,6 +191,10 @@ function takeAdjusted(message) {
 }
 
 const takers = {
+  // All was loaded before the connection was open: what was told in between did not come.
+  hello: message => {
+    if (message.news === undefined || message.news !== state.news) load().catch(() => {});
+  },
   op: takeOperation,
   todo: message => {
     state.todo = message.todo;
@@ -224,9 +234,28 @@ const takers = {
   }
 };
 
-/** Everything from the server; what waits here stays on top. */
+let loading = 0; // answers with everything that are on their way
+/** @type {any[]} told meanwhile: newer than those, or the same once more */
+let toldMeanwhile = [];
+
+function take(message) {
+  if (loading > 0 && message.type !== "run") toldMeanwhile.push(message);
+  else takers[message.type]?.(message);
+}
+
+/** Everything from the server, then what it told meanwhile. */
 async function load() {
-  const site = await getJson("/api/site");
+  loading += 1;
+  try {
+    takeSite(await getJson("/api/site"));
+  } finally {
+    loading -= 1;
+    if (loading === 0) for (const message of toldMeanwhile.splice(0)) take(message);
+  }
+}
+
+/** What waits here stays on top. */
+function takeSite(site) {
   confirmed = Object.fromEntries(
     Object.keys(kKeys).map(table => [
       table,
@@ -243,6 +272,7 @@ async function load() {
     history: site.history,
     saved: site.saved,
     revision: site.revision,
+    news: site.news ?? -1,
     todo: site.todo ?? [],
     light: site.light,
     adjusted: site.adjusted,
@@ -259,7 +289,7 @@ async function load() {
 
 /** The first load; then the live connection, which loads again each time it comes back. */
 export async function start() {
-  await load();
+  takeSite(await firstSite);
   await openOutbox(state.siteFolder, {
     confirmed: (operation, revision) => {
       if (!seen.has(operation.id) && !(revision <= base)) applyEdits(confirmed, operation.edits);
@@ -283,16 +313,10 @@ export async function start() {
     changed: () => emit("saved")
   });
   rebuild();
-  let isFirst = true;
-  live = connectLive(
-    message => takers[message.type]?.(message),
-    isOpen => {
-      state.isConnected = isOpen;
-      if (isOpen && !isFirst) load().catch(() => {});
-      isFirst = false;
-      emit("connection");
-    }
-  );
+  live = connectLive(take, isOpen => {
+    state.isConnected = isOpen;
+    emit("connection");
+  });
 }
 
 /**

@@ -11,6 +11,7 @@ export const kPanelTexts = {
   through100: ["through 100 m", "durch 100 m"],
   condition: ["condition {value}", "Kondition {value}"],
   rmsSigma: ["residuals RMS {value} σ", "Verbesserungen RMS {value} σ"],
+  lightSoon: ["The light is being measured anew …", "Das Licht wird neu gemessen …"],
   airClear: ["No haze samples: taken as clear air.", "Keine Dunstproben: Luft gilt als klar."],
   lightSun: ["sun", "Sonne"],
   lightSky: ["open sky", "offener Himmel"],

@@ -4,6 +4,7 @@
 
 import {kDiagnosisTexts} from "./diagnosis_texts.js";
 import {kFaultTexts} from "./fault_texts.js";
+import {kRowTexts} from "./row_texts.js";
 
 /** What can be left out, by its `kind`. @type {Record<string, string>} */
 export const kKinds = {
@@ -32,6 +33,7 @@ export const kFormats = {
 export const kServerTexts = {
   ...kDiagnosisTexts,
   ...kFaultTexts,
+  ...kRowTexts,
   atPlace: "{place}: {message}",
   named: "{name}: {reason}",
   and: "{one}, {other}",

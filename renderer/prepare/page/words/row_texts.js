@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Why a row is refused, and what is wrong with a survey's file, in German (Swiss).
+
+/** @type {Record<string, string>} */
+export const kRowTexts = {
+  // A row that somebody wants
+  rowOf: "{table}: {fault}",
+  rowNoTable: "es gibt keine Tabelle «{table}»",
+  rowNoColumn: "{table}: die Spalte «{field}» gibt es nicht",
+  rowReadOnly: "{place}: {fault}; bis das behoben ist, lässt sich die Tabelle nur lesen",
+  nothingToUndo: "nichts rückgängig zu machen",
+  nothingToRedo: "nichts wiederherzustellen",
+  rowEmpty: "{what} ist leer",
+  rowBlanks: "{what} {name} beginnt oder endet mit einem Leerzeichen",
+  rowControl: "{what} {name} enthält ein Steuerzeichen",
+  rowNotUtf8: "{what} {name} ist nicht UTF-8",
+  rowTiePoint: "{what} {name} heisst wie ein Verknüpfungspunkt; nötig ist ein anderer Name",
+  rowNoNumber: "{field} ist keine Zahl",
+  rowNotFinite: "{field} ist nicht endlich",
+  rowNotPositive: "{field} ist nicht grösser als 0",
+  rowOutside: "{field} liegt ausserhalb jedes Fotos",
+  rowWord: "{field} ist {word}, nötig ist eines von: {words}",
+  rowSamePoint: "{from} und {to} sind derselbe Punkt",
+  rowNoText: "{field} ist kein Text",
+  rowNoHoles: "die Löcher sind keine Liste",
+  rowFewInHole: "ein Loch hat nicht drei Eckpunkte",
+  rowNoHoleVertex: "ein Eckpunkt eines Lochs ist kein Name",
+  rowVertexTwice: "der Eckpunkt {name} kommt zweimal vor, im Umriss oder in einem Loch",
+  rowNoVertices: "die Eckpunkte sind keine Liste",
+  rowNoVertex: "ein Eckpunkt ist kein Name",
+  rowVertices: "hat {count} Eckpunkte, davon {distinct} verschiedene; nötig sind mindestens drei, alle verschieden",
+  rowNoMask: "mask ist kein Name einer Datei",
+  rowNoKey: "{key} ist hier kein Schlüssel, nötig ist einer von: {keys}",
+  rowPoints: "nennt {count} Punkte, nötig sind {points}",
+  rowSubjects: "nennt {count} Punkte oder Polygone, nötig sind {points} Punkte oder {polygons} Polygone",
+  rowNoSubject: "ein Punkt oder Polygon ist kein Name",
+  rowSubjectTwice: "nennt eines davon zweimal",
+  rowKind: "die Art {word} ist unbekannt",
+  rowEitherSigma: "nötig ist entweder sigma_deg oder sigma_mm_per_m",
+  rowReflectance: "daylight_reflectance_rgb: nötig sind drei Zahlen über 0 und bis 1",
+  rowDistortion: "distortion: nötig sind [Radius_mm, Verzeichnung_mm] mit steigenden Radien über 0",
+  rowTwoRadii: "distortion: nötig sind zwei Radien oder mehr",
+  rowPrincipalPoint: "principal_point_mm: nötig sind zwei Zahlen",
+  rowNumberNotFinite: "eine Zahl ist nicht endlich",
+  rowTextNotUtf8: "ein Text ist nicht UTF-8",
+  rowNoId: "id fehlt",
+  photoNotThere: "das Foto «{photo}» ist nicht im Ordner photos{hint}",
+  photoEnding: "; «{photo}» schreiben, ohne die Endung",
+  // JSON
+  jsonInvalid: "kein gültiges JSON: {why}",
+  jsonMissing: "«{key}» fehlt",
+  jsonOther: "ist {what}, nötig ist {expected}",
+  jsonNull: "null",
+  jsonBoolean: "ein Wahrheitswert",
+  jsonText: "ein Text",
+  jsonArray: "eine Liste",
+  jsonObject: "ein Objekt",
+  jsonObjectWith: "ein Objekt mit «{key}»",
+  jsonNumber: "eine Zahl",
+  jsonWhole: "eine ganze Zahl",
+  jsonBool: "true oder false",
+  jsonNotFinite: "ist nicht endlich, nötig ist eine endliche Zahl",
+  jsonNumbers: "hat {count} Zahlen, nötig sind {expected}",
+  // Tables of a survey
+  tableEmpty: "leer, nötig ist die Kopfzeile {header}",
+  columnNone: "die Spalte «{column}» fehlt",
+  cellEmpty: "die Spalte «{column}» ist leer",
+  cellMixed:
+    "«{text}» in der Spalte «{column}», nötig ist eine endliche Zahl; manche Zahlen der Tabelle haben " +
+    "Dezimalkommas, andere Punkte",
+  cellNotPositive: "{column} ist {text}, nötig ist mehr als 0",
+  cellRole: "role ist «{text}», nötig ist eines von {words}",
+  cellPixel:
+    "{column} ist {text}, nötig ist eine Stelle des unveränderten Fotos in Pixeln, gezählt von der Mitte des " +
+    "Pixels oben links",
+  pointTwice: "der Punkt «{point}» steht schon in Zeile {line}, nötig ist jeder Name einmal",
+  markTwice:
+    "der Punkt «{point}» ist auf dem Foto «{photo}» schon in Zeile {line} gemessen, nötig ist eine Bildmessung " +
+    "je Foto: eine Zeile entfernen, oder den Punkt nennen, den sie zeigt",
+  positionTwice: "das Foto «{photo}» hat schon in Zeile {line} eine Position, nötig ist jedes Foto einmal",
+  edgeItself: "die Kante verbindet den Punkt «{point}» mit sich selbst, nötig sind zwei Punkte",
+  // Tables that are pasted
+  fileEmpty: "ist leer",
+  formatUnknown:
+    "hat kein bekanntes Format; nötig ist zum Beispiel ein Koordinatensystem und Zeilen «X Y Z px py Bild Name» " +
+    "(OpenDroneMap), eine Kopfzeile «name,x,y,z», Zeilen «Name X Y Z», Zeilen «Bild,Punkt,x,y» (Pix4D), XML von " +
+    "Metashape, MicMac oder DBAT, JSON von OpenSfM",
+  surveyNothing: "enthält weder Punkte noch Bildmessungen (gelesen als {format})",
+  wordMissing: "{what} fehlt, nötig als Wert {index} der Zeile",
+  wordNumber: "«{text}» für {what}, nötig ist eine endliche Zahl",
+  wordWhole: "«{text}» für {what}, nötig ist eine ganze Zahl",
+  wordMixed:
+    "«{text}» für {what}, nötig ist eine endliche Zahl; manche Zahlen der Tabelle haben Dezimalkommas, andere Punkte",
+  accuracyParts: "nötig ist eine Genauigkeit aus einem bis drei Teilen",
+  accuracyBad: "eine Genauigkeit, die nicht positiv ist",
+  accuracyNotPositive: "die Genauigkeit ist {text}, nötig ist mehr als 0",
+  flagBad: "«{text}» in der Spalte enable, nötig ist 0 oder 1",
+  marksShares:
+    "alle Bildmessungen liegen zwischen -1 und 1: Anteile der Bildseiten; nötig sind Pixel des unveränderten Fotos",
+  pointsOnePlace: "der Punkt «{point}» steht am Ort von «{other}»",
+  listValues:
+    "{count} Werte; nötig sind Name x y z, dann nichts, oder Genauigkeiten von Lage und Höhe, oder von x, y und z",
+  remarkUnits: "umgerechnet in Meter oder Grad: {units}",
+  remarkColumns: "neben den Spalten, die genommen werden, weggelassen: {columns}",
+  remarkPixels: "sagt nicht, von wo seine Pixel zählen: von der Mitte des Pixels oben links angenommen",
+  remarkUnstated: "{count} Unsicherheiten sind 1, was MicMac schreibt, wenn keine angegeben war",
+  remarkUnpinned: "{count} Bildmessungen sind nicht bestätigt, nur vorausgesagt, und weggelassen",
+  remarkNoAltitude: "der Punkt «{point}» hat keine Höhe und ist weggelassen",
+  remarkNoPhoto: "{count} Bildmessungen sind auf Fotos, die nicht im Ordner photos sind",
+  remarkFixed: "{count} Punkte sind dort fest, ohne σ",
+  remarkNoHeight: "{count} Bildmessungen sind von Punkten ohne Höhe und weggelassen",
+  remarkUnusedMarks: "{count} Bildmessungen sind als unbenutzt bezeichnet",
+  remarkUnusedPoints: "{count} Punkte sind als unbenutzt bezeichnet",
+  remarkFifthColumn: "die fünfte Spalte (je nach Version Zoom oder Genauigkeit) gilt nicht als σ",
+  // Polygons, pairs, constraints of a survey
+  maskNotThere: "die Maske «{mask}» ist nicht im Ordner survey",
+  keyUnknown: "«{key}» ist dort kein Schlüssel, nötig ist einer von {expected}",
+  holeFew: "ein Loch des Polygons «{polygon}» hat {count} Eckpunkte, nötig sind mindestens drei",
+  holeVertexTwice:
+    "ein Loch des Polygons «{polygon}» hat den Eckpunkt «{vertex}», den das Polygon schon hat; nötig ist jeder " +
+    "Eckpunkt einmal",
+  polygonVertices:
+    "das Polygon «{polygon}» hat {count} Eckpunkte, davon {distinct} verschiedene; nötig sind mindestens drei, " +
+    "alle verschieden",
+  polygonTwice: "das Polygon «{polygon}» kommt zweimal vor",
+  pairTwice: "das Paar nennt den Punkt «{point}» zweimal, nötig sind zwei Punkte",
+  kindUnknown: "die Art ist «{word}», nötig ist eine von {words}",
+  constraintSubjects: "eine Bedingung «{kind_name}» gilt für {points} verschiedene Punkte oder {polygons} Polygone",
+  notPositive: "ist {number}, nötig ist mehr als 0",
+  eitherSigma: "nötig ist entweder «sigma_deg» oder «sigma_mm_per_m»",
+  constraintPolygon: "nennt das Polygon «{polygon}», nötig ist ein Polygon aus polygons.json{hint}"
+};
