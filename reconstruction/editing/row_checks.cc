@@ -24,10 +24,12 @@ bool IsIn(const Texts& texts, const std::string& text) {
   return std::find(texts.begin(), texts.end(), text) != texts.end();
 }
 
-std::string ListOf(const Texts& texts) {
-  std::string list;
-  for (const std::string& text : texts) list += (list.empty() ? "" : ", ") + text;
-  return list;
+Json::Value OrList(const Texts& texts) {
+  Sentence list = Sentence::Verbatim(texts.at(0));
+  for (size_t i = 1; i < texts.size(); ++i) {
+    list = Sentence("or", "{one} or {other}", {{"one", list.ToJson()}, {"other", texts[i]}});
+  }
+  return list.ToJson();
 }
 
 Fault FaultOfName(const std::string& what, const std::string& name) {
@@ -84,8 +86,8 @@ Fault FaultOfPhotoName(const Json::Value& row, const Texts& photos) {
 Fault FaultOfWord(const Json::Value& row, const std::string& field, const Texts& words) {
   const std::string word = RowText(row, field);
   if (IsIn(words, word)) return std::nullopt;
-  return Sentence("rowWord", "{field} is {word}, expected one of: {words}",
-                  {{"field", field}, {"word", Quoted(word)}, {"words", ListOf(words)}});
+  return Sentence("rowWord", "{field} is {word}, expected {words}",
+                  {{"field", field}, {"word", Quoted(word)}, {"words", OrList(words)}});
 }
 
 template <typename... Faults>
@@ -174,8 +176,8 @@ Fault FaultOfKeys(const Json::Value& row, Texts keys) {
   keys.push_back("comment");
   for (const std::string& key : row.getMemberNames()) {
     if (IsIn(keys, key)) continue;
-    return Sentence("rowNoKey", "{key} is no key here, expected one of: {keys}",
-                    {{"key", Quoted(key)}, {"keys", ListOf(keys)}});
+    return Sentence("rowNoKey", "{key} is no key here, expected {keys}",
+                    {{"key", Quoted(key)}, {"keys", OrList(keys)}});
   }
   return std::nullopt;
 }

@@ -38,13 +38,16 @@ Eigen::Vector3d Sigma(const CsvRow& row) {
 template <typename Role>
 Role RoleOf(const CsvRow& row, const std::vector<std::pair<std::string, Role>>& roles) {
   const std::string& text = row.Text("role");
-  std::string expected;
+  Sentence expected;
   for (const auto& [name, role] : roles) {
     if (text == name) return role;
-    expected += (expected.empty() ? "'" : ", '") + name + "'";
+    const std::string quoted = "'" + name + "'";
+    expected = expected.empty() ? Sentence::Verbatim(quoted)
+                                : Sentence("or", "{one} or {other}",
+                                           {{"one", expected.ToJson()}, {"other", quoted}});
   }
-  throw Fault(row, Sentence("cellRole", "role is '{text}', expected one of {words}",
-                            {{"text", text}, {"words", expected}}));
+  throw Fault(row, Sentence("cellRole", "role is '{text}', expected {words}",
+                            {{"text", text}, {"words", expected.ToJson()}}));
 }
 
 double FrameCoordinate(const CsvRow& row, const std::string& column) {

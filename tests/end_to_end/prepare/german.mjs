@@ -84,7 +84,7 @@ for (const [table, row, said] of [
   ["observations", {...mark, photo: "lefft"}, "observations: das Foto «lefft» ist nicht im Ordner photos; ist «left» gemeint?"],
   ["observations", {...mark, sigma: 0}, "observations: sigma ist nicht grösser als 0"],
   ["observations", {...mark, point: "tie_000001"}, "heisst wie ein Verknüpfungspunkt"],
-  ["control_points", {name: "P", x: 1, y: 2, z: 3, sigma_x: 1, sigma_y: 1, sigma_z: 1, role: "x"}, "nötig ist eines von: control, check"],
+  ["control_points", {name: "P", x: 1, y: 2, z: 3, sigma_x: 1, sigma_y: 1, sigma_z: 1, role: "x"}, "nötig ist control oder check"],
   ["polygons", {name: "p", vertices: ["a", "b"], material: "m", photo: null, mask: null}, "hat 2 Eckpunkte, davon 2 verschiedene"],
   ["constraints", {kind: "vertical", points: ["a"], sigma_deg: 1}, "nennt 1 Punkte oder Polygone, nötig sind 2 Punkte oder 1 Polygone"],
 ]) {

@@ -4,6 +4,7 @@
 /** @type {Record<string, string>} */
 export const kRowTexts = {
   // A row that somebody wants
+  or: "{one} oder {other}",
   rowOf: "{table}: {fault}",
   rowNoTable: "es gibt keine Tabelle «{table}»",
   rowNoColumn: "{table}: die Spalte «{field}» gibt es nicht",
@@ -19,7 +20,7 @@ export const kRowTexts = {
   rowNotFinite: "{field} ist nicht endlich",
   rowNotPositive: "{field} ist nicht grösser als 0",
   rowOutside: "{field} liegt ausserhalb jedes Fotos",
-  rowWord: "{field} ist {word}, nötig ist eines von: {words}",
+  rowWord: "{field} ist {word}, nötig ist {words}",
   rowSamePoint: "{from} und {to} sind derselbe Punkt",
   rowNoText: "{field} ist kein Text",
   rowNoHoles: "die Löcher sind keine Liste",
@@ -30,7 +31,7 @@ export const kRowTexts = {
   rowNoVertex: "ein Eckpunkt ist kein Name",
   rowVertices: "hat {count} Eckpunkte, davon {distinct} verschiedene; nötig sind mindestens drei, alle verschieden",
   rowNoMask: "mask ist kein Name einer Datei",
-  rowNoKey: "{key} ist hier kein Schlüssel, nötig ist einer von: {keys}",
+  rowNoKey: "{key} ist hier kein Schlüssel, nötig ist {keys}",
   rowPoints: "nennt {count} Punkte, nötig sind {points}",
   rowSubjects: "nennt {count} Punkte oder Polygone, nötig sind {points} Punkte oder {polygons} Polygone",
   rowNoSubject: "ein Punkt oder Polygon ist kein Name",
@@ -69,7 +70,7 @@ export const kRowTexts = {
     "«{text}» in der Spalte «{column}», nötig ist eine endliche Zahl; manche Zahlen der Tabelle haben " +
     "Dezimalkommas, andere Punkte",
   cellNotPositive: "{column} ist {text}, nötig ist mehr als 0",
-  cellRole: "role ist «{text}», nötig ist eines von {words}",
+  cellRole: "role ist «{text}», nötig ist {words}",
   cellPixel:
     "{column} ist {text}, nötig ist eine Stelle des unveränderten Fotos in Pixeln, gezählt von der Mitte des " +
     "Pixels oben links",
