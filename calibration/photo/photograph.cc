@@ -17,8 +17,10 @@
 
 #include "calibration/files/error.h"
 #include "calibration/files/error_at.h"
+#include "calibration/files/raw_ending.h"
 #include "calibration/files/whole_file.h"
 #include "calibration/photo/copy_metadata.h"
+#include "calibration/photo/raw_photograph.h"
 #include "calibration/photo/srgb_table.h"
 #include "calibration/photo/stated_color.h"
 
@@ -291,6 +293,7 @@ void DescribeTiff(ImageSpec* spec) {
 }  // namespace
 
 CodedPhotograph ReadCodedPhotograph(const fs::path& path) {
+  if (HasRawEnding(path)) return ReadRawPhotograph(path);
   const auto input = Open(path);
   CodedPhotograph photo{input->spec().width, input->spec().height, {}, {}};
   const Encoding encoding = EncodingOf(input->spec(), path);
@@ -316,7 +319,9 @@ Photograph ReadPhotograph(const fs::path& path) {
   return photo;
 }
 
-ColorSpace ReadPhotographColor(const fs::path& path) { return ColorOf(*Open(path), path); }
+ColorSpace ReadPhotographColor(const fs::path& path) {
+  return HasRawEnding(path) ? ReadRawColor(path) : ColorOf(*Open(path), path);
+}
 
 CodedPhotograph CodesOf(const Raster& linear, Encoding encoding, const ColorSpace& color,
                         const std::function<bool(int, int)>& is_wanted) {
@@ -345,6 +350,7 @@ void WriteCodes(const fs::path& path, const CodedPhotograph& picture) {
 }
 
 Eigen::Vector2i ReadPhotographSize(const fs::path& path) {
+  if (HasRawEnding(path)) return ReadRawSize(path);
   const auto input = Open(path);
   return {input->spec().width, input->spec().height};
 }
