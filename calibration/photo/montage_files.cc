@@ -109,7 +109,8 @@ class Delivery {
   // chromaticities in what holds codes.
   CodedPhotograph Codes(Encoding encoding) const {
     const bool is_exr = encoding == Encoding::kLinear;
-    const bool has_place = is_exr ? !color().chromaticities.empty() : !color().profile.empty();
+    const bool has_place =
+        is_exr ? !color().chromaticities.empty() : !color().profile.empty() || color().has_response;
     ColorSpace target = has_place ? color() : ColorSpace();
     const bool is_same = has_place || color().IsDefault();
     return MontageCodes(montage_, original_ && is_same ? &*original_ : nullptr, encoding, target);

@@ -21,6 +21,7 @@
 #include "calibration/files/whole_file.h"
 #include "calibration/photo/copy_metadata.h"
 #include "calibration/photo/raw_photograph.h"
+#include "calibration/photo/response.h"
 #include "calibration/photo/srgb_table.h"
 #include "calibration/photo/stated_color.h"
 
@@ -285,11 +286,6 @@ void DescribeExr(const std::vector<float>& chromaticities, ImageSpec* spec) {
                   chromaticities.empty() ? kOfRec709.data() : chromaticities.data());
 }
 
-void DescribeTiff(ImageSpec* spec) {
-  spec->attribute("compression", "zip");
-  spec->attribute("DateTime", "0000:00:00 00:00:00");
-}
-
 }  // namespace
 
 CodedPhotograph ReadCodedPhotograph(const fs::path& path) {
@@ -298,6 +294,7 @@ CodedPhotograph ReadCodedPhotograph(const fs::path& path) {
   CodedPhotograph photo{input->spec().width, input->spec().height, {}, {}};
   const Encoding encoding = EncodingOf(input->spec(), path);
   photo.color = ColorOf(*input, path);
+  if (encoding != Encoding::kLinear) photo.color = WithResponseBeside(path, photo.color);
   if (encoding == Encoding::kSrgb8) {
     photo.samples = ReadThreeChannels<uint8_t>(*input, path);
   } else if (encoding == Encoding::kSrgb16) {
@@ -345,7 +342,10 @@ void WriteCodes(const fs::path& path, const CodedPhotograph& picture) {
   ImageSpec spec = SpecOf(picture);
   const std::string ending = path.extension().string();
   if (ending == ".exr") DescribeExr(picture.color.chromaticities, &spec);
-  if (ending == ".tif") DescribeTiff(&spec);
+  if (ending == ".tif") {
+    spec.attribute("compression", "zip");
+    spec.attribute("DateTime", "0000:00:00 00:00:00");
+  }
   std::visit([&](const auto& samples) { WriteImage(path, spec, samples); }, picture.samples);
 }
 

@@ -26,9 +26,10 @@ struct Photograph {
 };
 
 // JPEG, PNG, TIFF, EXR or a camera's raw (raw_photograph.h), in the colour space that the file
-// states; grey becomes three equal channels. Throws InputError: missing, not an image, cut short,
-// over 536 megapixels, NaN or infinite values, CMYK, Lab or other colours than grey and RGB, a
-// profile that is damaged or another one's.
+// states and with the response that response.json beside it states (response.h); grey becomes three
+// equal channels. Throws InputError: missing, not an image, cut short, over 536 megapixels, NaN or
+// infinite values, CMYK, Lab or other colours than grey and RGB, a profile that is damaged or
+// another one's.
 Photograph ReadPhotograph(const std::filesystem::path& path);
 
 // The same, as its file has it: codes of 8 or 16 bits, or numbers, in its colour space; three
