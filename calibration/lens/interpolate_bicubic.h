@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "calibration/photo/catmull_rom.h"
+#include "calibration/lens/catmull_rom.h"
 #include "calibration/photo/raster.h"
 
 namespace insitu {

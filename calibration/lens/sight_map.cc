@@ -4,7 +4,7 @@
 #include <tbb/parallel_for.h>
 
 #include "calibration/files/error.h"
-#include "calibration/photo/catmull_rom.h"
+#include "calibration/lens/catmull_rom.h"
 
 namespace insitu {
 namespace {

@@ -78,6 +78,7 @@ struct ColorSpace {
   std::string profile;  // ICC, for delivered pictures of three channels; empty: none is needed
   std::vector<float> chromaticities;  // of an EXR, as it states them; empty: none
   std::string assumption;             // what had to be assumed, with its remedy; empty: nothing
+  bool has_response = false;          // a camera's (response.h), beside what the profile says
 
   bool IsDefault() const { return conversion == nullptr; }
   // Codes as [0, 1]. Of the default, sRGB.

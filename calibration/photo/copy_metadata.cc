@@ -7,8 +7,11 @@
 #include <functional>
 #include <map>
 #include <optional>
+#include <set>
+#include <string>
 
 #include "calibration/files/error.h"
+#include "calibration/files/raw_ending.h"
 #include "calibration/files/whole_file.h"
 
 namespace insitu {
@@ -62,6 +65,24 @@ void EraseXmp(Exiv2::XmpData* xmp, const std::function<bool(const Exiv2::Xmpdatu
 bool SpeaksOfGainMap(const Exiv2::Xmpdatum& entry) {
   const std::string group = entry.groupName();
   return group == "hdrgm" || group == "HDRGainMap" || group == "Container" || group == "GContainer";
+}
+
+// What speaks of the sensor's samples would make a picture a raw file again, what speaks of the
+// colours of the camera's own picture would be wrong of ours, which are sRGB.
+void LeaveWhatIsOfRaw(Metadata* metadata) {
+  static const std::set<std::string> kOfThePicture = {
+      "ImageDescription", "Make",   "Model",     "Orientation", "XResolution", "YResolution",
+      "ResolutionUnit",   "Artist", "Copyright", "DateTime",    "Software",    "HostComputer"};
+  Exiv2::ExifData& exif = metadata->exif;
+  for (auto entry = exif.begin(); entry != exif.end();) {
+    const std::string group = entry->groupName(), name = entry->tagName();
+    const bool is_kept = group == "Image"   ? kOfThePicture.contains(name)
+                         : group == "Photo" ? !name.starts_with("Pixel") && name != "MakerNote"
+                                            : group == "GPSInfo";
+    entry = is_kept ? std::next(entry) : exif.erase(entry);
+  }
+  if (!exif.empty()) exif["Exif.Photo.ColorSpace"] = uint16_t{1};
+  metadata->profile.clear();
 }
 
 void MakeUpright(Metadata* metadata) {
@@ -220,9 +241,13 @@ std::vector<std::string> CopyMetadata(const fs::path& source, const fs::path& ta
   if (MayHoldMetadata(source)) {
     try {
       metadata = ReadMetadata(source);
+      if (HasRawEnding(source)) LeaveWhatIsOfRaw(&metadata);
     } catch (const Exiv2::Error& error) {
       remarks.push_back(std::string("its metadata cannot be read: ") + error.what());
     }
+  }
+  if (HasRawEnding(source) && metadata.exif.empty()) {
+    remarks.push_back("the metadata of its raw photograph cannot be read, and are left out");
   }
   const auto format = Exiv2::ImageFactory::getType(target.string());
   EraseXmp(&metadata.xmp, SpeaksOfGainMap);

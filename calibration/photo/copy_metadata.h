@@ -25,9 +25,10 @@ struct CopiedMetadata {
 };
 
 // EXIF (without the thumbnail, which shows the photograph before the montage), XMP, IPTC and ICC
-// from a JPEG, PNG or TIFF into another; none from what holds none, such as an EXR. What does not
-// fit into the target's format is left out and named in what is returned, a sentence each. Throws
-// InputError: no such file.
+// from a JPEG, PNG or TIFF into another; none from what holds none, such as an EXR. Of raw, without
+// the maker's notes and what speaks of the sensor, as of sRGB. What does not fit into the target's
+// format is left out and named in what is returned, a sentence each. Throws InputError: no such
+// file.
 std::vector<std::string> CopyMetadata(const std::filesystem::path& source,
                                       const std::filesystem::path& target,
                                       const CopiedMetadata& copied = {});

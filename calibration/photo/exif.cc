@@ -5,7 +5,9 @@
 #include <exiv2/exiv2.hpp>
 
 #include "calibration/files/error.h"
+#include "calibration/files/raw_ending.h"
 #include "calibration/photo/photograph.h"
+#include "calibration/photo/raw_photograph.h"
 
 namespace insitu {
 namespace {
@@ -128,6 +130,7 @@ void RequireNoPanorama(const std::filesystem::path& photo) {
 }
 
 int ReadOrientation(const std::filesystem::path& photo) {
+  if (HasRawEnding(photo)) return ReadRawOrientation(photo);
   const auto stated = Positive(ReadExif(photo), "Exif.Image.Orientation");
   return stated && *stated <= 8 ? static_cast<int>(std::lround(*stated)) : 1;
 }

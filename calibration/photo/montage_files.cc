@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "calibration/files/error.h"
+#include "calibration/files/raw_ending.h"
 #include "calibration/files/whole_file.h"
 #include "calibration/photo/exif.h"
 #include "calibration/photo/jpeg_blocks.h"
@@ -91,10 +92,12 @@ class Delivery {
 
   std::vector<std::string> Write() {
     const std::string ending = LowerEnding(montage_.source);
+    const bool is_raw = HasRawEnding(montage_.source);
     WriteLinear();
     WritePortableNetworkGraphics(ending == ".png");
-    if (ending == ".tif" || ending == ".tiff") WriteTiff();
-    WriteJpegFile(ending != ".png" && ending != ".exr" && !ending.starts_with(".tif"));
+    const bool is_tiff = ending == ".tif" || ending == ".tiff";
+    if (is_tiff || is_raw) WriteTiff(is_raw);
+    WriteJpegFile(!is_tiff && !is_raw && ending != ".png" && ending != ".exr");
     return std::move(remarks_);
   }
 
@@ -106,7 +109,8 @@ class Delivery {
   // chromaticities in what holds codes.
   CodedPhotograph Codes(Encoding encoding) const {
     const bool is_exr = encoding == Encoding::kLinear;
-    const bool has_place = is_exr ? !color().chromaticities.empty() : !color().profile.empty();
+    const bool has_place =
+        is_exr ? !color().chromaticities.empty() : !color().profile.empty() || color().has_response;
     ColorSpace target = has_place ? color() : ColorSpace();
     const bool is_same = has_place || color().IsDefault();
     return MontageCodes(montage_, original_ && is_same ? &*original_ : nullptr, encoding, target);
@@ -143,9 +147,11 @@ class Delivery {
     });
   }
 
-  void WriteTiff() {
-    const CodedPhotograph picture =
-        MontageCodes(montage_, original_ ? &*original_ : nullptr, montage_.photo.encoding, color());
+  void WriteTiff(bool is_of_raw) {
+    const CodedPhotograph picture = is_of_raw
+                                        ? Codes(Encoding::kSrgb16)
+                                        : MontageCodes(montage_, original_ ? &*original_ : nullptr,
+                                                       montage_.photo.encoding, color());
     const fs::path path = PathOf(".tif");
     WriteWhole(path, [&](const fs::path& temporary) {
       WriteCodes(temporary, picture);

@@ -27,12 +27,12 @@ CodedPhotograph MontageCodes(const MontagePicture& montage, const CodedPhotograp
 // Turned and mirrored so that it stands upright without EXIF's `orientation` (1 to 8).
 CodedPhotograph Upright(CodedPhotograph picture, int orientation);
 
-// Writes `stem` + .exr, .png and .jpg, and .tif of a TIFF: in the photograph's colour space, with
-// its profile and metadata, and the statement. The EXR of a photograph that is no EXR is linear
-// Rec. 709. The blocks of a JPEG that is a JPEG's montage are the photograph's where nothing
-// changed. JPEG, TIFF and a PNG of a PNG keep the photograph's orientation; other PNG and EXR are
-// turned upright, since viewers heed no tag in them. Returns remarks, a sentence each: what could
-// not be kept.
+// Writes `stem` + .exr, .png and .jpg, and .tif of a TIFF or raw: in the photograph's colour space,
+// of a raw in sRGB, with its profile and metadata, and the statement. The EXR of a photograph that
+// is no EXR is linear Rec. 709. The blocks of a JPEG that is a JPEG's montage are the photograph's
+// where nothing changed. JPEG, TIFF and a PNG of a PNG keep the photograph's orientation; other PNG
+// and EXR are turned upright, since viewers heed no tag in them. Returns remarks, a sentence each:
+// what could not be kept.
 std::vector<std::string> WriteMontageFiles(const std::filesystem::path& stem,
                                            const MontagePicture& montage);
 

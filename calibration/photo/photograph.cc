@@ -17,8 +17,11 @@
 
 #include "calibration/files/error.h"
 #include "calibration/files/error_at.h"
+#include "calibration/files/raw_ending.h"
 #include "calibration/files/whole_file.h"
 #include "calibration/photo/copy_metadata.h"
+#include "calibration/photo/raw_photograph.h"
+#include "calibration/photo/response.h"
 #include "calibration/photo/srgb_table.h"
 #include "calibration/photo/stated_color.h"
 
@@ -283,18 +286,15 @@ void DescribeExr(const std::vector<float>& chromaticities, ImageSpec* spec) {
                   chromaticities.empty() ? kOfRec709.data() : chromaticities.data());
 }
 
-void DescribeTiff(ImageSpec* spec) {
-  spec->attribute("compression", "zip");
-  spec->attribute("DateTime", "0000:00:00 00:00:00");
-}
-
 }  // namespace
 
 CodedPhotograph ReadCodedPhotograph(const fs::path& path) {
+  if (HasRawEnding(path)) return ReadRawPhotograph(path);
   const auto input = Open(path);
   CodedPhotograph photo{input->spec().width, input->spec().height, {}, {}};
   const Encoding encoding = EncodingOf(input->spec(), path);
   photo.color = ColorOf(*input, path);
+  if (encoding != Encoding::kLinear) photo.color = WithResponseBeside(path, photo.color);
   if (encoding == Encoding::kSrgb8) {
     photo.samples = ReadThreeChannels<uint8_t>(*input, path);
   } else if (encoding == Encoding::kSrgb16) {
@@ -316,7 +316,9 @@ Photograph ReadPhotograph(const fs::path& path) {
   return photo;
 }
 
-ColorSpace ReadPhotographColor(const fs::path& path) { return ColorOf(*Open(path), path); }
+ColorSpace ReadPhotographColor(const fs::path& path) {
+  return HasRawEnding(path) ? ReadRawColor(path) : ColorOf(*Open(path), path);
+}
 
 CodedPhotograph CodesOf(const Raster& linear, Encoding encoding, const ColorSpace& color,
                         const std::function<bool(int, int)>& is_wanted) {
@@ -340,11 +342,15 @@ void WriteCodes(const fs::path& path, const CodedPhotograph& picture) {
   ImageSpec spec = SpecOf(picture);
   const std::string ending = path.extension().string();
   if (ending == ".exr") DescribeExr(picture.color.chromaticities, &spec);
-  if (ending == ".tif") DescribeTiff(&spec);
+  if (ending == ".tif") {
+    spec.attribute("compression", "zip");
+    spec.attribute("DateTime", "0000:00:00 00:00:00");
+  }
   std::visit([&](const auto& samples) { WriteImage(path, spec, samples); }, picture.samples);
 }
 
 Eigen::Vector2i ReadPhotographSize(const fs::path& path) {
+  if (HasRawEnding(path)) return ReadRawSize(path);
   const auto input = Open(path);
   return {input->spec().width, input->spec().height};
 }

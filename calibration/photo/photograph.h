@@ -25,8 +25,9 @@ struct Photograph {
   ColorSpace color = {};  // of the file
 };
 
-// JPEG, PNG, TIFF or EXR, in the colour space that the file states; grey becomes three equal
-// channels. Throws InputError: missing, not an image, cut short, over 536 megapixels, NaN or
+// JPEG, PNG, TIFF, EXR or a camera's raw (raw_photograph.h), in the colour space that the file
+// states and with the response that response.json beside it states (response.h); grey becomes three
+// equal channels. Throws InputError: missing, not an image, cut short, over 536 megapixels, NaN or
 // infinite values, CMYK, Lab or other colours than grey and RGB, a profile that is damaged or
 // another one's.
 Photograph ReadPhotograph(const std::filesystem::path& path);

@@ -7,11 +7,13 @@
 #include <map>
 
 #include "calibration/files/error.h"
+#include "calibration/files/raw_ending.h"
 
 namespace insitu {
 namespace fs = std::filesystem;
 
 bool HasPhotographEnding(const fs::path& name) {
+  if (HasRawEnding(name)) return true;
   static constexpr std::array kEndings = {".jpg", ".jpeg", ".jpe", ".png", ".tif", ".tiff", ".exr"};
   std::string ending = name.extension().string();
   std::transform(ending.begin(), ending.end(), ending.begin(),
@@ -38,14 +40,17 @@ std::vector<fs::path> ListPhotographs(const SitePaths& site) {
   for (const fs::directory_entry& entry : fs::directory_iterator(site.photos())) {
     if (!IsPhotograph(entry.path())) continue;
     const auto [other, is_new] = by_name.emplace(entry.path().stem().string(), entry.path());
-    if (!is_new) {
+    if (is_new) continue;
+    const bool is_raw = HasRawEnding(entry.path()), is_other_raw = HasRawEnding(other->second);
+    if (is_raw == is_other_raw) {
       const auto [first, second] = std::minmax(other->second, entry.path());
       throw InputError(second, "has the same name as " + first.filename().string() +
                                    ", expected each photograph's name once");
     }
+    if (is_other_raw) other->second = entry.path();
   }
   if (by_name.empty()) {
-    throw InputError(site.photos(), "no photographs, expected JPEG, PNG, TIFF or EXR files");
+    throw InputError(site.photos(), "no photographs, expected JPEG, PNG, TIFF, EXR or raw files");
   }
   std::vector<fs::path> photos;
   photos.reserve(by_name.size());

@@ -60,7 +60,8 @@ struct SitePaths {
   std::filesystem::path artificial() const { return root / "work/building.json"; }
 };
 
-// Whether a name ends as the photographs do that we read, in any case: JPEG, PNG, TIFF, EXR.
+// Whether a name ends as the photographs do that we read, in any case: JPEG, PNG, TIFF, EXR and
+// raw.
 bool HasPhotographEnding(const std::filesystem::path& name);
 
 // Whether a path is a file that ends so and is not hidden.
@@ -69,7 +70,8 @@ bool IsPhotograph(const std::filesystem::path& path);
 // Throws InputError naming the program to run first, if a stage's result is not there.
 void RequireResult(const std::filesystem::path& result, const std::string& program);
 
-// The site's photographs, sorted by name (their stem is the photo's name everywhere).
+// The site's photographs, sorted by name (their stem is the photo's name everywhere). Of a raw and
+// another file of one name the other file.
 // Throws InputError: no photos folder, no photographs in it, two with one name.
 std::vector<std::filesystem::path> ListPhotographs(const SitePaths& site);
 

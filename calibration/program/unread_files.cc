@@ -4,16 +4,15 @@
 #include <algorithm>
 #include <cctype>
 #include <map>
+#include <set>
 #include <string_view>
+
+#include "calibration/files/raw_ending.h"
 
 namespace insitu {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr std::string_view kRaw =
-    " .3fr .ari .arw .cr2 .cr3 .crw .dcr .dng .erf .fff .iiq .k25 .kdc .mef .mos .mrw .nef .nrw "
-    ".orf "
-    ".pef .raf .raw .rw2 .rwl .sr2 .srf .srw .x3f ";
 constexpr std::string_view kOther =
     " .avif .bmp .gif .heic .heics .heif .hif .insp .j2k .jp2 .jpf .jxl .mpo .pdf .psb .psd .tga "
     ".webp ";
@@ -52,12 +51,28 @@ void AddStrangeFormats(const std::vector<fs::path>& files, std::vector<std::stri
   std::map<std::string, std::vector<fs::path>> by_ending;
   for (const fs::path& file : files) by_ending[LowerEndingOf(file)].push_back(file);
   for (const auto& [ending, of_ending] : by_ending) {
-    const bool is_raw = IsAmong(ending, kRaw);
-    if (!is_raw && !IsAmong(ending, kOther)) continue;
-    unread->push_back(Subject(of_ending, ending) + " not read, expected JPEG, PNG, TIFF or EXR; " +
-                      (is_raw ? "develop it to a 16-bit TIFF without lens correction"
-                              : "export it as JPEG or TIFF") +
-                      " in full size");
+    if (!IsAmong(ending, kOther)) continue;
+    unread->push_back(Subject(of_ending, ending) +
+                      " not read, expected JPEG, PNG, TIFF, EXR or raw; export it as JPEG or TIFF "
+                      "in full size");
+  }
+}
+
+// Marks are pixels of the camera's picture, which may be another part of what the sensor saw.
+void AddRawBesideOthers(const std::vector<fs::path>& files, std::vector<std::string>* unread) {
+  std::set<std::string> names;
+  for (const fs::path& file : files) {
+    if (IsPhotograph(file) && !HasRawEnding(file)) names.insert(file.stem().string());
+  }
+  std::map<std::string, std::vector<fs::path>> by_ending;
+  for (const fs::path& file : files) {
+    const bool is_beside = HasRawEnding(file) && names.contains(file.stem().string());
+    if (is_beside) by_ending[LowerEndingOf(file)].push_back(file);
+  }
+  for (const auto& [ending, of_ending] : by_ending) {
+    unread->push_back(Subject(of_ending, ending) +
+                      " not read beside the picture of the same name; to measure light in the raw, "
+                      "move the picture away and mark its points on the raw");
   }
 }
 
@@ -76,7 +91,11 @@ void AddUnnamedBoards(const std::vector<fs::path>& files, std::vector<std::strin
 
 std::vector<std::string> UnreadFiles(const SitePaths& site) {
   std::vector<std::string> unread;
-  if (fs::is_directory(site.photos())) AddStrangeFormats(VisibleFiles(site.photos()), &unread);
+  if (fs::is_directory(site.photos())) {
+    const std::vector<fs::path> photos = VisibleFiles(site.photos());
+    AddRawBesideOthers(photos, &unread);
+    AddStrangeFormats(photos, &unread);
+  }
   if (!fs::is_directory(site.boards())) return unread;
   std::vector<fs::path> folders = {site.boards()};
   for (const fs::directory_entry& entry : fs::directory_iterator(site.boards())) {

@@ -208,7 +208,7 @@ TEST_F(Site, FaultsOfThePhotosFolder) {
             site_.photos().string() + ": no such folder, expected the site's photographs in it");
   fs::create_directories(site_.photos());
   EXPECT_EQ(InputErrorOf([&] { ListPhotographs(site_); }),
-            site_.photos().string() + ": no photographs, expected JPEG, PNG, TIFF or EXR files");
+            site_.photos().string() + ": no photographs, expected JPEG, PNG, TIFF, EXR or raw files");
   folder_.Write("photos/a.jpg", "");
   folder_.Write("photos/a.png", "");
   EXPECT_EQ(InputErrorOf([&] { ListPhotographs(site_); }),

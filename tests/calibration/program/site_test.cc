@@ -7,10 +7,11 @@ namespace insitu {
 namespace {
 
 TEST(HasPhotographEnding, IsThatOfAFormatThatIsRead) {
-  for (const char* name : {"a.jpg", "a.JPG", "a.jpeg", "a.png", "a.tif", "a.tiff", "a.exr"}) {
+  for (const char* name :
+       {"a.jpg", "a.JPG", "a.jpeg", "a.png", "a.tif", "a.tiff", "a.exr", "a.dng", "a.NEF"}) {
     EXPECT_TRUE(HasPhotographEnding(name)) << name;
   }
-  for (const char* name : {"a.dng", "a.csv", "jpg", "a.jpg.txt", ""}) {
+  for (const char* name : {"a.heic", "a.csv", "jpg", "a.jpg.txt", ""}) {
     EXPECT_FALSE(HasPhotographEnding(name)) << name;
   }
 }
@@ -22,6 +23,26 @@ TEST(IsPhotograph, IsAFileThatIsThereAndNotHidden) {
   EXPECT_FALSE(IsPhotograph(folder.path() / "b.jpg"));
   std::filesystem::create_directory(folder.path() / "c.jpg");
   EXPECT_FALSE(IsPhotograph(folder.path() / "c.jpg"));
+}
+
+TEST(ListPhotographs, OfARawAndItsJpegTakesTheJpeg) {
+  const ScratchFolder folder;
+  const auto raw = folder.Write("photos/b.dng", ""), alone = folder.Write("photos/a.cr2", "");
+  const auto jpeg = folder.Write("photos/b.jpg", "");
+  EXPECT_EQ(ListPhotographs({folder.path()}), (std::vector{alone, jpeg}));
+}
+
+TEST(ListPhotographs, TwoOfOneNameAreRefused) {
+  const ScratchFolder folder;
+  for (const auto& [first, second] : {std::pair("a.jpg", "a.png"), std::pair("b.dng", "b.nef")}) {
+    const auto one = folder.Write(std::string("photos/") + first, "");
+    const auto other = folder.Write(std::string("photos/") + second, "");
+    EXPECT_EQ(InputErrorOf([&] { ListPhotographs({folder.path()}); }),
+              other.string() + ": has the same name as " + first +
+                  ", expected each photograph's name once");
+    std::filesystem::remove(one);
+    std::filesystem::remove(other);
+  }
 }
 
 }  // namespace

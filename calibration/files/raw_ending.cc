@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "calibration/files/raw_ending.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <string>
+
+namespace insitu {
+
+bool HasRawEnding(const std::filesystem::path& name) {
+  static constexpr std::array kEndings = {".3fr", ".ari", ".arw", ".cr2", ".cr3", ".crw", ".dcr",
+                                          ".dng", ".erf", ".fff", ".iiq", ".k25", ".kdc", ".mef",
+                                          ".mos", ".mrw", ".nef", ".nrw", ".orf", ".pef", ".raf",
+                                          ".raw", ".rw2", ".rwl", ".sr2", ".srf", ".srw", ".x3f"};
+  std::string ending = name.extension().string();
+  std::transform(ending.begin(), ending.end(), ending.begin(),
+                 [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
+  return std::find(kEndings.begin(), kEndings.end(), ending) != kEndings.end();
+}
+
+}  // namespace insitu
