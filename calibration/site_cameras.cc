@@ -7,6 +7,7 @@
 #include <optional>
 #include <set>
 
+#include "calibration/camera_files/colmap_cameras.h"
 #include "calibration/camera_files/film.h"
 #include "calibration/camera_files/read_camera_file.h"
 #include "calibration/files/error.h"
@@ -78,6 +79,51 @@ std::optional<CameraFolder> ReadCameraFolder(const std::string& name, const fs::
     return std::nullopt;
   }
   return camera;
+}
+
+// ---- a COLMAP model's lenses, often one a photograph ---------------------------------------
+
+fs::path ColmapImages(const SitePaths& site) { return site.boards() / "images.txt"; }
+
+// By photograph: the camera's id in cameras.txt. A model may be of more photographs than the site.
+std::map<std::string, std::string> ColmapCameraOfPhotos(const SitePaths& site,
+                                                        const std::vector<fs::path>& photos) {
+  const std::map<std::string, uint32_t> camera_of_image =
+      ReadColmapCameraOfImages(ColmapImages(site));
+  std::map<std::string, std::string> camera_of_photo;
+  for (const fs::path& photo : photos) {
+    const auto image = camera_of_image.find(photo.stem());
+    if (image != camera_of_image.end()) {
+      camera_of_photo.emplace(photo.stem(), std::to_string(image->second));
+    }
+  }
+  if (!camera_of_photo.empty() || photos.empty()) return camera_of_photo;
+  throw InputError(ColmapImages(site),
+                   "names none of the photographs in photos/, expected a model of these: " +
+                       photos.front().filename().string() + " and so on");
+}
+
+bool HoldsColmapLenses(const SitePaths& site, const CameraFolder& folder) {
+  return folder.source == CameraSource::kFile && folder.folder == site.boards() &&
+         folder.file.filename() == "cameras.txt" && fs::exists(ColmapImages(site)) &&
+         ReadColmapCameras(folder.file).size() > 1;
+}
+
+// One folder for each lens that photographs have, all with the same file.
+std::vector<CameraFolder> ColmapLenses(const SitePaths& site, const CameraFolder& model) {
+  std::set<std::string> ids;
+  for (const auto& [photo, id] : ColmapCameraOfPhotos(site, ListPhotographs(site))) ids.insert(id);
+  std::vector<CameraFolder> lenses;
+  for (const std::string& id : ids) {
+    lenses.push_back(model);
+    lenses.back().name = id;
+  }
+  return lenses;
+}
+
+// No other camera of calibration/ itself has a name.
+bool AreColmapLenses(const SitePaths& site, const std::vector<CameraFolder>& folders) {
+  return folders.front().folder == site.boards() && !folders.front().name.empty();
 }
 
 // ---- which photo is whose ------------------------------------------------------------------
@@ -205,6 +251,9 @@ std::vector<CameraFolder> ListCameraFolders(const SitePaths& site) {
                                         folders[1].folder.filename().string() +
                                         ", expected each camera in a folder");
   }
+  if (folders.size() == 1 && HoldsColmapLenses(site, folders.front())) {
+    return ColmapLenses(site, folders.front());
+  }
   return folders;
 }
 
@@ -229,7 +278,10 @@ std::vector<std::string> CamerasOfPhotos(const SitePaths& site,
   const std::vector<CameraFolder> folders = ListCameraFolders(site);
   if (folders.empty()) return std::vector<std::string>(photos.size());
   const auto film_of_photo = FilmOfPhotos(folders, photos);
-  const auto assigned = ReadAssignment(site, folders, photos);
+  auto assigned = ReadAssignment(site, folders, photos);
+  if (AreColmapLenses(site, folders)) {
+    assigned.merge(ColmapCameraOfPhotos(site, photos));
+  }
   std::vector<CameraFolder> lenses;  // those that are no scanned film's
   std::copy_if(folders.begin(), folders.end(), std::back_inserter(lenses),
                [](const CameraFolder& each) { return each.source != CameraSource::kFilm; });

@@ -14,12 +14,12 @@ namespace {
 
 // ---- the table -----------------------------------------------------------------------------
 
-uint32_t IdOf(const TextRow& row) {
-  const double id = row.Number(0, "the camera's id");
+uint32_t IdOf(const TextRow& row, size_t word) {
+  const double id = row.Number(word, "the camera's id");
   if (id >= 0 && id <= std::numeric_limits<uint32_t>::max() && id == std::floor(id)) {
     return static_cast<uint32_t>(id);
   }
-  throw row.Error("camera id is \"" + row.words[0] + "\", expected a whole number");
+  throw row.Error("camera id is \"" + row.words[word] + "\", expected a whole number");
 }
 
 ColmapLens LensOf(const TextRow& row) {
@@ -67,8 +67,11 @@ ColmapCamera ChooseCamera(const fs::path& path, const std::string& id) {
     if (std::to_string(number) == id) return camera;
     ids += " " + std::to_string(number);
   }
-  throw InputError(path, "holds " + std::to_string(cameras.size()) + " cameras," + ids +
-                             ", expected one, or to stand in a folder named after its number");
+  throw InputError(
+      path,
+      "holds " + std::to_string(cameras.size()) + " cameras," + ids +
+          ", expected one, or a model's images.txt beside it, which tells whose each is, or to "
+          "stand in a folder named after its number");
 }
 
 // fx fy cx cy in our pixels, and the rest; of the models that are fitted.
@@ -107,12 +110,27 @@ std::map<uint32_t, ColmapCamera> ReadColmapCameras(const fs::path& path) {
   const std::string content = ReadTextFile(path);
   std::map<uint32_t, ColmapCamera> cameras;
   for (const TextRow& row : SplitTextRows(path, content, WordSeparator::kBlanks)) {
-    const uint32_t id = IdOf(row);
+    const uint32_t id = IdOf(row, 0);
     if (cameras.emplace(id, ColmapCamera{LensOf(row), row.place()}).second) continue;
     throw row.Error("camera " + std::to_string(id) + " occurs twice");
   }
   RequireCount(path, content, cameras.size());
   return cameras;
+}
+
+std::map<std::string, uint32_t> ReadColmapCameraOfImages(const fs::path& path) {
+  constexpr size_t kCamera = 8, kName = 9;  // IMAGE_ID, QW to QZ, TX to TZ, CAMERA_ID, NAME
+  std::map<std::string, uint32_t> camera_of_image;
+  for (const TextRow& row : SplitTextRows(path, ReadTextFile(path), WordSeparator::kBlanks)) {
+    // Every second line holds keypoints, numbers alone, or nothing.
+    if (row.words.size() <= kName || ParseNumber(row.words[kName])) continue;
+    std::string name = row.words[kName];
+    for (size_t i = kName + 1; i < row.words.size(); ++i) name += " " + row.words[i];
+    name = fs::path(name).stem().string();
+    if (camera_of_image.emplace(name, IdOf(row, kCamera)).second) continue;
+    throw row.Error("image '" + name + "' occurs twice");
+  }
+  return camera_of_image;
 }
 
 CameraFile ReadColmapCamera(const fs::path& path, const CameraFileOptions& options) {

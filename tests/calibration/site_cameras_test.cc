@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "calibration/site_cameras.h"
 
+#include <gmock/gmock.h>
+
 #include <exiv2/exiv2.hpp>
 
 #include "calibration/calibration_report.h"
 #include "calibration/files/json_file.h"
+#include "calibration/files/whole_file.h"
 #include "calibration/lens/camera.h"
 #include "calibration/photo/photograph.h"
 #include "calibration/site_calibration.h"
@@ -277,6 +280,37 @@ TEST_F(SiteCameras, TwoFocalLengthsUnderOneCameraFileAreTold) {
   });
   ASSERT_NE(told, findings.end());
   EXPECT_EQ(told->severity, Severity::kFail);
+}
+
+constexpr char kImages[] =
+    "# Image list\n"
+    "7 1 0 0 0 0 0 0 12 shots/a b.jpg\n10 20 -1 30 40 -1 50 60 -1 70 80 -1\n"
+    "8 1 0 0 0 0 0 0 3 shots/c.jpg\n\n9 1 0 0 0 0 0 0 4 shots/elsewhere.jpg\n\n";
+
+// COLMAP's usual cameras.txt, of which the site has a part of the photographs.
+TEST_F(SiteCameras, ColmapHasALensForEachPhotograph) {
+  WriteWhole(site_.boards() / "cameras.txt",
+             "3 PINHOLE 64 48 500 500 32 24\n4 PINHOLE 64 48 600 600 32 24\n"
+             "12 PINHOLE 64 48 700 700 32 24\n");
+  AddPhoto("photos/a b.jpg", 64, 48);
+  AddPhoto("photos/c.jpg", 64, 48);
+  EXPECT_THAT(InputErrorOf([&] { CalibrateSite(site_); }), testing::HasSubstr("images.txt beside"));
+  WriteWhole(site_.boards() / "images.txt", kImages);
+  EXPECT_EQ(CamerasOf(ListCameraFolders(site_)), (std::vector<std::string>{"12", "3"}));
+  EXPECT_EQ(Cameras(), (std::vector<std::string>{"12", "3"}));
+  CalibrateSite(site_);
+  EXPECT_NEAR(ReadCamera(site_.camera("12")).intrinsics()[0], 700, 1e-9);
+  EXPECT_NEAR(ReadCamera(site_.camera("3")).intrinsics()[0], 500, 1e-9);
+  EXPECT_FALSE(fs::exists(site_.camera("4")));
+}
+
+TEST_F(SiteCameras, ColmapOfOtherPhotographsIsRefused) {
+  WriteWhole(site_.boards() / "cameras.txt",
+             "3 PINHOLE 64 48 500 500 32 24\n4 PINHOLE 64 48 600 600 32 24\n");
+  WriteWhole(site_.boards() / "images.txt", kImages);
+  AddPhoto("photos/x.jpg", 64, 48);
+  EXPECT_THAT(InputErrorOf([&] { CalibrateSite(site_); }),
+              testing::HasSubstr("images.txt: names none of the photographs in photos/"));
 }
 
 }  // namespace
