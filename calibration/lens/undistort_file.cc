@@ -17,7 +17,7 @@
 namespace insitu {
 namespace {
 
-constexpr int kBand = 256;  // rows, whole blocks of the EXR's compression
+constexpr int kBand = 4 * kExrTile;  // rows
 
 const Eigen::Vector2d kUnseen = Eigen::Vector2d::Constant(std::numeric_limits<double>::quiet_NaN());
 

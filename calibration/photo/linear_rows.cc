@@ -70,6 +70,7 @@ ExrRows::ExrRows(const std::filesystem::path& path, int width, int height)
   constexpr std::array<float, 8> kOfRec709 = {0.64f, 0.33f, 0.30f,   0.60f,
                                               0.15f, 0.06f, 0.3127f, 0.3290f};
   OIIO::ImageSpec spec(width, height, 3, OIIO::TypeDesc::FLOAT);
+  spec.tile_width = spec.tile_height = kExrTile;
   spec.attribute("compression", "zip");
   spec.attribute("DateTime", "");
   spec.attribute("chromaticities", OIIO::TypeDesc(OIIO::TypeDesc::FLOAT, 8), kOfRec709.data());
@@ -85,8 +86,9 @@ ExrRows::~ExrRows() = default;
 void ExrRows::Append(const Raster& rows) {
   INSITU_CHECK(output_->next + rows.height <= output_->height);
   const int end = output_->next + rows.height;
-  output_->Require(output_->file->write_scanlines(output_->next, end, 0, OIIO::TypeDesc::FLOAT,
-                                                  rows.data.data()));
+  INSITU_CHECK(output_->next % kExrTile == 0 && (end % kExrTile == 0 || end == output_->height));
+  output_->Require(output_->file->write_tiles(0, rows.width, output_->next, end, 0, 1,
+                                              OIIO::TypeDesc::FLOAT, rows.data.data()));
   output_->next = end;
 }
 

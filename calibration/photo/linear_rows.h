@@ -12,7 +12,9 @@ namespace insitu {
 // Rows `first` to before `end` of what ReadPhotograph would hold.
 Raster LinearRows(const CodedPhotograph& photo, int first, int end);
 
-// An EXR of three channels, linear Rec. 709 of 32-bit float, written from the top.
+// An EXR of three channels, linear Rec. 709 of 32-bit float, written from the top; in tiles, so
+// that a part of it can be read alone.
+inline constexpr int kExrTile = 64;  // [px]
 class ExrRows {
  public:
   ExrRows(const std::filesystem::path& path, int width, int height);
@@ -20,8 +22,8 @@ class ExrRows {
   ExrRows(const ExrRows&) = delete;
   ExrRows& operator=(const ExrRows&) = delete;
 
-  void Append(const Raster& rows);
-  void Close();  // after the last row
+  void Append(const Raster& rows);  // a multiple of kExrTile, but for the last
+  void Close();                     // after the last row
 
  private:
   struct Output;
