@@ -14,7 +14,7 @@
 #include "calibration/files/whole_file.h"
 #include "calibration/photo/photograph.h"
 #include "calibration/program/external_program.h"
-#include "renderer/formats/cut_short.h"
+#include "renderer/foreign/cut_short.h"
 #include "renderer/formats/ifc_script.h"
 #include "renderer/formats/ifc_syntax.h"
 #include "renderer/mesh/face_triangles.h"

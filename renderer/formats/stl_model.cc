@@ -12,8 +12,8 @@
 #include "calibration/files/error.h"
 #include "calibration/files/whole_file.h"
 #include "calibration/files/wording.h"
-#include "renderer/formats/cut_short.h"
-#include "renderer/formats/text_lines.h"
+#include "renderer/foreign/cut_short.h"
+#include "renderer/foreign/text_lines.h"
 #include "renderer/mesh/face_triangles.h"
 
 namespace insitu {

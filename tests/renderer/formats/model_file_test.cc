@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Models that Assimp reads, and what it would pass over.
+// Models of all formats, whole and damaged.
 #include "renderer/formats/model_file.h"
 
 #include <gmock/gmock.h>
