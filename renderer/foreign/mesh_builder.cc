@@ -43,7 +43,7 @@ void BuiltFace::Clear() {
 }
 
 int MeshBuilder::AddVertex(const Vector3d& vertex, const std::string& whose) {
-  if (!(vertex.cwiseAbs().maxCoeff() <= kLargestVertex)) {
+  if (!(vertex.array().abs() <= kLargestVertex).all()) {
     throw InputError(file_, "a vertex of \"" + whose + "\" is not finite or beyond 1e12 m");
   }
   model_.mesh.vertices.push_back(vertex);

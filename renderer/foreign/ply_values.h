@@ -22,7 +22,7 @@ class PlyValues {
         head_(head),
         rest_(bytes.substr(head.size)),
         size_(bytes.size()),
-        line_(head.lines) {}
+        line_(head.lines + 1) {}
 
   // Throws InputError: the file ends, with the element that it ends in; no number.
   double Next(PlyType type) {

@@ -90,7 +90,7 @@ void ReadMesh(const fs::path& file, const JsonNode& root, Model* model) {
   for (int i = 0; i < vertices; ++i) {
     const auto x = arrays.Take<double>(), y = arrays.Take<double>();
     mesh.vertices.emplace_back(x, y, arrays.Take<double>());
-    if (!(mesh.vertices.back().cwiseAbs().maxCoeff() <= kLargest)) {
+    if (!(mesh.vertices.back().array().abs() <= kLargest).all()) {
       throw InputError(file, "a vertex is not finite or beyond 1e12 m");
     }
   }

@@ -193,7 +193,7 @@ def dxf():
     kind = '19-dxf-refused-for-little/'
     for name in ('g07b_truecolor_uns', 'g09_code_5000'):
         Converted(kind + name).area(216, 180)
-    Converted(kind + 'g14_noplot_layer').refused('not plotted')
+    Converted(kind + 'g14_noplot_layer').refused('not to be plotted')
 
 
 def unread():
