@@ -61,6 +61,18 @@ Vector3d ShownColor(const Vector3d& rgb) {
   return rgb.cwiseMin(kBrightest).cwiseMax(kDarkest);
 }
 
+TurntableLayers LayersOf(const ModelMesh& mesh) {
+  TurntableLayers layers;
+  std::map<std::string, int> index_of_name;
+  for (const int surface : mesh.surface_of_triangle) {
+    const auto [found, is_new] = index_of_name.try_emplace(mesh.surfaces[surface].layer,
+                                                           static_cast<int>(layers.names.size()));
+    if (is_new) layers.names.push_back(found->first);
+    layers.layer_of_triangle.push_back(found->second);
+  }
+  return layers;
+}
+
 class Converter {
  public:
   Converter(const SitePaths& site, const ConvertOptions& options)
@@ -287,6 +299,7 @@ Conversion Converter::Finish() {
                                " faces are drawn on larger ones of another name: put 2 mm before "
                                "them");
   }
+  conversion_.layers = LayersOf(mesh_);
   ArtificialEnvironment& environment = conversion_.environment;
   environment.vertices = std::move(mesh_.vertices);
   environment.triangles = std::move(mesh_.triangles);

@@ -17,6 +17,7 @@
 #include "renderer/foreign/cut_short.h"
 #include "renderer/formats/ifc_script.h"
 #include "renderer/formats/ifc_syntax.h"
+#include "renderer/formats/temporary_folder.h"
 #include "renderer/mesh/face_triangles.h"
 
 namespace insitu {
@@ -24,26 +25,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using Eigen::Vector3d;
-
-// Removed with all that it holds.
-class TemporaryFolder {
- public:
-  TemporaryFolder() {
-    std::string name = (fs::temp_directory_path() / "insitu-ifc-XXXXXX").string();
-    INSITU_CHECK(mkdtemp(name.data()) != nullptr);
-    path_ = name;
-  }
-  ~TemporaryFolder() {
-    std::error_code none;
-    fs::remove_all(path_, none);
-  }
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-  const fs::path& path() const { return path_; }
-
- private:
-  fs::path path_;
-};
 
 SurfaceNames NamesOf(const JsonNode& node) {
   SurfaceNames names;
