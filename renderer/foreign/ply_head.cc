@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "renderer/foreign/ply_head.h"
 
+#include <algorithm>
 #include <map>
 #include <sstream>
 
@@ -32,10 +33,10 @@ class PlyHeadReader {
  private:
   // The first line decides how lines end: a binary body may begin with either byte.
   bool Next(std::string* line) {
-    const size_t end = bytes_.find(carriage_ ? '\r' : '\n', head_.size);
-    if (end == bytes_.npos) return false;
+    if (head_.size == bytes_.size()) return false;
+    const size_t end = std::min(bytes_.find(carriage_ ? '\r' : '\n', head_.size), bytes_.size());
     *line = bytes_.substr(head_.size, end - head_.size);
-    head_.size = end + 1;
+    head_.size = std::min(end + 1, bytes_.size());
     ++head_.lines;
     return true;
   }
