@@ -20,11 +20,11 @@ struct SurfaceNames {
   std::string material;                // of the file's own materials; may be empty
   std::optional<Eigen::Vector3d> rgb;  // its colour there, linear Rec. 709, 0..1
   double opacity = 1;                  // there; 0: clear
+  std::string texture;                 // image file of its colour, as named there; may be empty
+  std::string texture_place;           // where it is named, "file:line", for messages
   bool is_solid = false;               // its faces bound a body of glass, not panes
   double index = 1.5;                  // of refraction, > 1
   Eigen::Vector3d absorption_rgb = Eigen::Vector3d::Zero();  // of such a body, >= 0 [1/m]
-  std::string texture;        // image file of its colour, as named there; may be empty
-  std::string texture_place;  // where it is named, "file:line", for messages
 
   bool operator==(const SurfaceNames&) const = default;
 };

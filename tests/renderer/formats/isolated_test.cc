@@ -34,7 +34,7 @@ TEST(Isolated, ACrashOrAnEndlessLoopThereIsAFailureHere) {
 TEST(Isolated, BringsTheWholeModel) {
   Model model;
   model.mesh.surfaces = {
-      {"a", "b", "c", Vector3d(1, 0.5, 0), 0.3, true, 1.33, Vector3d(1, 2, 3), "t.png", "m:1"}, {}};
+      {"a", "b", "c", Vector3d(1, 0.5, 0), 0.3, "t.png", "m:1", true, 1.33, Vector3d(1, 2, 3)}, {}};
   model.mesh.vertices = {{1, 2, 3}, {4, 5, 6}, {7, 8, 1e9 / 3}};
   model.mesh.triangles = {{0, 1, 2}};
   model.mesh.surface_of_triangle = {1};
