@@ -141,6 +141,20 @@ TEST_F(ModelFile, DamagedFilesAreRefusedOrRead) {
   }
 }
 
+// Every tenth byte in turn becomes another.
+TEST_F(ModelFile, ChangedBytesAreRefusedOrRead) {
+  for (const char* content : {kPly, kStl, kGltf, kCollada, kObj}) {
+    const std::string whole = content;
+    for (size_t place = 0; place < whole.size(); place += 10) {
+      for (const char other : {'9', '-', ' ', '"', '\xFF'}) {
+        std::string changed = whole;
+        changed[place] = other;
+        Complaint("changed.bin", changed);  // any answer but a crash
+      }
+    }
+  }
+}
+
 TEST(ImportOptions, NameTheFieldThatIsWrong) {
   EXPECT_EQ(WrongField(ImportOptions()), "");
   EXPECT_THAT(WrongField(ImportOptions{.dxf = {}, .seconds = 0}), HasSubstr("seconds"));
