@@ -11,6 +11,7 @@
 #include "calibration/program/program.h"
 #include "renderer/building/building_lights.h"
 #include "renderer/building/building_materials.h"
+#include "renderer/building/model_notes.h"
 #include "renderer/building/open_glass.h"
 #include "renderer/building/site_check.h"
 #include "renderer/formats/model_list.h"
@@ -60,6 +61,18 @@ Vector3d ShownColor(const Vector3d& rgb) {
   return rgb.cwiseMin(kBrightest).cwiseMax(kDarkest);
 }
 
+TurntableLayers LayersOf(const ModelMesh& mesh) {
+  TurntableLayers layers;
+  std::map<std::string, int> index_of_name;
+  for (const int surface : mesh.surface_of_triangle) {
+    const auto [found, is_new] = index_of_name.try_emplace(mesh.surfaces[surface].layer,
+                                                           static_cast<int>(layers.names.size()));
+    if (is_new) layers.names.push_back(found->first);
+    layers.layer_of_triangle.push_back(found->second);
+  }
+  return layers;
+}
+
 class Converter {
  public:
   Converter(const SitePaths& site, const ConvertOptions& options)
@@ -76,7 +89,6 @@ class Converter {
   void Warn(const fs::path& file, const std::string& message) {
     conversion_.warnings.push_back(InputError(file, message).what());
   }
-  void WarnOf(const ModelReport& report, const Model& model);
   void WarnOfPairs(const Placement& placement);
   void ResolveMaterials();
   int MaterialOf(const SurfaceNames& names);
@@ -92,35 +104,12 @@ class Converter {
   MaterialLibrary library_;
   BuildingMaterials materials_;
   ModelMesh mesh_;
+  std::vector<ModelLamp> lamps_;  // in the world
   std::map<const BuildingMaterial*, int> index_of_material_;
   std::map<std::string, int> index_of_unlisted_;
   std::set<std::string> grey_, own_color_, hidden_;
   Conversion conversion_;
 };
-
-void Converter::WarnOf(const ModelReport& report, const Model& model) {
-  if (!model.metres_per_unit && !report.placement.metres_per_unit &&
-      !model.mesh.triangles.empty()) {
-    const bool is_drawing = model.format.starts_with("DXF");  // whose vertical axis is z
-    Warn(report.file, std::string("names no unit: taken as metres") +
-                          (is_drawing || report.placement.y_up
-                               ? ""
-                               : "; and no vertical axis: z taken as up (\"up\": \"y\" in "
-                                 "placement.json if it lies on its side)"));
-  }
-  std::map<std::string, std::map<std::string, int>> kinds_of_reason;
-  for (const auto& [what, count] : model.skipped) kinds_of_reason[what.second][what.first] += count;
-  for (const auto& [reason, kinds] : kinds_of_reason) {
-    Warn(report.file, "left out: " + Listed(kinds) + " (" + reason + ")");
-  }
-  if (model.degenerate_faces > 0) {
-    Warn(report.file, "left out: " + std::to_string(model.degenerate_faces) +
-                          " faces of no area, or whose outline crosses itself");
-  }
-  if (model.mesh.triangles.empty()) Warn(report.file, "has no surface to show");
-  for (const std::string& warning : model.warnings) conversion_.warnings.push_back(warning);
-  WarnOfPairs(report.placement);
-}
 
 void Converter::WarnOfPairs(const Placement& placement) {
   if (!placement.adjusted) return;
@@ -154,8 +143,13 @@ void Converter::Add(const fs::path& path) {
   report.skipped = model.skipped;
   report.degenerate_faces = model.degenerate_faces;
   LocateTextures(site_, path, &model);
-  WarnOf(report, model);
+  for (std::string& note : NotesOnModel(path, model, report.placement)) {
+    conversion_.warnings.push_back(std::move(note));
+  }
+  WarnOfPairs(report.placement);
   Place(site_, report.placement, unit, &model.mesh);
+  PlaceLamps(site_, report.placement, unit, &model.lamps);
+  lamps_.insert(lamps_.end(), model.lamps.begin(), model.lamps.end());
   if (conversion_.models.empty()) {
     mesh_ = std::move(model.mesh);
   } else {
@@ -175,7 +169,7 @@ int Converter::Unlisted(const SurfaceNames& names) {
   const std::string label = LabelOf(names);
   conversion_.unlisted.try_emplace(label, names.rgb);
   const bool has_color = !names.material.empty() && (names.rgb || !names.texture.empty());
-  std::string key = label + '\0' + std::to_string(names.opacity);
+  std::string key = label + '\0' + std::to_string(names.opacity) + TextureOf(names);
   if (names.rgb) key.append(reinterpret_cast<const char*>(names.rgb->data()), 3 * sizeof(double));
   const auto [known, is_new] =
       index_of_unlisted_.try_emplace(key, static_cast<int>(materials.size()));
@@ -191,7 +185,12 @@ int Converter::Unlisted(const SurfaceNames& names) {
           material.diffuse_rgb.cwiseProduct(MeanColor(ReadPhotograph(names.texture).linear))
               .cwiseMin(1);
     }
-    if (names.opacity < 1) material.glass = Glass{.weight = 1 - names.opacity};
+    if (names.opacity < 1) {
+      material.glass = Glass{.weight = 1 - names.opacity,
+                             .is_solid = names.is_solid,
+                             .index = names.index,
+                             .absorption_rgb = names.absorption_rgb};
+    }
   }
   (has_color || names.rgb ? own_color_ : grey_).insert(label);
   materials.push_back(material);
@@ -300,6 +299,7 @@ Conversion Converter::Finish() {
                                " faces are drawn on larger ones of another name: put 2 mm before "
                                "them");
   }
+  conversion_.layers = LayersOf(mesh_);
   ArtificialEnvironment& environment = conversion_.environment;
   environment.vertices = std::move(mesh_.vertices);
   environment.triangles = std::move(mesh_.triangles);
@@ -312,6 +312,9 @@ Conversion Converter::Finish() {
   }
   const fs::path lights = site_.building() / "lights.json";
   if (fs::exists(lights)) environment.lights = ReadLights(lights, library_);
+  for (PointLight& light : LightsOfModel(lamps_, lights)) {
+    environment.lights.push_back(std::move(light));
+  }
   return std::move(conversion_);
 }
 

@@ -15,6 +15,7 @@
 #include "renderer/formats/model_file.h"
 #include "renderer/mesh/element_measures.h"
 #include "renderer/mesh/solids.h"
+#include "renderer/preview/turntable.h"
 
 namespace insitu {
 
@@ -46,6 +47,7 @@ struct Conversion {
   SolidsReport solids;
   std::map<std::string, ElementMeasures> elements;  // by layer, as shown
   double chord_tolerance = 0;                       // [m], of what the drawings' arcs became
+  TurntableLayers layers;                           // of the environment's triangles
   std::map<std::string, int> triangles_of_layer;
   std::map<std::string, int> triangles_of_material;
   // What materials.json does not list: label -> what the model itself says of its colour.

@@ -11,7 +11,7 @@
 #include "calibration/photo/photograph.h"
 #include "calibration/program/html_text.h"
 #include "calibration/program/warnings.h"
-#include "renderer/preview_image.h"
+#include "renderer/preview/preview_image.h"
 
 namespace insitu {
 namespace {
@@ -206,6 +206,7 @@ std::string Page(const std::string& picture, const Conversion& conversion) {
           std::to_string(conversion.environment.lights.size()) +
           " lights. Arcs of drawings are within " + Number("%.3f", conversion.chord_tolerance) +
           " m of their facets. Seen from the south-west, z up; material colours.</p>\n";
+  page += Turntable(conversion.environment, conversion.layers);
   page += "<img src=\"" + HtmlText(picture) + "\" alt=\"three-quarter view of the building\">\n";
   if (!conversion.warnings.empty()) {
     page += "<h2>Warnings</h2><ul>\n";

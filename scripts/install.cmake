@@ -32,6 +32,8 @@ install(DIRECTORY radiometry/library/data/ DESTINATION ${CMAKE_INSTALL_DATADIR}/
 install(FILES build/web-ifc/web-ifc-api-node.js build/web-ifc/web-ifc-node.wasm
     build/web-ifc/LICENSE.md build/web-ifc/package.json
   DESTINATION ${CMAKE_INSTALL_DATADIR}/insitu/web-ifc OPTIONAL)
+install(FILES build/three/three.min.js build/three/OrbitControls.js build/three/LICENSE
+  DESTINATION ${CMAKE_INSTALL_DATADIR}/insitu/three OPTIONAL)
 
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_CONTACT "the insitu authors <insitu@localhost>")

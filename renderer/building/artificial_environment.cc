@@ -20,8 +20,8 @@ using Eigen::Vector3i;
 constexpr int kVersion = 3;
 static_assert(std::endian::native == std::endian::little, "building.bin is written as in memory");
 
-std::filesystem::path MeshPath(const SitePaths& site) {
-  return site.artificial().replace_extension(".bin");
+std::filesystem::path MeshPath(std::filesystem::path file) {
+  return file.replace_extension(".bin");
 }
 
 template <typename T>
@@ -195,10 +195,10 @@ PointLight LightOf(const JsonNode& node) {
   return light;
 }
 
-Json::Value MeshJson(const SitePaths& site, const ArtificialEnvironment& environment,
+Json::Value MeshJson(const std::filesystem::path& file, const ArtificialEnvironment& environment,
                      std::string_view bytes) {
   Json::Value json;
-  json["file"] = MeshPath(site).filename().string();
+  json["file"] = MeshPath(file).filename().string();
   json["layout"] =
       "little-endian: x y z of each vertex [m, float64], corners of each triangle [3 int32, from "
       "0], material of each triangle [int32, from 0], then as stated below: unit normal of each "
@@ -252,19 +252,24 @@ void CheckIndices(const std::filesystem::path& path, const ArtificialEnvironment
 
 }  // namespace
 
-void WriteArtificialEnvironment(const SitePaths& site, const ArtificialEnvironment& environment) {
+void WriteArtificialEnvironment(const std::filesystem::path& file,
+                                const ArtificialEnvironment& environment) {
   INSITU_CHECK(environment.material_of_triangle.size() == environment.triangles.size());
   const std::string bytes = MeshBytes(environment);
   Json::Value json;
   json["version"] = kVersion;
-  json["mesh"] = MeshJson(site, environment, bytes);
+  json["mesh"] = MeshJson(file, environment, bytes);
   json["materials"] = Json::arrayValue;
   for (const auto& material : environment.materials)
     json["materials"].append(MaterialJson(material));
   json["lights"] = Json::arrayValue;
   for (const auto& light : environment.lights) json["lights"].append(LightJson(light));
-  WriteWhole(MeshPath(site), bytes);
-  WriteJson(site.artificial(), json);
+  WriteWhole(MeshPath(file), bytes);
+  WriteJson(file, json);
+}
+
+void WriteArtificialEnvironment(const SitePaths& site, const ArtificialEnvironment& environment) {
+  WriteArtificialEnvironment(site.artificial(), environment);
 }
 
 ArtificialEnvironment ReadArtificialEnvironment(const SitePaths& site) {

@@ -76,6 +76,9 @@ struct ArtificialEnvironment {
 // doubles and 32-bit indices, as the JSON states). Reading throws InputError, also when the two
 // files do not belong together.
 void WriteArtificialEnvironment(const SitePaths& site, const ArtificialEnvironment& environment);
+// The same as any FILE.json and FILE.bin.
+void WriteArtificialEnvironment(const std::filesystem::path& file,
+                                const ArtificialEnvironment& environment);
 ArtificialEnvironment ReadArtificialEnvironment(const SitePaths& site);
 
 // Of the three corners of a triangle, in repeats of the image, v up: projected in metres where its

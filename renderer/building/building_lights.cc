@@ -2,6 +2,7 @@
 #include "renderer/building/building_lights.h"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <optional>
@@ -202,12 +203,37 @@ void AddLight(const JsonNode& light, const LampContext& context, std::vector<Poi
   for (PointLight& part : Spread(light, lamp, *area)) lights->push_back(std::move(part));
 }
 
+std::optional<double> SiteLuminance(const JsonNode& root) {
+  const auto node = root.Find("site_luminance_cd_m2");
+  return node ? std::optional(Positive(*node)) : std::nullopt;
+}
+
+// glTF's cones: full strength within the inner, none beyond the outer one.
+LightDistribution ConeDistribution(const ModelLamp& lamp) {
+  const double inner = std::clamp(lamp.inner_deg.value_or(0), 1e-6, 179.0);
+  const double outer = std::clamp(*lamp.outer_deg, inner + 1e-6, 180.0);
+  return {LampAxes(lamp.direction, 0), {0, inner, outer}, {0}, {1, 1, 0}};
+}
+
 }  // namespace
+
+std::vector<PointLight> LightsOfModel(const std::vector<ModelLamp>& lamps, const fs::path& path) {
+  std::optional<double> luminance;
+  if (fs::exists(path)) luminance = SiteLuminance(JsonNode::Load(path));
+  std::vector<PointLight> lights;
+  for (const ModelLamp& lamp : lamps) {
+    PointLight light{lamp.name, lamp.position, Vector3d::Zero()};
+    light.candela = lamp.candela;
+    if (luminance) light.intensity_rgb = lamp.rgb * (lamp.candela / *luminance);
+    if (lamp.outer_deg) light.distribution = ConeDistribution(lamp);
+    lights.push_back(std::move(light));
+  }
+  return lights;
+}
 
 std::vector<PointLight> ReadLights(const fs::path& path, const MaterialLibrary& library) {
   const JsonNode root = JsonNode::Load(path);
-  LampContext context{{}, library};
-  if (const auto node = root.Find("site_luminance_cd_m2")) context.site_luminance = Positive(*node);
+  const LampContext context{SiteLuminance(root), library};
   std::vector<PointLight> lights;
   for (const JsonNode& light : root.At("lights").Items()) AddLight(light, context, &lights);
   return lights;

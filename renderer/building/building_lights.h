@@ -7,6 +7,7 @@
 
 #include "radiometry/library/material_library.h"
 #include "renderer/building/artificial_environment.h"
+#include "renderer/mesh/model.h"
 
 namespace insitu {
 
@@ -26,5 +27,10 @@ namespace insitu {
 // no length, a faulty IES file.
 std::vector<PointLight> ReadLights(const std::filesystem::path& path,
                                    const MaterialLibrary& library = {});
+
+// Lamps that a model itself holds, in the world; their strength is known in the site's unit if
+// lights.json (`path`, which need not be there) states site_luminance_cd_m2.
+std::vector<PointLight> LightsOfModel(const std::vector<ModelLamp>& lamps,
+                                      const std::filesystem::path& path);
 
 }  // namespace insitu

@@ -202,4 +202,20 @@ void Place(const SitePaths& site, const Placement& placement, double metres_per_
   Convert(PlacementPath(site), placement, mesh);
 }
 
+// Each by its place and a point along its direction.
+void PlaceLamps(const SitePaths& site, const Placement& placement, double metres_per_unit,
+                std::vector<ModelLamp>* lamps) {
+  ModelMesh places;
+  for (const ModelLamp& lamp : *lamps) {
+    places.vertices.push_back(lamp.position);
+    places.vertices.push_back(lamp.position + lamp.direction);
+  }
+  Place(site, placement, metres_per_unit, &places);
+  for (size_t i = 0; i < lamps->size(); ++i) {
+    ModelLamp& lamp = (*lamps)[i];
+    lamp.position = places.vertices[2 * i];
+    lamp.direction = (places.vertices[2 * i + 1] - lamp.position).normalized();
+  }
+}
+
 }  // namespace insitu

@@ -43,4 +43,8 @@ Placement ReadPlacement(const SitePaths& site, const std::string& name, double m
 void Place(const SitePaths& site, const Placement& placement, double metres_per_unit,
            ModelMesh* mesh);
 
+// The same of the lamps of a model.
+void PlaceLamps(const SitePaths& site, const Placement& placement, double metres_per_unit,
+                std::vector<ModelLamp>* lamps);
+
 }  // namespace insitu

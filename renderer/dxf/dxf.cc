@@ -106,8 +106,11 @@ Assembly::ResolvedLooks Assembly::Resolve(const DxfBlock& block, const Holder& h
       CountHidden(block, static_cast<int>(i), layer, *reason);
       resolved.surfaces.push_back(std::nullopt);
     } else {
-      resolved.surfaces.push_back(surface_index_.IndexOf(
-          {layer, holder.block, "", ColorOf(look, layer, holder), 1, "", ""}));
+      SurfaceNames names;
+      names.layer = layer;
+      names.block = holder.block;
+      names.rgb = ColorOf(look, layer, holder);
+      resolved.surfaces.push_back(surface_index_.IndexOf(names));
     }
   }
   return resolved;
@@ -198,7 +201,9 @@ void Assembly::AddInsert(const DxfInsert& insert, const Affine3d& world_from_hol
     return;
   }
   Holder inner{layer, holder.block, ColorOf(insert.look, layer, holder)};
-  if (!insert.block.starts_with('*')) inner.block = insert.block;
+  if (const std::string name = NameByUser(drawing_, insert.block); !name.empty()) {
+    inner.block = name;
+  }
   for (int row = 0; row < insert.rows; ++row) {
     for (int column = 0; column < insert.columns; ++column) {
       const Vector3d step = column * insert.column_step + row * insert.row_step;

@@ -33,7 +33,24 @@ void ReadHeader(const DxfRecord& header, DxfReader* reader, DxfDrawing* drawing)
   }
 }
 
+// The block's handle, and the one that its extended data AcDbBlockRepBTag names.
+void ReadBlockTableEntry(const DxfRecord& record, DxfDrawing* drawing) {
+  const std::string name = record.Name(2);
+  if (const DxfTag* handle = record.Find(5)) {
+    drawing->block_of_handle[std::string(handle->value)] = name;
+  }
+  bool is_representation = false;
+  for (const DxfTag& tag : record.tags()) {
+    constexpr int kApplication = 1001, kHandle = 1005;
+    if (tag.code == kApplication) is_representation = tag.value == "AcDbBlockRepBTag";
+    if (is_representation && tag.code == kHandle) {
+      drawing->dynamic_block[NameKey(name)] = std::string(tag.value);
+    }
+  }
+}
+
 void ReadTableEntry(const DxfRecord& record, DxfDrawing* drawing) {
+  if (record.kind() == "BLOCK_RECORD") return ReadBlockTableEntry(record, drawing);
   if (record.kind() != "LAYER") return;
   DxfLayer layer;
   const int color = record.Integer(62, 7);  // negative if off
@@ -181,6 +198,15 @@ const DxfBlock& InsertedBlock(const DxfDrawing& drawing, const DxfInsert& insert
                              "\", which the drawing does not define");
   }
   return found->second;
+}
+
+std::string NameByUser(const DxfDrawing& drawing, const std::string& block) {
+  if (!block.starts_with('*')) return block;
+  const auto handle = drawing.dynamic_block.find(NameKey(block));
+  if (handle == drawing.dynamic_block.end()) return "";
+  const auto named = drawing.block_of_handle.find(handle->second);
+  return named == drawing.block_of_handle.end() || named->second.starts_with('*') ? ""
+                                                                                  : named->second;
 }
 
 DxfDrawing ReadDxfDrawing(const std::filesystem::path& path, double most_pieces) {

@@ -25,7 +25,13 @@ struct DxfDrawing {
   std::map<std::string, DxfLayer> layers;  // by NameKey; those of the layer table
   std::map<std::string, DxfBlock> blocks;  // by NameKey
   DxfBlock model_space;
+  std::map<std::string, std::string> block_of_handle;  // of the table of blocks
+  // A state of a dynamic block, "*U3" by NameKey -> handle of the block that a user named.
+  std::map<std::string, std::string> dynamic_block;
 };
+
+// What a user calls a block: its name, of a state of a dynamic block that block's; empty: nothing.
+std::string NameByUser(const DxfDrawing& drawing, const std::string& block);
 
 // The block that an INSERT names. Throws InputError: the drawing does not define it.
 const DxfBlock& InsertedBlock(const DxfDrawing& drawing, const DxfInsert& insert);

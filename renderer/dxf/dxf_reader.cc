@@ -84,6 +84,7 @@ DxfReader::DxfReader(const std::filesystem::path& path) : path_(path), code_page
   } else {
     constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
     if (buffer_.starts_with(kByteOrderMark)) next_ = kByteOrderMark.size();
+    if (buffer_.find('\n') == buffer_.npos && buffer_.find('\r') != buffer_.npos) line_end_ = '\r';
     CheckItsEnd();
   }
 }
@@ -91,8 +92,8 @@ DxfReader::DxfReader(const std::filesystem::path& path) : path_(path), code_page
 // A file that was cut is refused before anything in it is believed.
 void DxfReader::CheckItsEnd() {
   const std::string_view begin = std::string_view(buffer_).substr(next_);
-  const std::string_view first = Trimmed(begin.substr(0, begin.find('\n')));
-  if (!begin.empty() && begin.find('\n') != begin.npos && !GroupCode(first)) {
+  const std::string_view first = Trimmed(begin.substr(0, begin.find(line_end_)));
+  if (!begin.empty() && begin.find(line_end_) != begin.npos && !GroupCode(first)) {
     throw InputError(path_, 1, Quoted(first) + ", expected a DXF group code (an integer)");
   }
   std::ifstream file(path_, std::ios::binary);
@@ -104,7 +105,7 @@ void DxfReader::CheckItsEnd() {
   std::string_view rest = tail;
   std::string_view before;
   while (!rest.empty()) {
-    const size_t end = std::min(rest.find('\n'), rest.size());
+    const size_t end = std::min(rest.find(line_end_), rest.size());
     const std::string_view line = Trimmed(rest.substr(0, end));
     if (line == "EOF" && before == "0") return;
     before = line;
@@ -113,7 +114,7 @@ void DxfReader::CheckItsEnd() {
   int64_t lines = 0;
   file.clear();
   file.seekg(0);
-  for (std::string line; std::getline(file, line);) ++lines;
+  for (std::string line; std::getline(file, line, line_end_);) ++lines;
   line_ = lines;
   ThrowCutShort();
 }
@@ -139,7 +140,7 @@ bool DxfReader::Refill() {
 std::string_view DxfReader::ReadLine() {
   size_t end = 0;
   size_t from = next_;
-  while ((end = buffer_.find('\n', from)) == std::string::npos) {
+  while ((end = buffer_.find(line_end_, from)) == std::string::npos) {
     const size_t pending = buffer_.size() - next_;
     if (pending > kLongestLine) {
       throw InputError(path_, static_cast<int>(line_ + 1), "is longer than any line of a drawing");

@@ -56,6 +56,7 @@ class DxfReader {
   int64_t consumed_ = 0;  // bytes before the buffer
   int64_t line_ = 0;
   bool binary_ = false, long_codes_ = true, at_eof_ = false;
+  char line_end_ = '\n';  // CR alone in files of old Macintoshes
   std::string code_page_, written_, first_value_;
   int64_t first_place_ = 0;
   bool has_first_ = false;

@@ -14,9 +14,10 @@
 #include "calibration/files/whole_file.h"
 #include "calibration/photo/photograph.h"
 #include "calibration/program/external_program.h"
-#include "renderer/formats/cut_short.h"
+#include "renderer/foreign/cut_short.h"
 #include "renderer/formats/ifc_script.h"
 #include "renderer/formats/ifc_syntax.h"
+#include "renderer/formats/temporary_folder.h"
 #include "renderer/mesh/face_triangles.h"
 
 namespace insitu {
@@ -24,26 +25,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using Eigen::Vector3d;
-
-// Removed with all that it holds.
-class TemporaryFolder {
- public:
-  TemporaryFolder() {
-    std::string name = (fs::temp_directory_path() / "insitu-ifc-XXXXXX").string();
-    INSITU_CHECK(mkdtemp(name.data()) != nullptr);
-    path_ = name;
-  }
-  ~TemporaryFolder() {
-    std::error_code none;
-    fs::remove_all(path_, none);
-  }
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-  const fs::path& path() const { return path_; }
-
- private:
-  fs::path path_;
-};
 
 SurfaceNames NamesOf(const JsonNode& node) {
   SurfaceNames names;
@@ -90,7 +71,7 @@ void ReadMesh(const fs::path& file, const JsonNode& root, Model* model) {
   for (int i = 0; i < vertices; ++i) {
     const auto x = arrays.Take<double>(), y = arrays.Take<double>();
     mesh.vertices.emplace_back(x, y, arrays.Take<double>());
-    if (!(mesh.vertices.back().cwiseAbs().maxCoeff() <= kLargest)) {
+    if (!(mesh.vertices.back().array().abs() <= kLargest).all()) {
       throw InputError(file, "a vertex is not finite or beyond 1e12 m");
     }
   }

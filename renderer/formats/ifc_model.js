@@ -18,6 +18,7 @@ class Reader {
     this.skipped = [];
     this.warnings = [];
     this.shown = new Set();
+    this.partsOf = new Map();  // element -> [from, to) in triangles
   }
 
   ids(type) {
@@ -78,6 +79,7 @@ class Reader {
     const isStyled = this.styleOf.has(placed.geometryExpressID) || x * y * z * w < 1;
     const surface = this.surface({layer, material, srgb: isStyled ? [x, y, z] : null, opacity: w});
     const first = this.vertices.length / 3;
+    const start = this.triangles.length;
     const m = placed.flatTransformation;
     for (let i = 0; i < data.length; i += 6) {
       const at = (row) => m[row] * data[i] + m[row + 4] * data[i + 1] + m[row + 8] * data[i + 2] + m[row + 12];
@@ -87,6 +89,8 @@ class Reader {
       this.triangles.push(first + indices[i], first + indices[i + 1], first + indices[i + 2], surface);
     }
     if (indices.length > 0) this.shown.add(element);
+    if (!this.partsOf.has(element)) this.partsOf.set(element, {layer, ranges: []});
+    this.partsOf.get(element).ranges.push([start, this.triangles.length]);
     geometry.delete();
   }
   surface(names) {
@@ -118,6 +122,81 @@ class Reader {
       if (!isVoid) this.entities[kind] = (this.entities[kind] || 0) + count;
       this.skipped.push([kind, isVoid ? 'a void by its kind, no surface' : 'has no surface that web-ifc reads', count]);
     }
+  }
+
+  // Net volumes that the file states, held against those of the faces.
+  compareVolumes() {
+    const off = [];
+    const open = [];
+    const stated = this.statedVolumes();
+    for (const [element, volume] of stated) {
+      const found = this.volumeOf(this.partsOf.get(element).ranges);
+      const {layer} = this.partsOf.get(element);
+      if (found === null) {
+        open.push({volume, text: layer});
+      } else if (Math.abs(found - volume) > Math.max(0.02 * volume, 1e-4)) {
+        off.push({volume: Math.abs(found - volume), text: layer + ' ' + found.toFixed(3) + ' m3, stated ' + volume.toFixed(3)});
+      }
+    }
+    const listed = (items) => items.sort((a, b) => b.volume - a.volume).slice(0, 8).map((item) => item.text).join('; ') +
+      (items.length > 8 ? '; and ' + (items.length - 8) + ' more' : '');
+    if (off.length > 0) {
+      this.warnings.push(off.length + ' of ' + stated.size + ' elements that state their volume have another: ' + listed(off));
+    }
+    if (open.length > 0) {
+      this.warnings.push(open.length + ' of ' + stated.size + ' elements that state their volume are open: ' + listed(open));
+    }
+  }
+  statedVolumes() {
+    const stated = new Map();
+    const unit = this.volumeUnit();
+    for (const relation of this.lines('IfcRelDefinesByProperties')) {
+      const set = relation.RelatingPropertyDefinition && this.line(relation.RelatingPropertyDefinition.value);
+      for (const reference of (set && set.Quantities) || []) {
+        const quantity = this.line(reference.value);
+        const volume = Number(valueOf(quantity.VolumeValue));
+        if (!/^(net ?)?volume$/i.test(String(valueOf(quantity.Name))) || !(volume > 0)) continue;
+        for (const object of relation.RelatedObjects || []) {
+          if (this.shown.has(object.value)) stated.set(object.value, volume * unit);
+        }
+      }
+    }
+    return stated;
+  }
+  volumeUnit() {
+    const prefixes = {CENTI: 1e-2, DECI: 1e-1, MILLI: 1e-3, KILO: 1e3};
+    for (const unit of this.lines('IfcSIUnit')) {
+      if (valueOf(unit.UnitType) === 'VOLUMEUNIT') return (prefixes[valueOf(unit.Prefix)] || 1) ** 3;
+    }
+    for (const unit of this.lines('IfcConversionBasedUnit')) {
+      const factor = unit.ConversionFactor && this.line(unit.ConversionFactor.value);
+      if (valueOf(unit.UnitType) === 'VOLUMEUNIT') return Number(valueOf(factor.ValueComponent)) || 1;
+    }
+    return 1;
+  }
+  // By Gauss's theorem about a vertex of each part; null: an edge without a partner of the other direction.
+  volumeOf(ranges) {
+    let volume = 0;
+    const {vertices: v, triangles: t} = this;
+    for (const [from, to] of ranges) {
+      const edges = new Map();
+      const key = (i) => [0, 1, 2].map((c) => Math.round(v[3 * i + c] * 1e5)).join();
+      const o = 3 * t[from];
+      const at = (i) => [0, 1, 2].map((c) => v[3 * i + c] - v[o + c]);
+      for (let i = from; i < to; i += 4) {
+        const [a, b, c] = [at(t[i]), at(t[i + 1]), at(t[i + 2])];
+        volume += (a[0] * (b[1] * c[2] - b[2] * c[1]) + a[1] * (b[2] * c[0] - b[0] * c[2]) +
+          a[2] * (b[0] * c[1] - b[1] * c[0])) / 6;
+        for (const [from3, to3] of [[0, 1], [1, 2], [2, 0]]) {
+          const [p, q] = [key(t[i + from3]), key(t[i + to3])];
+          if (p === q) continue;
+          const [name, step] = p < q ? [p + '|' + q, 1] : [q + '|' + p, -1];
+          edges.set(name, (edges.get(name) || 0) + step);
+        }
+      }
+      for (const count of edges.values()) if (count !== 0) return null;
+    }
+    return Math.abs(volume);
   }
 
   // Where the file says the model stands: told, not applied, since placement.json decides.
@@ -154,6 +233,7 @@ async function main() {
   reader.readStyles();
   reader.readMeshes();
   reader.countLost();
+  reader.compareVolumes();
   reader.readMapConversion();
   fs.writeFileSync(out + '.bin', Buffer.from(new Float64Array(reader.vertices).buffer));
   fs.appendFileSync(out + '.bin', Buffer.from(new Uint32Array(reader.triangles).buffer));

@@ -84,6 +84,9 @@ void Send(const SurfaceNames& names, Sender* out) {
   out->Plain(names.rgb.has_value());
   out->Plain(names.rgb.value_or(Eigen::Vector3d(Eigen::Vector3d::Zero())));
   out->Plain(names.opacity);
+  out->Plain(names.is_solid);
+  out->Plain(names.index);
+  out->Plain(names.absorption_rgb);
   out->Text(names.texture);
   out->Text(names.texture_place);
 }
@@ -97,9 +100,34 @@ SurfaceNames ReceiveNames(Receiver* in) {
   const auto rgb = in->Plain<Eigen::Vector3d>();
   if (colored) names.rgb = rgb;
   names.opacity = in->Plain<double>();
+  names.is_solid = in->Plain<bool>();
+  names.index = in->Plain<double>();
+  names.absorption_rgb = in->Plain<Eigen::Vector3d>();
   names.texture = in->Text();
   names.texture_place = in->Text();
   return names;
+}
+
+void Send(const ModelLamp& lamp, Sender* out) {
+  out->Text(lamp.name);
+  out->Plain(lamp.position);
+  out->Plain(lamp.direction);
+  out->Plain(lamp.rgb);
+  out->Plain(lamp.candela);
+  out->Plain(lamp.inner_deg);
+  out->Plain(lamp.outer_deg);
+}
+
+ModelLamp ReceiveLamp(Receiver* in) {
+  ModelLamp lamp;
+  lamp.name = in->Text();
+  lamp.position = in->Plain<Eigen::Vector3d>();
+  lamp.direction = in->Plain<Eigen::Vector3d>();
+  lamp.rgb = in->Plain<Eigen::Vector3d>();
+  lamp.candela = in->Plain<double>();
+  lamp.inner_deg = in->Plain<std::optional<double>>();
+  lamp.outer_deg = in->Plain<std::optional<double>>();
+  return lamp;
 }
 
 void Send(const Model& model, Sender* out) {
@@ -129,6 +157,8 @@ void Send(const Model& model, Sender* out) {
     out->Text(name);
     out->Text(image);
   }
+  out->Plain(model.lamps.size());
+  for (const ModelLamp& lamp : model.lamps) Send(lamp, out);
   out->Plain(model.degenerate_faces);
   out->Plain(model.warnings.size());
   for (const std::string& warning : model.warnings) out->Text(warning);
@@ -160,6 +190,9 @@ Model ReceiveModel(Receiver* in) {
   for (size_t n = in->Plain<size_t>(); n > 0 && in->complete(); --n) {
     const std::string name = in->Text();
     model.images[name] = in->Text();
+  }
+  for (size_t n = in->Plain<size_t>(); n > 0 && in->complete(); --n) {
+    model.lamps.push_back(ReceiveLamp(in));
   }
   model.degenerate_faces = in->Plain<int>();
   for (size_t n = in->Plain<size_t>(); n > 0 && in->complete(); --n) {

@@ -7,7 +7,7 @@
 
 #include "calibration/files/error.h"
 #include "calibration/files/whole_file.h"
-#include "renderer/formats/file_reference.h"
+#include "renderer/foreign/file_reference.h"
 
 namespace insitu {
 namespace {

@@ -3,16 +3,17 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <cstdint>
 #include <limits>
 #include <map>
 
 #include "calibration/files/error.h"
-#include "renderer/dxf/dxf_name.h"
-#include "renderer/formats/file_reference.h"
-#include "renderer/formats/text_lines.h"
+#include "calibration/files/wording.h"
+#include "renderer/foreign/file_reference.h"
+#include "renderer/formats/obj_material.h"
+#include "renderer/formats/obj_words.h"
+#include "renderer/formats/unit_comment.h"
 #include "renderer/mesh/face_triangles.h"
 
 namespace insitu {
@@ -21,165 +22,6 @@ namespace {
 namespace fs = std::filesystem;
 using Eigen::Vector3d;
 
-constexpr double kLargestNumber = 1e12;
-
-// Words of a line, blanks between.
-class Words {
- public:
-  Words(const fs::path& path, int line, std::string_view text)
-      : path_(path), line_(line), rest_(text) {}
-
-  std::optional<std::string_view> Next() {
-    const size_t first = rest_.find_first_not_of(" \t\r");
-    if (first == std::string_view::npos) return std::nullopt;
-    const size_t end = std::min(rest_.find_first_of(" \t\r", first), rest_.size());
-    const std::string_view word = rest_.substr(first, end - first);
-    rest_.remove_prefix(end);
-    return word;
-  }
-  std::string Rest() {
-    const size_t first = rest_.find_first_not_of(" \t\r");
-    if (first == std::string_view::npos) return "";
-    return std::string(rest_.substr(first, rest_.find_last_not_of(" \t\r") - first + 1));
-  }
-  // The rest as a name; bytes that are no UTF-8 are Windows-1252.
-  std::string Name() { return Utf8FromDxf(Rest()); }
-  // nullopt: no number, not finite, beyond any; the word is passed over.
-  std::optional<double> FindNumber() {
-    const auto word = Next();
-    double value = 0;
-    if (!word || !ParseAll(*word, &value) || !(std::abs(value) <= kLargestNumber)) {
-      return std::nullopt;
-    }
-    return value;
-  }
-  double Number() {
-    const auto word = Next();
-    double value = 0;
-    if (!word || !ParseAll(*word, &value) || !(std::abs(value) <= kLargestNumber)) {
-      throw Error((word ? "\"" + std::string(word->substr(0, 40)) + "\"" : "the line ends") +
-                  ", expected a number of at most 1e12");
-    }
-    return value;
-  }
-  Vector3d Point() {
-    const double x = Number(), y = Number();
-    return {x, y, Number()};
-  }
-  InputError Error(const std::string& message) const { return {path_, line_, message}; }
-
-  template <typename T>
-  static bool ParseAll(std::string_view word, T* value) {
-    if (word.starts_with('+')) word.remove_prefix(1);
-    const auto [end, status] = std::from_chars(word.data(), word.data() + word.size(), *value);
-    return status == std::errc() && end == word.data() + word.size();
-  }
-
- private:
-  const fs::path& path_;
-  int line_;
-  std::string_view rest_;
-};
-
-// Calls `use` with the words of each line; a backslash at its end continues it.
-template <typename Use>
-void ForEachLine(const fs::path& path, const Use& use) {
-  TextLines lines(path);
-  std::string line, more;
-  for (int number = 1; lines.Next(&line); ++number) {
-    const int first = number;
-    while (line.ends_with('\\')) {
-      line.pop_back();
-      if (!lines.Next(&more)) break;
-      line += " " + more;
-      ++number;
-    }
-    Words words(path, first, line);
-    const auto keyword = words.Next();
-    if (keyword && keyword->front() != '#') use(*keyword, words, first);
-  }
-}
-
-struct ObjMaterial {
-  std::optional<Vector3d> rgb;
-  double opacity = 1;
-  std::string texture, texture_place;
-};
-
-// The image comes last, after options; its name may hold blanks.
-std::string TextureName(Words words) {
-  for (auto option = Words(words).Next(); option && option->starts_with('-');) {
-    words.Next();
-    const bool up_to_three = *option == "-o" || *option == "-s" || *option == "-t";
-    const int most = up_to_three ? 3 : *option == "-mm" ? 2 : 1;
-    double number = 0;
-    for (int i = 0; i < most; ++i) {
-      const auto value = Words(words).Next();
-      if (!value || (up_to_three && !Words::ParseAll(*value, &number))) break;
-      words.Next();
-    }
-    option = Words(words).Next();
-  }
-  return words.Name();
-}
-
-// "Kd r" means r r r; nullopt: "spectral" or "xyz", or no number.
-std::optional<Vector3d> ColorOf(Words words) {
-  const std::optional<double> r = words.FindNumber();
-  if (!r) return std::nullopt;
-  const std::optional<double> g = words.FindNumber(), b = words.FindNumber();
-  const Vector3d color(*r, g.value_or(*r), b.value_or(g.value_or(*r)));
-  return color.cwiseMax(0).cwiseMin(1);
-}
-
-// One material file. "d" goes before "Tr": programs write both alike, and d is the defined one.
-class MaterialsReader {
- public:
-  MaterialsReader(const fs::path& path, SkippedEntities* skipped)
-      : path_(path), skipped_(skipped) {}
-
-  std::map<std::string, ObjMaterial> Read() {
-    ForEachLine(path_, [this](std::string_view keyword, Words& words, int line) {
-      if (keyword == "newmtl") {
-        current_ = &materials_[words.Name()];
-        has_dissolve_ = false;
-      } else if (current_) {
-        ReadLine(keyword, words, line);
-      }
-    });
-    return std::move(materials_);
-  }
-
- private:
-  void ReadLine(std::string_view keyword, Words& words, int line) {
-    if (keyword == "Kd") {
-      current_->rgb = ColorOf(words);
-      if (!current_->rgb) Skip("Kd", "a colour that is no number: shown in mid grey");
-    } else if (keyword == "d" || keyword == "Tr") {
-      ReadOpacity(keyword == "d", words);
-    } else if (keyword == "map_Kd") {
-      current_->texture = TextureName(words);
-      current_->texture_place = path_.string() + ":" + std::to_string(line);
-    }
-  }
-  void ReadOpacity(bool is_dissolve, Words words) {
-    const auto first = Words(words).Next();
-    if (first && *first == "-halo") words.Next();
-    const std::optional<double> value = words.FindNumber();
-    if (!value) return Skip(is_dissolve ? "d" : "Tr", "no number: taken as opaque");
-    if (!is_dissolve && has_dissolve_) return;
-    has_dissolve_ |= is_dissolve;
-    current_->opacity = std::clamp(is_dissolve ? *value : 1 - *value, 0.0, 1.0);
-  }
-  void Skip(const char* kind, const char* reason) { ++(*skipped_)[{kind, reason}]; }
-
-  fs::path path_;
-  SkippedEntities* skipped_;
-  std::map<std::string, ObjMaterial> materials_;
-  ObjMaterial* current_ = nullptr;
-  bool has_dissolve_ = false;
-};
-
 class ObjReader {
  public:
   explicit ObjReader(const fs::path& path) : path_(path), index_(&model_.mesh.surfaces) {
@@ -187,8 +29,10 @@ class ObjReader {
   }
 
   Model Read() {
-    ForEachLine(path_,
-                [this](std::string_view keyword, Words& words, int) { ReadLine(keyword, words); });
+    ForEachObjLine(
+        path_, [this](std::string_view keyword, ObjWords& words, int) { ReadLine(keyword, words); },
+        [this](const std::string& line) { ReadComment(line); });
+    for (Vector3d& vertex : model_.mesh.vertices) vertex *= model_.metres_per_unit.value_or(1);
     if (has_vertex_colors_) model_.skipped[{"colour by vertex", "not shown"}] = 1;
     if (uvs_.empty()) model_.mesh.corner_uvs.clear();
     if (normals_.empty()) model_.mesh.corner_normals.clear();
@@ -197,7 +41,7 @@ class ObjReader {
   }
 
  private:
-  void ReadLine(std::string_view keyword, Words& words) {
+  void ReadLine(std::string_view keyword, ObjWords& words) {
     ModelMesh& mesh = model_.mesh;
     if (keyword == "v") {
       mesh.vertices.push_back(words.Point());
@@ -223,6 +67,17 @@ class ObjReader {
     }
   }
 
+  void ReadComment(const std::string& line) {
+    const std::optional<UnitComment> comment = ReadUnitComment(line);
+    if (!comment || model_.metres_per_unit) return;
+    model_.metres_per_unit = comment->metres;
+    model_.warnings.push_back(
+        InputError(path_,
+                   "its comment " + Quoted(comment->text) +
+                       (comment->metres ? " is taken as its unit" : " names no unit that is known"))
+            .what());
+  }
+
   void Skip(const std::string& keyword) {
     const bool line_or_point = keyword == "l" || keyword == "p";
     ++model_.entities[keyword.substr(0, 20)];
@@ -232,7 +87,7 @@ class ObjReader {
   }
 
   // A normal that is none is passed over; its faces have their own.
-  void AddNormal(Words& words) {
+  void AddNormal(ObjWords& words) {
     constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
     const double x = words.FindNumber().value_or(kNone), y = words.FindNumber().value_or(kNone);
     const Vector3d normal(x, y, words.FindNumber().value_or(kNone));
@@ -245,7 +100,7 @@ class ObjReader {
   // One name, with blanks or without, or several.
   void ReadLibraries(const std::string& names) {
     if (FindReference(path_, names)) return ReadLibrary(names);
-    Words words(path_, 0, names);
+    ObjWords words(path_, 0, names);
     while (const auto name = words.Next()) {
       if (!FindReference(path_, std::string(*name))) return ReadLibrary(names);
       ReadLibrary(std::string(*name));
@@ -260,7 +115,7 @@ class ObjReader {
               .what());
       return;
     }
-    for (auto& [material, values] : MaterialsReader(*file, &model_.skipped).Read()) {
+    for (auto& [material, values] : ReadObjMaterials(*file, &model_.skipped)) {
       materials_[material] = values;
     }
     surface_.reset();
@@ -272,9 +127,9 @@ class ObjReader {
   };
 
   // From 1, or from the end if negative.
-  static int Index(const Words& words, std::string_view text, size_t count, const char* what) {
+  static int Index(const ObjWords& words, std::string_view text, size_t count, const char* what) {
     int64_t index = 0;
-    if (!Words::ParseAll(text, &index)) {
+    if (!ObjWords::ParseAll(text, &index)) {
       throw words.Error("\"" + std::string(text.substr(0, 40)) + "\", expected the number of a " +
                         what);
     }
@@ -287,7 +142,7 @@ class ObjReader {
     return static_cast<int>(from_zero);
   }
 
-  Corner CornerOf(const Words& words, std::string_view word) const {
+  Corner CornerOf(const ObjWords& words, std::string_view word) const {
     const size_t first = std::min(word.find('/'), word.size());
     const std::string_view rest = word.substr(std::min(first + 1, word.size()));
     const size_t second = std::min(rest.find('/'), rest.size());
@@ -300,7 +155,7 @@ class ObjReader {
     return corner;
   }
 
-  void AddFace(Words& words) {
+  void AddFace(ObjWords& words) {
     std::vector<Corner> corners;
     for (auto word = words.Next(); word && !word->starts_with('#'); word = words.Next()) {
       corners.push_back(CornerOf(words, *word));

@@ -11,7 +11,7 @@ namespace insitu {
 
 // v, vt, vn, f (negative indices, polygons of any size), o, g, usemtl, mtllib. A layer is an object
 // and its group: "object", "group" or "object/group". Of a material: Kd (taken as linear
-// reflectance), d or Tr, map_Kd. Coordinates are metres, z up.
+// reflectance), d or Tr, map_Kd. Coordinates are metres, or what a comment on units says; z up.
 // A normal, texture coordinate or colour that is no number, or a face of fewer than three corners,
 // costs only itself and is counted as skipped.
 // Throws InputError at the line: a face that names a vertex out of range, a coordinate that is no

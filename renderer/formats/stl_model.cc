@@ -12,8 +12,8 @@
 #include "calibration/files/error.h"
 #include "calibration/files/whole_file.h"
 #include "calibration/files/wording.h"
-#include "renderer/formats/cut_short.h"
-#include "renderer/formats/text_lines.h"
+#include "renderer/foreign/cut_short.h"
+#include "renderer/foreign/text_lines.h"
 #include "renderer/mesh/face_triangles.h"
 
 namespace insitu {
@@ -60,7 +60,7 @@ void ReadBinaryStl(const fs::path& path, Model* model) {
     Vector3d corners[3];
     for (int i = 0; i < 9; ++i) corners[i / 3][i % 3] = numbers[3 + i];
     for (const Vector3d& corner : corners) {
-      if (corner.cwiseAbs().maxCoeff() <= kLargestOfStl) continue;
+      if ((corner.array().abs() <= kLargestOfStl).all()) continue;
       throw InputError(path, "facet " + std::to_string(f + 1) +
                                  " has a corner that is not finite or beyond 1e12");
     }

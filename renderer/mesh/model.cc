@@ -10,7 +10,9 @@ using Eigen::Vector3i;
 
 std::string KeyOf(const SurfaceNames& names) {
   std::string key = names.layer + '\0' + names.block + '\0' + names.material + '\0' +
-                    names.texture + '\0' + std::to_string(names.opacity);
+                    names.texture + '\0' + std::to_string(names.opacity) + '\0' +
+                    std::to_string(names.index) + (names.is_solid ? "s" : "p");
+  key.append(reinterpret_cast<const char*>(names.absorption_rgb.data()), sizeof(double) * 3);
   if (names.rgb) key.append(reinterpret_cast<const char*>(names.rgb->data()), sizeof(double) * 3);
   return key;
 }

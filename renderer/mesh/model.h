@@ -22,6 +22,9 @@ struct SurfaceNames {
   double opacity = 1;                  // there; 0: clear
   std::string texture;                 // image file of its colour, as named there; may be empty
   std::string texture_place;           // where it is named, "file:line", for messages
+  bool is_solid = false;               // its faces bound a body of glass, not panes
+  double index = 1.5;                  // of refraction, > 1
+  Eigen::Vector3d absorption_rgb = Eigen::Vector3d::Zero();  // of such a body, >= 0 [1/m]
 
   bool operator==(const SurfaceNames&) const = default;
 };
@@ -41,6 +44,16 @@ struct ModelMesh {
 // Kind and reason -> how many.
 using SkippedEntities = std::map<std::pair<std::string, std::string>, int>;
 
+// A point or spot light that a file holds.
+struct ModelLamp {
+  std::string name;
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();     // [m], in the model's frame, z up
+  Eigen::Vector3d direction = -Eigen::Vector3d::UnitZ();  // unit, of a spot
+  Eigen::Vector3d rgb = Eigen::Vector3d::Ones();          // linear Rec. 709, 0..1
+  double candela = 0;                                     // along its direction
+  std::optional<double> inner_deg, outer_deg;             // of a spot, from its axis
+};
+
 struct Model {
   ModelMesh mesh;                         // [m], in the model's own frame, z up
   std::string format;                     // "DXF R2000, binary", "IFC2X3", ...
@@ -48,8 +61,9 @@ struct Model {
   std::map<std::string, int> entities;    // kind -> count, each as often as the file holds it
   SkippedEntities skipped;                // what carries no surface, is hidden, or cannot be read
   std::map<std::string, std::string> images;  // held by the file: "*0" as texture -> PNG, JPEG, ...
-  int degenerate_faces = 0;                   // dropped: no area, or an outline that crosses itself
-  std::vector<std::string> warnings;          // anything else a user must know
+  std::vector<ModelLamp> lamps;
+  int degenerate_faces = 0;           // dropped: no area, or an outline that crosses itself
+  std::vector<std::string> warnings;  // anything else a user must know
 };
 
 // Finds or adds surfaces of a mesh in constant time.

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <map>
 #include <numbers>
 #include <set>
@@ -364,6 +365,26 @@ TEST(Dxf, NamesBecomeUtf8) {
   EXPECT_EQ(Utf8FromDxf("\x8A\xBF", "ANSI_932"), "漢");
   EXPECT_EQ(Utf8FromDxf("\\M+18ABF"), "漢");
   EXPECT_EQ(Utf8FromDxf("A\\U+D800\\U+12"), "A\\U+D800\\U+12");  // no characters: left alone
+}
+
+// AutoCAD names a state of a dynamic block *U3 and tells which block it is one of.
+TEST(DxfBlocks, StatesOfDynamicBlocksHaveTheirName) {
+  const Model model = ReadText(DxfText(
+      "0 SECTION\n2 TABLES\n0 BLOCK_RECORD\n5 2F\n2 Fenster\n"
+      "0 BLOCK_RECORD\n5 32\n2 *U3\n1001 AcDbBlockRepBTag\n1070 1\n1005 2F\n"
+      "0 BLOCK_RECORD\n5 33\n2 *U4\n1001 OTHER\n1005 2F\n0 ENDSEC\n"
+      "0 SECTION\n2 BLOCKS\n0 BLOCK\n2 *U3\n" +
+      UnitSquare("W") + "0 ENDBLK\n0 BLOCK\n2 *U4\n" + UnitSquare("W", "1") +
+      "0 ENDBLK\n0 ENDSEC\n" + EntitiesSection("0 INSERT\n2 *U3\n0 INSERT\n2 *U4\n") + "0 EOF\n"));
+  ASSERT_EQ(model.mesh.surfaces.size(), 2u);
+  EXPECT_EQ(model.mesh.surfaces[0].block, "Fenster");
+  EXPECT_EQ(model.mesh.surfaces[1].block, "");
+}
+
+TEST(DxfReader, LinesMayEndInCarriageReturnsAlone) {
+  std::string text = DrawingText(UnitSquare("W"));
+  std::ranges::replace(text, '\n', '\r');
+  EXPECT_EQ(ReadText(text).mesh.triangles.size(), 2u);
 }
 
 }  // namespace

@@ -78,5 +78,25 @@ TEST(IfcModel, WithoutItsReaderIsRefusedWithAWord) {
   EXPECT_THAT(complaint, HasSubstr("web-ifc is missing"));
 }
 
+// Quantities may be in another unit than lengths: litres here.
+TEST(IfcModel, StatedVolumesAreHeldAgainstTheFaces) {
+  if (!WebIfcFolder()) GTEST_SKIP() << "web-ifc is not there: scripts/setup fetches it";
+  const auto warnings = [](const std::string& litres) {
+    const ScratchFolder folder;
+    std::string text = kBox;
+    text.insert(text.rfind("ENDSEC;"),
+                "#90=IFCQUANTITYVOLUME('NetVolume',$,$," + litres +
+                    ");\n#91=IFCELEMENTQUANTITY('a',$,'BaseQuantities',$,$,(#90));\n"
+                    "#92=IFCRELDEFINESBYPROPERTIES('b',$,$,$,(#18),#91);\n"
+                    "#93=IFCSIUNIT(*,.VOLUMEUNIT.,.DECI.,.CUBIC_METRE.);\n");
+    return ReadIfc(folder.Write("a.ifc", text), 60).warnings;
+  };
+  EXPECT_TRUE(warnings("5097.").empty());
+  const std::vector<std::string> off = warnings("6000.");
+  ASSERT_EQ(off.size(), 1u);
+  EXPECT_THAT(off[0], HasSubstr("1 of 1 elements that state their volume have another"));
+  EXPECT_THAT(off[0], HasSubstr("5.097 m3, stated 6.000"));
+}
+
 }  // namespace
 }  // namespace insitu

@@ -33,7 +33,8 @@ TEST(Isolated, ACrashOrAnEndlessLoopThereIsAFailureHere) {
 
 TEST(Isolated, BringsTheWholeModel) {
   Model model;
-  model.mesh.surfaces = {{"a", "b", "c", Vector3d(1, 0.5, 0), 0.3, "t.png", "m:1"}, {}};
+  model.mesh.surfaces = {
+      {"a", "b", "c", Vector3d(1, 0.5, 0), 0.3, "t.png", "m:1", true, 1.33, Vector3d(1, 2, 3)}, {}};
   model.mesh.vertices = {{1, 2, 3}, {4, 5, 6}, {7, 8, 1e9 / 3}};
   model.mesh.triangles = {{0, 1, 2}};
   model.mesh.surface_of_triangle = {1};
@@ -42,6 +43,7 @@ TEST(Isolated, BringsTheWholeModel) {
   model.images = {{"*0", std::string("\x89PNG\0", 5)}};
   model.skipped = {{{"line", "no surface"}, 3}};
   model.warnings = {"careful"};
+  model.lamps = {{"spot", {1, 2, 3}, {0, 1, 0}, {1, 0.5, 0}, 800, 10.0, 45.0}};
   model.metres_per_unit = 0.5;
   const auto read = ReadIsolated([&] { return model; }).model;
   ASSERT_TRUE(read);
@@ -54,6 +56,11 @@ TEST(Isolated, BringsTheWholeModel) {
   EXPECT_EQ(read->skipped, model.skipped);
   EXPECT_EQ(read->warnings, model.warnings);
   EXPECT_EQ(read->metres_per_unit, 0.5);
+  ASSERT_EQ(read->lamps.size(), 1u);
+  EXPECT_EQ(read->lamps[0].name, "spot");
+  EXPECT_EQ(read->lamps[0].position, Vector3d(1, 2, 3));
+  EXPECT_EQ(read->lamps[0].candela, 800);
+  EXPECT_EQ(read->lamps[0].outer_deg, 45.0);
 }
 
 TEST(Isolated, LimitsNameTheFieldThatIsWrong) {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "renderer/formats/file_reference.h"
+#include "renderer/foreign/file_reference.h"
 
 #include <gtest/gtest.h>
 
-#include "renderer/formats/text_lines.h"
+#include "renderer/foreign/text_lines.h"
 #include "tests/calibration/files/scratch_folder.h"
 
 namespace insitu {

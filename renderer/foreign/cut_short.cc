@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "renderer/formats/cut_short.h"
+#include "renderer/foreign/cut_short.h"
 
 #include <algorithm>
 #include <fstream>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "renderer/formats/text_lines.h"
+#include "renderer/foreign/text_lines.h"
 
 #include <cstdint>
 #include <fstream>

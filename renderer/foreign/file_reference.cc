@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "renderer/formats/file_reference.h"
+#include "renderer/foreign/file_reference.h"
 
 #include <algorithm>
 #include <charconv>

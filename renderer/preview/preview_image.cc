@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "renderer/preview_image.h"
+#include "renderer/preview/preview_image.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "renderer/formats/obj_material.h"
+
+#include <algorithm>
+
+#include "renderer/formats/obj_words.h"
+
+namespace insitu {
+namespace {
+
+namespace fs = std::filesystem;
+using Eigen::Vector3d;
+
+// The image comes last, after options; its name may hold blanks.
+std::string TextureName(ObjWords words) {
+  for (auto option = ObjWords(words).Next(); option && option->starts_with('-');) {
+    words.Next();
+    const bool up_to_three = *option == "-o" || *option == "-s" || *option == "-t";
+    const int most = up_to_three ? 3 : *option == "-mm" ? 2 : 1;
+    double number = 0;
+    for (int i = 0; i < most; ++i) {
+      const auto value = ObjWords(words).Next();
+      if (!value || (up_to_three && !ObjWords::ParseAll(*value, &number))) break;
+      words.Next();
+    }
+    option = ObjWords(words).Next();
+  }
+  return words.Name();
+}
+
+// "Kd r" means r r r; nullopt: "spectral" or "xyz", or no number.
+std::optional<Vector3d> ColorOf(ObjWords words) {
+  const std::optional<double> r = words.FindNumber();
+  if (!r) return std::nullopt;
+  const std::optional<double> g = words.FindNumber(), b = words.FindNumber();
+  const Vector3d color(*r, g.value_or(*r), b.value_or(g.value_or(*r)));
+  return color.cwiseMax(0).cwiseMin(1);
+}
+
+class MaterialsReader {
+ public:
+  MaterialsReader(const fs::path& path, SkippedEntities* skipped)
+      : path_(path), skipped_(skipped) {}
+
+  std::map<std::string, ObjMaterial> Read() {
+    ForEachObjLine(
+        path_,
+        [this](std::string_view keyword, ObjWords& words, int line) {
+          if (keyword == "newmtl") {
+            current_ = &materials_[words.Name()];
+            has_dissolve_ = false;
+          } else if (current_) {
+            ReadLine(keyword, words, line);
+          }
+        },
+        [](const std::string&) {});
+    return std::move(materials_);
+  }
+
+ private:
+  void ReadLine(std::string_view keyword, ObjWords& words, int line) {
+    if (keyword == "Kd") {
+      current_->rgb = ColorOf(words);
+      if (!current_->rgb) Skip("Kd", "a colour that is no number: shown in mid grey");
+    } else if (keyword == "d" || keyword == "Tr") {
+      ReadOpacity(keyword == "d", words);
+    } else if (keyword == "map_Kd") {
+      current_->texture = TextureName(words);
+      current_->texture_place = path_.string() + ":" + std::to_string(line);
+    }
+  }
+  void ReadOpacity(bool is_dissolve, ObjWords words) {
+    const auto first = ObjWords(words).Next();
+    if (first && *first == "-halo") words.Next();
+    const std::optional<double> value = words.FindNumber();
+    if (!value) return Skip(is_dissolve ? "d" : "Tr", "no number: taken as opaque");
+    if (!is_dissolve && has_dissolve_) return;
+    has_dissolve_ |= is_dissolve;
+    current_->opacity = std::clamp(is_dissolve ? *value : 1 - *value, 0.0, 1.0);
+  }
+  void Skip(const char* kind, const char* reason) { ++(*skipped_)[{kind, reason}]; }
+
+  fs::path path_;
+  SkippedEntities* skipped_;
+  std::map<std::string, ObjMaterial> materials_;
+  ObjMaterial* current_ = nullptr;
+  bool has_dissolve_ = false;
+};
+
+}  // namespace
+
+std::map<std::string, ObjMaterial> ReadObjMaterials(const fs::path& path,
+                                                    SkippedEntities* skipped) {
+  return MaterialsReader(path, skipped).Read();
+}
+
+}  // namespace insitu

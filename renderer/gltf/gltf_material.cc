@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "renderer/gltf/gltf_material.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "renderer/gltf/gltf_json.h"
+
+namespace insitu {
+namespace {
+
+using Eigen::Vector3d;
+
+Vector3d ColorIn(const Json::Value& value, const char* name, const Vector3d& other) {
+  const auto color = NumbersOf(value, name, 3);
+  return color ? Vector3d(color->cwiseMax(0).cwiseMin(1)) : other;
+}
+
+class GltfMaterialReader {
+ public:
+  GltfMaterialReader(GltfFile* file, const Json::Value& json, Model* model)
+      : file_(*file), json_(json), model_(*model), file_to_read_(file) {}
+
+  GltfMaterial Read(const std::string& name) {
+    material_.names.material = name;
+    const Json::Value& gloss = ExtensionOf(json_, "KHR_materials_pbrSpecularGlossiness");
+    const Json::Value& metal = MemberOf(json_, "pbrMetallicRoughness");
+    if (gloss.isObject()) {
+      ReadColor(gloss, "diffuseFactor", "diffuseTexture");
+    } else {
+      ReadColor(metal, "baseColorFactor", "baseColorTexture");
+    }
+    ReadGlass();
+    CountWhatIsNotShown(gloss, metal);
+    return material_;
+  }
+
+ private:
+  void ReadColor(const Json::Value& value, const char* factor, const char* texture) {
+    material_.names.rgb = ColorIn(value, factor, Vector3d::Ones());
+    const auto four = NumbersOf(value, factor, 4);
+    const double alpha = four ? std::clamp((*four)[3], 0.0, 1.0) : 1;
+    const std::string mode = TextOf(json_, "alphaMode");
+    if (mode == "BLEND") material_.names.opacity = alpha;
+    if (mode == "MASK") {
+      material_.names.opacity = alpha >= NumberOf(json_, "alphaCutoff", 0.5) ? 1 : 0;
+    }
+    ReadTexture(MemberOf(value, texture));
+  }
+
+  void ReadTexture(const Json::Value& place) {
+    const std::optional<int> index = IndexOf(place, "index");
+    if (!index) return;
+    const Json::Value& transform = ExtensionOf(place, "KHR_texture_transform");
+    material_.texture_set =
+        IndexOf(transform, "texCoord").value_or(IndexOf(place, "texCoord").value_or(0));
+    const auto offset = NumbersOf(transform, "offset", 2), scale = NumbersOf(transform, "scale", 2);
+    const double turn = NumberOf(transform, "rotation", 0);
+    // T R S of the specification, v down: its rotation is clockwise for us.
+    if (offset) material_.image_from_texture.translate(Eigen::Vector2d(*offset));
+    material_.image_from_texture.rotate(Eigen::Rotation2Dd(-turn));
+    if (scale) material_.image_from_texture.scale(Eigen::Vector2d(*scale));
+    const Json::Value& texture = file_.Item("textures", *index, "a material");
+    auto source = IndexOf(texture, "source");
+    if (const auto webp = IndexOf(ExtensionOf(texture, "EXT_texture_webp"), "source")) {
+      if (!source) source = webp;
+    }
+    if (!source) return Skip("texture", "of a kind that is not read: its colour alone is shown");
+    ReadImage(*source);
+  }
+
+  void ReadImage(int index) {
+    const Json::Value& image = file_.Item("images", index, "a texture");
+    const std::string uri = TextOf(image, "uri"), name = "*" + std::to_string(index);
+    material_.names.texture_place = file_.path().string();
+    material_.names.texture = name;
+    if (const auto view = IndexOf(image, "bufferView")) {
+      model_.images[name] = std::string(file_to_read_->View(*view));
+    } else if (uri.starts_with("data:")) {
+      model_.images[name] = file_.BytesOfUri(uri);
+    } else {
+      material_.names.texture = uri;
+    }
+  }
+
+  void ReadGlass() {
+    const Json::Value& transmission = ExtensionOf(json_, "KHR_materials_transmission");
+    const double through = NumberOf(transmission, "transmissionFactor", 0);
+    material_.names.opacity *= 1 - std::clamp(through, 0.0, 1.0);
+    const double index = NumberOf(ExtensionOf(json_, "KHR_materials_ior"), "ior", 1.5);
+    if (index > 1) material_.names.index = index;
+    const Json::Value& volume = ExtensionOf(json_, "KHR_materials_volume");
+    material_.names.is_solid = NumberOf(volume, "thicknessFactor", 0) > 0;
+    const double distance = NumberOf(volume, "attenuationDistance", 0);
+    if (distance <= 0) return;
+    constexpr double kDarkest = 1e-6;
+    material_.names.absorption_rgb =
+        -ColorIn(volume, "attenuationColor", Vector3d::Ones()).cwiseMax(kDarkest).array().log() /
+        distance;
+    material_.names.absorption_rgb = material_.names.absorption_rgb.cwiseMax(0);
+  }
+
+  void CountWhatIsNotShown(const Json::Value& gloss, const Json::Value& metal) {
+    for (const char* map : {"normalTexture", "occlusionTexture", "emissiveTexture"}) {
+      if (MemberOf(json_, map).isObject()) Skip(map, "not shown");
+    }
+    if (MemberOf(metal, "metallicRoughnessTexture").isObject()) {
+      Skip("metallicRoughnessTexture", "not shown");
+    }
+    if (MemberOf(gloss, "specularGlossinessTexture").isObject()) {
+      Skip("specularGlossinessTexture", "not shown");
+    }
+    const double strength =
+        NumberOf(ExtensionOf(json_, "KHR_materials_emissive_strength"), "emissiveStrength", 1);
+    if (ColorIn(json_, "emissiveFactor", Vector3d::Zero()).maxCoeff() * strength > 0) {
+      Skip("emissiveFactor", "its faces do not shine: list lamps in lights.json");
+    }
+    if (NumberOf(metal, "metallicFactor", 0) > 0) {
+      Skip("metallicFactor", "shown as a diffuse surface: see specular of materials.json");
+    }
+  }
+  void Skip(const char* kind, const char* reason) { ++model_.skipped[{kind, reason}]; }
+
+  const GltfFile& file_;
+  const Json::Value& json_;
+  Model& model_;
+  GltfFile* file_to_read_;
+  GltfMaterial material_;
+};
+
+}  // namespace
+
+GltfMaterial ReadGltfMaterial(GltfFile* file, int index, Model* model) {
+  const Json::Value& json = file->Item("materials", index, "a mesh");
+  std::string name = TextOf(json, "name");
+  if (name.empty()) name = "material " + std::to_string(index);
+  return GltfMaterialReader(file, json, model).Read(name);
+}
+
+}  // namespace insitu

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "renderer/preview/turntable.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+
+#include "calibration/files/error.h"
+#include "tests/calibration/files/scratch_folder.h"
+
+namespace insitu {
+namespace {
+
+using testing::HasSubstr;
+
+// A square of two triangles far from the origin, with four open edges.
+ArtificialEnvironment Square() {
+  ArtificialEnvironment building;
+  building.materials.resize(1);
+  building.vertices = {{2600000, 0, 0}, {2600002, 0, 0}, {2600002, 2, 0}, {2600000, 2, 0}};
+  building.triangles = {{0, 1, 2}, {0, 2, 3}};
+  building.material_of_triangle = {0, 0};
+  return building;
+}
+
+class TurntablePage : public testing::Test {
+ protected:
+  void SetUp() override {
+    folder_.Write("three.min.js", "/* three */");
+    folder_.Write("OrbitControls.js", "/* controls */");
+    setenv("INSITU_THREE", folder_.path().c_str(), 1);
+  }
+  void TearDown() override { unsetenv("INSITU_THREE"); }
+  ScratchFolder folder_;
+};
+
+TEST_F(TurntablePage, HoldsAllThatItNeeds) {
+  const std::string page = Turntable(Square(), {{"a</script>b"}, {0, 0}});
+  EXPECT_THAT(page, HasSubstr("/* three */"));
+  EXPECT_THAT(page, HasSubstr("/* controls */"));
+  EXPECT_THAT(page, HasSubstr("\"center\":[2600001"));
+  EXPECT_THAT(page, HasSubstr("a<\\/script>b"));
+  EXPECT_THAT(page, HasSubstr("a&lt;/script&gt;b"));
+  // Edges 0-1, 0-3, 1-2, 2-3 as 32-bit numbers; 0-2 has two triangles.
+  EXPECT_THAT(page, HasSubstr("\"open_edges\":\"AAAAAAEAAAAAAAAAAwAAAAEAAAACAAAAAgAAAAMAAAA=\""));
+}
+
+TEST_F(TurntablePage, IsLeftOutWithoutThree) {
+  setenv("INSITU_THREE", "/nowhere", 1);
+  EXPECT_EQ(Turntable(Square(), {{"a"}, {0, 0}}), "");
+}
+
+TEST_F(TurntablePage, IsLeftOutWithoutFaces) {
+  EXPECT_EQ(Turntable(ArtificialEnvironment(), {}), "");
+  EXPECT_THROW(Turntable(Square(), {{"a"}, {0}}), CheckError);
+}
+
+}  // namespace
+}  // namespace insitu
