@@ -14,8 +14,8 @@
 #include <variant>
 #include <vector>
 
+#include "calibration/color/srgb_table.h"
 #include "calibration/files/error.h"
-#include "calibration/photo/srgb_table.h"
 
 namespace insitu {
 namespace {

@@ -15,15 +15,15 @@
 #include <utility>
 #include <vector>
 
+#include "calibration/color/response.h"
+#include "calibration/color/srgb_table.h"
+#include "calibration/color/stated_color.h"
 #include "calibration/files/error.h"
 #include "calibration/files/error_at.h"
-#include "calibration/files/raw_ending.h"
 #include "calibration/files/whole_file.h"
 #include "calibration/photo/copy_metadata.h"
 #include "calibration/photo/raw_photograph.h"
-#include "calibration/photo/response.h"
-#include "calibration/photo/srgb_table.h"
-#include "calibration/photo/stated_color.h"
+#include "calibration/program/raw_ending.h"
 
 namespace insitu {
 namespace {

@@ -5,7 +5,7 @@
 #include <Eigen/Core>
 #include <filesystem>
 
-#include "calibration/photo/photograph.h"
+#include "calibration/photo/coded_photograph.h"
 
 namespace insitu {
 

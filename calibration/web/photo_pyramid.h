@@ -7,7 +7,7 @@
 #include <opencv2/core.hpp>
 #include <vector>
 
-#include "calibration/photo/color_space.h"
+#include "calibration/color/color_space.h"
 
 namespace insitu {
 

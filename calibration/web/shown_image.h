@@ -5,7 +5,7 @@
 #include <opencv2/core.hpp>
 #include <string>
 
-#include "calibration/photo/color_space.h"
+#include "calibration/color/color_space.h"
 #include "calibration/web/pixel_value.h"
 
 namespace insitu {

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "calibration/photo/color_space.h"
+#include "calibration/color/color_space.h"
 
 namespace insitu {
 namespace {

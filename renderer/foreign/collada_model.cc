@@ -4,8 +4,8 @@
 #include <Eigen/Geometry>
 #include <numbers>
 
+#include "calibration/color/color_space.h"
 #include "calibration/files/error.h"
-#include "calibration/photo/color_space.h"
 #include "renderer/foreign/collada_geometry.h"
 #include "renderer/foreign/collada_library.h"
 #include "renderer/foreign/collada_material.h"

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "calibration/color/color_space.h"
 #include "calibration/files/whole_file.h"
-#include "calibration/photo/color_space.h"
 
 namespace insitu {
 namespace {

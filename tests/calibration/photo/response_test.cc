@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "calibration/photo/response.h"
+#include "calibration/color/response.h"
 
 #include "calibration/photo/montage_files.h"
 #include "calibration/photo/photograph.h"

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "calibration/photo/stated_color.h"
+#include "calibration/color/stated_color.h"
 
 #include <cmath>
 #include <exiv2/exiv2.hpp>
 
+#include "calibration/color/icc_profile.h"
 #include "calibration/files/whole_file.h"
-#include "calibration/photo/icc_profile.h"
 #include "calibration/photo/photograph.h"
 #include "tests/calibration/files/scratch_folder.h"
 #include "tests/calibration/photo/made_photographs.h"

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "calibration/photo/color_space.h"
+#include "calibration/color/color_space.h"
 
 namespace insitu {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "calibration/photo/color_space.h"
+#include "calibration/color/color_space.h"
 
 #include <algorithm>
 #include <cmath>

@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <string>
 
-#include "calibration/photo/color_space.h"
+#include "calibration/color/color_space.h"
 
 namespace insitu {
 

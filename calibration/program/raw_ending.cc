@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "calibration/files/raw_ending.h"
+#include "calibration/program/raw_ending.h"
 
 #include <algorithm>
 #include <array>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "calibration/photo/icc_profile.h"
+#include "calibration/color/icc_profile.h"
 
 #include <lcms2.h>
 

@@ -13,7 +13,7 @@
 #include <utility>
 #include <vector>
 
-#include "calibration/photo/color_space.h"
+#include "calibration/color/color_space.h"
 
 namespace insitu {
 

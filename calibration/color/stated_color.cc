@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "calibration/photo/stated_color.h"
+#include "calibration/color/stated_color.h"
 
 #include <zlib.h>
 
@@ -10,9 +10,9 @@
 #include <optional>
 #include <string_view>
 
+#include "calibration/color/icc_profile.h"
 #include "calibration/files/error.h"
 #include "calibration/files/whole_file.h"
-#include "calibration/photo/icc_profile.h"
 
 namespace insitu {
 namespace {
