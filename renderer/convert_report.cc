@@ -238,16 +238,16 @@ std::string Conversion::BriefReport() const {
     report += "  from " + Written(box.min()) + " to " + Written(box.max()) + " m\n";
   }
   constexpr size_t kMostLayers = 30;
-  std::vector<std::pair<std::string, int>> layers(triangles_of_layer.begin(),
-                                                  triangles_of_layer.end());
-  if (layers.size() > kMostLayers) {
-    std::ranges::stable_sort(layers, std::greater(), &std::pair<std::string, int>::second);
+  std::vector<std::pair<std::string, int>> largest(triangles_of_layer.begin(),
+                                                   triangles_of_layer.end());
+  if (largest.size() > kMostLayers) {
+    std::ranges::stable_sort(largest, std::greater(), &std::pair<std::string, int>::second);
   }
-  for (size_t i = 0; i < std::min(layers.size(), kMostLayers); ++i) {
-    report += "  " + layers[i].first + ": " + std::to_string(layers[i].second) + "\n";
+  for (size_t i = 0; i < std::min(largest.size(), kMostLayers); ++i) {
+    report += "  " + largest[i].first + ": " + std::to_string(largest[i].second) + "\n";
   }
-  if (layers.size() > kMostLayers) {
-    report += "  and " + std::to_string(layers.size() - kMostLayers) + " smaller ones: --report\n";
+  if (largest.size() > kMostLayers) {
+    report += "  and " + std::to_string(largest.size() - kMostLayers) + " smaller ones: --report\n";
   }
   return report + WarningLines(warnings);
 }
