@@ -8,10 +8,10 @@
 #include <string>
 
 #include "calibration/files/error.h"
-#include "calibration/photo/photograph_set.h"
 #include "calibration/program/program.h"
 #include "radiometry/daylight_warnings.h"
 #include "radiometry/measure/measure_image_quality.h"
+#include "radiometry/measure/photograph_set.h"
 #include "radiometry/one_unit.h"
 #include "radiometry/site_photographs.h"
 #include "radiometry/transport/interreflection.h"

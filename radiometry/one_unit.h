@@ -2,8 +2,8 @@
 // Photographs of different exposure in the one unit of a site's radiances.
 #pragma once
 
-#include "calibration/photo/photograph_set.h"
 #include "radiometry/light_measurement.h"
+#include "radiometry/measure/photograph_set.h"
 
 namespace insitu {
 

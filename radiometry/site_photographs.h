@@ -5,10 +5,10 @@
 #include <vector>
 
 #include "calibration/photo/exif.h"
-#include "calibration/photo/photograph_set.h"
 #include "calibration/program/site.h"
 #include "radiometry/light/photographed_color.h"
 #include "radiometry/measure/photo_exposures.h"
+#include "radiometry/measure/photograph_set.h"
 #include "radiometry/natural_environment.h"
 
 namespace insitu {

@@ -32,9 +32,8 @@ LocalImage::LocalImage(const PosedCamera& posed, const Eigen::Vector3d& origin, 
       rgb(std::move(image)) {}
 
 LocalImage::LocalImage(const PosedCamera& posed, const Eigen::Vector3d& origin, const Raster& image)
-    : LocalImage(posed, origin, [&image](const Eigen::Vector2d& pixel) {
-        return Interpolate(image, pixel);
-      }) {}
+    : LocalImage(posed, origin,
+                 [&image](const Eigen::Vector2d& pixel) { return Interpolate(image, pixel); }) {}
 
 std::optional<PhotographedColor> LookUpColor(const PhotographedSite& site, int polygon,
                                              const SurfacePoint& surface) {

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "calibration/photo/exif.h"
-#include "calibration/photo/photograph_set.h"
+#include "radiometry/measure/photograph_set.h"
 #include "reconstruction/geometry/scene_geometry.h"
 
 namespace insitu {

@@ -10,8 +10,8 @@
 
 #include "calibration/files/error.h"
 #include "calibration/files/sentence.h"
-#include "calibration/photo/photograph_set.h"
 #include "calibration/program/site.h"
+#include "radiometry/measure/photograph_set.h"
 #include "radiometry/spectrum/spectral_table.h"
 #include "reconstruction/geometry/scene_geometry.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "renderer/render_inputs.h"
+#include "renderer/tiles/render_inputs.h"
 
 #include <set>
 
