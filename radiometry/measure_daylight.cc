@@ -3,15 +3,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numbers>
+#include <string>
 
 #include "calibration/files/error.h"
-#include "calibration/photo/photograph.h"
 #include "calibration/program/program.h"
-#include "calibration/site_cameras.h"
 #include "radiometry/daylight_warnings.h"
 #include "radiometry/measure/measure_image_quality.h"
+#include "radiometry/measure/photograph_set.h"
 #include "radiometry/one_unit.h"
+#include "radiometry/site_photographs.h"
 #include "radiometry/transport/interreflection.h"
 #include "reconstruction/geometry/ray_scene.h"
 
@@ -32,41 +34,6 @@ struct NothingPlanned {
   std::vector<Spectrum> brdfs;
   PlannedFaces faces{mesh, rays, normals, materials, brdfs};
 };
-
-// With what their EXIF tells of their exposure.
-std::vector<Photograph> ReadPhotographs(const SitePaths& site, const SceneGeometry& scene,
-                                        Progress* progress, std::vector<ExifExposure>* exposures) {
-  const std::vector<std::filesystem::path> paths = ListPhotographs(site);
-  std::vector<Photograph> photos;
-  for (const PosedCamera& posed : scene.cameras) {
-    const auto path = std::find_if(paths.begin(), paths.end(),
-                                   [&](const auto& p) { return p.stem() == posed.photo; });
-    if (path == paths.end()) {
-      throw InputError(site.photos(), "no photograph \"" + posed.photo +
-                                          "\", expected every one that was reconstructed");
-    }
-    RequirePhotographSize(*path, posed.camera.width(), posed.camera.height());
-    photos.push_back(ReadPhotograph(*path));
-    exposures->push_back(ReadExifExposure(*path));
-    progress->Step();
-  }
-  return photos;
-}
-
-// The camera of each photograph's input image, and where that is.
-std::vector<InputImage> ListInputImages(const SitePaths& site, const SceneGeometry& scene) {
-  const std::vector<std::filesystem::path> paths = ListPhotographs(site);
-  const std::vector<std::string> cameras = CamerasOfPhotos(site, paths);
-  std::map<std::string, std::string> camera_of_photo;
-  for (size_t i = 0; i < paths.size(); ++i) camera_of_photo[paths[i].stem().string()] = cameras[i];
-  std::vector<InputImage> images;
-  for (const PosedCamera& posed : scene.cameras) {
-    const std::filesystem::path pinhole = site.pinhole_camera(camera_of_photo.at(posed.photo));
-    RequireResult(pinhole, "insitu-undistort");
-    images.push_back({site.input_image(posed.photo), ReadCamera(pinhole)});
-  }
-  return images;
-}
 
 std::map<std::string, NaturalMaterial> MaterialsOfPolygons(const SitePaths& site,
                                                            const SceneGeometry& scene,
@@ -146,15 +113,6 @@ std::vector<SurfacePoint> SurfacePoints(const std::vector<PixelSample>& samples,
   return points;
 }
 
-std::vector<LocalImage> LocalImages(const SceneGeometry& scene,
-                                    const std::vector<Photograph>& photos) {
-  std::vector<LocalImage> images;
-  for (size_t i = 0; i < photos.size(); ++i) {
-    images.emplace_back(scene.cameras[i], scene.origin, photos[i].linear);
-  }
-  return images;
-}
-
 // What each point sees of the daylight.
 std::vector<LightGeometry> TraceLight(const std::vector<SurfacePoint>& points, const RayScene& rays,
                                       const Daylight& light) {
@@ -184,12 +142,12 @@ Spectrum SampleBrdf(const LightSamples& samples, const SpectralBasis& spectra,
   return spectra.Ones() / std::numbers::pi;
 }
 
-std::vector<ImageQuality> MeasureQualities(const std::vector<Photograph>& photos,
-                                           const SceneGeometry& scene, Progress* progress) {
+std::vector<ImageQuality> MeasureQualities(const PhotographSet& photos, const SceneGeometry& scene,
+                                           Progress* progress) {
   std::vector<ImageQuality> qualities;
   for (size_t i = 0; i < photos.size(); ++i) {
-    qualities.push_back(
-        {MeasurePointSpread(photos[i], EdgePiecesIn(scene, i)), MeasureGrain(photos[i])});
+    const auto photo = photos[i];
+    qualities.push_back({MeasurePointSpread(*photo, EdgePiecesIn(scene, i)), MeasureGrain(*photo)});
     progress->Step();
   }
   return qualities;
@@ -238,13 +196,13 @@ DaylightFitOptions FitOptions(const LightMeasurement& measured, const LightOptio
 
 // Eq. (9) with photographed surroundings: what no photograph shows of them depends on the light,
 // so the two take turns.
-void FitInSurroundings(const std::vector<Photograph>& photos,
-                       const std::vector<SurfacePoint>& points, const LightOptions& options,
-                       LightMeasurement* measured) {
+void FitInSurroundings(const PhotographSet& photos, const std::vector<SurfacePoint>& points,
+                       const LightOptions& options, LightMeasurement* measured) {
   const NaturalEnvironment& environment = measured->environment;
   const PolygonMesh polygons = MeshOfPolygons(environment.scene);
   const RayScene rays(polygons.mesh);
-  const std::vector<LocalImage> images = LocalImages(environment.scene, photos);
+  const std::vector<LocalImage> images =
+      LocalImages(environment, photos, measured->exposure_fit.photos);
   const NothingPlanned nothing;
   const TransportScene scene = {{environment.scene, rays, polygons.polygon_of_triangle, images,
                                  environment.air, environment.spectra},
@@ -273,10 +231,11 @@ void FitInSurroundings(const std::vector<Photograph>& photos,
   }
 }
 
-double BrightestOf(const std::vector<Photograph>& photos) {
+double BrightestOf(const PhotographSet& photos) {
   float brightest = 0;
-  for (const Photograph& photo : photos) {
-    const std::vector<float>& values = photo.linear.data;
+  for (size_t i = 0; i < photos.size(); ++i) {
+    const auto photo = photos[i];
+    const std::vector<float>& values = photo->linear.data;
     if (!values.empty()) brightest = std::max(brightest, *std::ranges::max_element(values));
   }
   return brightest;
@@ -287,7 +246,7 @@ bool KnowsReflectance(const LightSamples& samples) {
 }
 
 // From the samples.
-void MeasureAirAndLight(const SitePaths& site, const std::vector<Photograph>& photos,
+void MeasureAirAndLight(const SitePaths& site, const PhotographSet& photos,
                         const LightOptions& options, LightMeasurement* measured) {
   NaturalEnvironment& environment = measured->environment;
   measured->reflectance_known = KnowsReflectance(measured->samples);
@@ -367,9 +326,8 @@ LightMeasurement MeasureDaylight(const SitePaths& site, const LightOptions& opti
   NaturalEnvironment& environment = measured.environment;
   const int photographs = static_cast<int>(environment.scene.cameras.size());
   constexpr int kMeasurements = 2;  // samples, light, each about as long as a photograph
-  Progress progress("haze and daylight", 2 * photographs + kMeasurements);
-  std::vector<Photograph> photos =
-      ReadPhotographs(site, environment.scene, &progress, &measured.exposures);
+  Progress progress("haze and daylight", photographs + kMeasurements);
+  PhotographSet photos = FindPhotographs(site, environment.scene, &measured.exposures);
   environment.input_images = ListInputImages(site, environment.scene);
   environment.qualities = MeasureQualities(photos, environment.scene, &progress);
   measured.samples = ReadSamples(site, environment.scene, photos);

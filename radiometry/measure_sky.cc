@@ -20,7 +20,7 @@ void Average(const SpectralBins& bins, Spectrum* power) {
 
 }  // namespace
 
-SeenSky MeasureSky(const SitePaths& site, const std::vector<Photograph>& photos,
+SeenSky MeasureSky(const SitePaths& site, const PhotographSet& photos,
                    const std::vector<PixelSample>& horizon, bool is_average,
                    NaturalEnvironment* environment) {
   const SceneGeometry& scene = environment->scene;
@@ -30,7 +30,7 @@ SeenSky MeasureSky(const SitePaths& site, const std::vector<Photograph>& photos,
     const Camera& camera = scene.cameras[i].camera;
     const auto matte =
         ReadForegroundMatte(site, scene.cameras[i].photo, camera.width(), camera.height());
-    std::ranges::move(SkyRegionsIn(photos[i], static_cast<int>(i), scene, rays,
+    std::ranges::move(SkyRegionsIn(*photos[i], static_cast<int>(i), scene, rays,
                                    matte ? &*matte : nullptr, horizon),
                       std::back_inserter(regions));
   }

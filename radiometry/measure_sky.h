@@ -21,7 +21,7 @@ struct SeenSky {
 // uniform goes into the light of `environment`, whose scene and spectra are known. `horizon`
 // samples tell what is sky; `is_average`: one shape for all wavelengths. Throws InputError: a matte
 // at fault.
-SeenSky MeasureSky(const SitePaths& site, const std::vector<Photograph>& photos,
+SeenSky MeasureSky(const SitePaths& site, const PhotographSet& photos,
                    const std::vector<PixelSample>& horizon, bool is_average,
                    NaturalEnvironment* environment);
 

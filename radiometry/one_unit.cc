@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "radiometry/one_unit.h"
 
+#include <vector>
+
 namespace insitu {
 namespace {
 
@@ -15,13 +17,13 @@ std::vector<bool> Mirrors(const NaturalEnvironment& environment) {
 
 }  // namespace
 
-void BringToOneUnit(std::vector<Photograph>* photos, LightMeasurement* measured) {
+void BringToOneUnit(PhotographSet* photos, LightMeasurement* measured) {
   const NaturalEnvironment& environment = measured->environment;
   measured->exposure_fit =
       MeasureExposures(environment.scene, *photos, measured->exposures, Mirrors(environment));
   const std::vector<PhotoExposure>& exposures = measured->exposure_fit.photos;
   for (size_t i = 0; i < photos->size(); ++i) {
-    if (!exposures[i].IsOne()) DivideByGain(exposures[i].gain, &(*photos)[i].linear);
+    if (!exposures[i].IsOne()) photos->SetFactor(i, FactorOfGain(exposures[i].gain));
   }
   LightSamples& samples = measured->samples;
   for (auto* list : {&samples.horizon, &samples.haze, &samples.daylight}) {

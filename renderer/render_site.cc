@@ -7,16 +7,18 @@
 
 #include "calibration/files/error.h"
 #include "calibration/files/json_file.h"
+#include "calibration/files/sha256.h"
 #include "calibration/files/wording.h"
 #include "calibration/program/program.h"
 #include "radiometry/light_report.h"
 #include "radiometry/measure/photo_exposures.h"
 #include "radiometry/transport/cosine_directions.h"
 #include "renderer/building/building_outline.h"
+#include "renderer/light_cache.h"
 #include "renderer/photo_gain.h"
-#include "renderer/render_inputs.h"
 #include "renderer/shadows/existing_shadows.h"
 #include "renderer/tiles/partial_render.h"
+#include "renderer/tiles/render_inputs.h"
 #include "renderer/trace/interreflected_light.h"
 #include "renderer/trace/make_montage_scene.h"
 #include "renderer/trace/profile.h"
@@ -72,18 +74,24 @@ std::shared_ptr<const SurfaceTextures> LoadTextures(const SitePaths& site,
 }
 
 // With its photographs in one unit.
+MontageScene WithImages(NaturalEnvironment natural, const std::vector<Eigen::Vector3d>& gains,
+                        const ArtificialEnvironment& building) {
+  if (!FitInMemory(natural)) {
+    const auto images = TiledInputImages(natural, gains);
+    const PhaseScope shading(Phase::kShading);
+    return MakeMontageScene(std::move(natural), building, images);
+  }
+  std::vector<Raster> images = ReadInputImages(natural, gains);
+  const PhaseScope shading(Phase::kShading);
+  return MakeMontageScene(std::move(natural), building, std::move(images));
+}
+
 MontageScene LoadScene(const SitePaths& site, NaturalEnvironment natural,
                        const std::vector<Eigen::Vector3d>& gains,
                        const ArtificialEnvironment& building) {
   const PhaseScope phase(Phase::kFiles);
-  std::vector<Raster> images;
-  for (size_t i = 0; i < gains.size(); ++i) {
-    images.push_back(ReadInputImage(natural.input_images[i]));
-    if (gains[i] != kUnitGain) DivideByGain(gains[i], &images.back());
-  }
   auto textures = LoadTextures(site, natural, building);
-  const PhaseScope shading(Phase::kShading);
-  MontageScene scene = MakeMontageScene(std::move(natural), building, std::move(images));
+  MontageScene scene = WithImages(std::move(natural), gains, building);
   scene.textures = std::move(textures);
   return scene;
 }
@@ -169,6 +177,12 @@ std::string OptionsText(const RenderSiteOptions& options) {
                    static_cast<int>(options.uniform_ambient), options.bounces.value_or(-1));
 }
 
+// Of the light among surfaces, which all photographs share.
+std::string LightOptionsText(const RenderSiteOptions& options) {
+  return Formatted("light, building %d bounces %d", static_cast<int>(options.with_building),
+                   options.bounces.value_or(-1));
+}
+
 // What insitu-view must know of a montage that its files do not tell.
 void WriteRenderRecord(const SitePaths& site, const std::string& photo,
                        const RenderSiteOptions& options) {
@@ -190,10 +204,15 @@ class SiteRender {
         edges_(building_),
         gains_(ReadPhotoGains(site)),
         scene_(LoadScene(site, ReadEnvironment(site), gains_, building_)),
-        inputs_(SiteInputsSha256(site, scene_.natural, building_, OptionsText(options))),
+        files_(SiteInputsSha256(site, scene_.natural, building_)),
+        inputs_(Sha256OfText(OptionsText(options) + "\n" + files_)),
+        light_inputs_(Sha256OfText(LightOptionsText(options) + "\n" + files_)),
         statement_(StatementOf(site, options.with_building)) {
     ThrowIfStopped();
-    if (!options.uniform_ambient) AddInterreflection(&scene_, options.bounces);
+    if (options.uniform_ambient) return;
+    const auto kept = ReadLightCache(LightCache(), light_inputs_);
+    AddInterreflection(&scene_, options.bounces, kept ? &*kept : nullptr);
+    if (kept) kept_points_ = GatheredPoints();
   }
 
   RenderSiteReport Render(const std::filesystem::path& photograph) {
@@ -227,12 +246,30 @@ class SiteRender {
     return report;
   }
 
+  // For the next render, if anything was added to it; the result is there without it, too. nullopt,
+  // or why it was not written.
+  std::optional<std::string> KeepLight() const {
+    if (!scene_.interreflected || GatheredPoints() == kept_points_) return std::nullopt;
+    try {
+      WriteLightCache(LightCache(), light_inputs_, KeptLightOf(*scene_.interreflected));
+    } catch (const std::exception& error) {
+      return std::string(error.what()) + "; the next render gathers its light anew";
+    }
+    return std::nullopt;
+  }
+
   // When all are written: until then none is rendered twice.
   void RemovePartials() {
     for (const auto& partial : partials_) partial->Remove();
   }
 
  private:
+  std::filesystem::path LightCache() const { return site_.root / "work/render/light.cache"; }
+
+  long GatheredPoints() const {
+    return scene_.interreflected->on_site.points() + scene_.interreflected->on_building.points();
+  }
+
   void ThrowIfStopped() const {
     if (options_.stops && options_.stops()) {
       throw RenderStopped("stopped; the same command goes on where it was");
@@ -294,7 +331,8 @@ class SiteRender {
   const BuildingEdges edges_;
   const std::vector<Eigen::Vector3d> gains_;
   MontageScene scene_;
-  const std::string inputs_;
+  const std::string files_, inputs_, light_inputs_;  // hashes
+  long kept_points_ = -1;                            // -1: none were kept
   const MontageStatement statement_;
   std::vector<std::unique_ptr<PartialRender>> partials_;
 };
@@ -308,9 +346,15 @@ std::vector<RenderSiteReport> RenderSite(const SitePaths& site, const RenderSite
   const std::vector<std::filesystem::path> photographs = ChoosePhotographs(site, options.photos);
   SiteRender render(site, options);
   std::vector<RenderSiteReport> reports;
-  for (const std::filesystem::path& photograph : photographs) {
-    reports.push_back(render.Render(photograph));
+  try {
+    for (const std::filesystem::path& photograph : photographs) {
+      reports.push_back(render.Render(photograph));
+    }
+  } catch (const RenderStopped&) {
+    render.KeepLight();
+    throw;
   }
+  if (const auto fault = render.KeepLight()) reports.back().remarks.push_back(*fault);
   render.RemovePartials();
   return reports;
 }

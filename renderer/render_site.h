@@ -67,7 +67,8 @@ class RenderStopped : public std::runtime_error {
 // photograph's (red), computed (green), in front by the matte (blue); in <photo>.shadows.exr which
 // share of the sun it shows to arrive (red), and its standard deviation (green); and how well the
 // building's outline and sharp corners are known in <photo>.uncertainty.csv. Keeps the textures in
-// linear light in work/textures/, and finished tiles in work/render/<photo>.partial until all
+// linear light in work/textures/, light among surfaces for later renders of the same site and
+// building in work/render/light.cache, and finished tiles in work/render/<photo>.partial until all
 // photographs are written: whatever ends the program, the next run of the same inputs and options
 // goes on there and comes to the same bytes. Throws InputError: a stage before is missing, an
 // unknown photo, a texture that is not there, a photograph or matte whose size is not its camera's,

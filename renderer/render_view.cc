@@ -7,6 +7,7 @@
 #include "calibration/files/error.h"
 #include "calibration/foreground_matte.h"
 #include "calibration/lens/undistort.h"
+#include "calibration/photo/tiled_image.h"
 #include "radiometry/measure/photo_exposures.h"
 #include "renderer/photo_gain.h"
 #include "renderer/trace/profile.h"
@@ -56,6 +57,11 @@ void SetGain(const Eigen::Vector3d& gain, RenderView* view) {
   if (auto& grain = view->quality.grain) grain = GrainInUnit(*grain, gain);
 }
 
+void RequireInputImage(const InputImage& image) {
+  RequireResult(image.file, "insitu-undistort");
+  RequirePhotographSize(image.file, image.camera.width(), image.camera.height());
+}
+
 }  // namespace
 
 size_t CameraIndex(const SitePaths& site, const SceneGeometry& scene, const std::string& photo) {
@@ -67,9 +73,38 @@ size_t CameraIndex(const SitePaths& site, const SceneGeometry& scene, const std:
 }
 
 Raster ReadInputImage(const InputImage& image) {
-  RequireResult(image.file, "insitu-undistort");
-  RequirePhotographSize(image.file, image.camera.width(), image.camera.height());
+  RequireInputImage(image);
   return ReadPhotograph(image.file).linear;
+}
+
+bool FitInMemory(const NaturalEnvironment& natural) {
+  constexpr double kMostBytes = 1.5e9;
+  double bytes = 0;
+  for (const InputImage& image : natural.input_images) {
+    bytes += 3.0 * sizeof(float) * image.camera.width() * image.camera.height();
+  }
+  return bytes <= kMostBytes;
+}
+
+std::vector<Raster> ReadInputImages(const NaturalEnvironment& natural,
+                                    const std::vector<Eigen::Vector3d>& gains) {
+  std::vector<Raster> images;
+  for (size_t i = 0; i < gains.size(); ++i) {
+    images.push_back(ReadInputImage(natural.input_images[i]));
+    if (gains[i] != kUnitGain) DivideByGain(gains[i], &images.back());
+  }
+  return images;
+}
+
+std::vector<LocalImage::ImageFunction> TiledInputImages(const NaturalEnvironment& natural,
+                                                        const std::vector<Eigen::Vector3d>& gains) {
+  std::vector<LocalImage::ImageFunction> images;
+  for (size_t i = 0; i < gains.size(); ++i) {
+    RequireInputImage(natural.input_images[i]);
+    const TiledImage tiled(natural.input_images[i].file, FactorOfGain(gains[i]));
+    images.emplace_back([tiled](const Eigen::Vector2d& pixel) { return tiled.At(pixel); });
+  }
+  return images;
 }
 
 const Raster& InUnit(const RenderView& view) {
@@ -95,8 +130,9 @@ RenderView LoadView(const SitePaths& site, const MontageScene& scene,
       spread = InPinhole(*spread, lens, pinhole);
     }
     view.camera.camera = pinhole;
-    view.photo.linear = gains[index] == kUnitGain ? scene.input_images[index]
-                                                  : ReadInputImage(natural.input_images[index]);
+    const bool is_there = gains[index] == kUnitGain && !scene.input_images.empty();
+    view.photo.linear =
+        is_there ? scene.input_images[index] : ReadInputImage(natural.input_images[index]);
     if (share) share = InPinhole(*share, lens, pinhole);
     if (view.drawn_shadows) view.drawn_shadows = InPinhole(*view.drawn_shadows, lens, pinhole);
   }

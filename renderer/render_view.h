@@ -40,6 +40,17 @@ size_t CameraIndex(const SitePaths& site, const SceneGeometry& scene, const std:
 // Linear, as photographed. Throws InputError: not there, or not of its camera's size.
 Raster ReadInputImage(const InputImage& image);
 
+// Whether all input images together are few enough to be held, 1.5 GB. Photographs that are
+// rendered take memory beside them.
+bool FitInMemory(const NaturalEnvironment& natural);
+
+// In the site's unit: whole, or as functions that read what they are asked for and give the same to
+// the last bit. `gains`: of the scene's cameras. Throw InputError as ReadInputImage does.
+std::vector<Raster> ReadInputImages(const NaturalEnvironment& natural,
+                                    const std::vector<Eigen::Vector3d>& gains);
+std::vector<LocalImage::ImageFunction> TiledInputImages(const NaturalEnvironment& natural,
+                                                        const std::vector<Eigen::Vector3d>& gains);
+
 // The photograph in the site's unit, in which the scene's light is measured.
 const Raster& InUnit(const RenderView& view);
 

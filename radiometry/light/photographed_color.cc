@@ -18,7 +18,7 @@ std::optional<PhotographedColor> LookUpIn(const PhotographedSite& site, const Lo
   const auto pixel = image.camera.camera.Project(image.camera.cam_from_world * surface.position);
   if (!pixel || !image.camera.camera.Sees(*pixel)) return std::nullopt;
   if (site.rays.IsOccluded({start, path / distance, 0, distance})) return std::nullopt;
-  const Eigen::Vector3d rgb = Interpolate(*image.linear, *pixel);
+  const Eigen::Vector3d rgb = image.rgb(*pixel);
   if (rgb.isZero(0)) return std::nullopt;  // an input image beyond what the lens saw
   const Spectrum L = site.spectra.SpectrumFromRgb(rgb);
   return PhotographedColor{TrueColor(L, site.air, distance).max(0), path / distance};
@@ -26,8 +26,14 @@ std::optional<PhotographedColor> LookUpIn(const PhotographedSite& site, const Lo
 
 }  // namespace
 
+LocalImage::LocalImage(const PosedCamera& posed, const Eigen::Vector3d& origin, ImageFunction image)
+    : camera(InLocalFrame(posed, origin)),
+      center(Center(camera.cam_from_world)),
+      rgb(std::move(image)) {}
+
 LocalImage::LocalImage(const PosedCamera& posed, const Eigen::Vector3d& origin, const Raster& image)
-    : camera(InLocalFrame(posed, origin)), center(Center(camera.cam_from_world)), linear(&image) {}
+    : LocalImage(posed, origin,
+                 [&image](const Eigen::Vector2d& pixel) { return Interpolate(image, pixel); }) {}
 
 std::optional<PhotographedColor> LookUpColor(const PhotographedSite& site, int polygon,
                                              const SurfacePoint& surface) {

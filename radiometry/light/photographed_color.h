@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -25,11 +26,15 @@ constexpr double kSurveyClearance = 0.02;
 
 // A photograph, or the input image made from it, with its camera in the local frame.
 struct LocalImage {
+  // [px] to linear RGB, as Interpolate makes it of a raster.
+  using ImageFunction = std::function<Eigen::Vector3d(const Eigen::Vector2d& pixel)>;
+  LocalImage(const PosedCamera& posed, const Eigen::Vector3d& origin, ImageFunction image);
+  // `image` must outlive it.
   LocalImage(const PosedCamera& posed, const Eigen::Vector3d& origin, const Raster& image);
 
   PosedCamera camera;
   Eigen::Vector3d center;  // of projection [m]
-  const Raster* linear;    // never null, owned by the caller
+  ImageFunction rgb;
 };
 
 // What a look-up needs. All references are the caller's.

@@ -43,14 +43,15 @@ std::vector<Tally> TallyClipped(const SceneGeometry& scene, const PosedCamera& p
 }  // namespace
 
 std::vector<ClippedShare> MeasureClippedShares(const SceneGeometry& scene,
-                                               const std::vector<Photograph>& photos) {
+                                               const PhotographSet& photos) {
   INSITU_CHECK(photos.size() == scene.cameras.size());
   const PolygonMesh polygons = MeshOfPolygons(scene);
   const RayScene rays(polygons.mesh);
   std::vector<ClippedShare> shares;
   for (size_t i = 0; i < photos.size(); ++i) {
-    if (photos[i].encoding == Encoding::kLinear) continue;
-    const auto tallies = TallyClipped(scene, scene.cameras[i], photos[i], polygons, rays);
+    const auto photo = photos[i];
+    if (photo->encoding == Encoding::kLinear) continue;
+    const auto tallies = TallyClipped(scene, scene.cameras[i], *photo, polygons, rays);
     for (size_t p = 0; p < tallies.size(); ++p) {
       if (tallies[p].clipped == 0) continue;
       shares.push_back({static_cast<int>(i), static_cast<int>(p),

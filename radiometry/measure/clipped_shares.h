@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "calibration/photo/photograph.h"
+#include "radiometry/measure/photograph_set.h"
 #include "reconstruction/geometry/scene_geometry.h"
 
 namespace insitu {
@@ -17,6 +17,6 @@ struct ClippedShare {
 // Of every polygon in every photograph that shows it, the largest first; those without any clipped
 // pixel are left out. Looks at a grid of about 40,000 pixels a photograph.
 std::vector<ClippedShare> MeasureClippedShares(const SceneGeometry& scene,
-                                               const std::vector<Photograph>& photos);
+                                               const PhotographSet& photos);
 
 }  // namespace insitu

@@ -61,56 +61,55 @@ double SquaredRadius(const Camera& camera, const Eigen::Vector2d& pixel) {
   return (pixel - center).squaredNorm() / center.squaredNorm();
 }
 
+// A place as a photograph shows it.
+struct ShownPlace {
+  int photo = 0;
+  Eigen::Vector2d pixel;
+  double distance = 0;                         // [m]
+  std::optional<Eigen::Vector4d> values = {};  // nullopt: it tells nothing
+};
+// The same in all photographs that show it, first in the one it was chosen in.
+using SharedPlace = std::vector<ShownPlace>;
+
 // Looks for surfaces that photographs share.
 class SharedSurfaces {
  public:
-  SharedSurfaces(const SceneGeometry& scene, const std::vector<Photograph>& photos,
-                 const std::vector<bool>& mirrors)
-      : scene_(scene),
-        photos_(photos),
-        mirrors_(mirrors),
-        polygons_(MeshOfPolygons(scene)),
-        rays_(polygons_.mesh) {}
+  SharedSurfaces(const SceneGeometry& scene, const std::vector<bool>& mirrors)
+      : scene_(scene), mirrors_(mirrors), polygons_(MeshOfPolygons(scene)), rays_(polygons_.mesh) {}
 
   // Over a grid of about `pixels` of a photograph, with all later and earlier ones.
-  void Gather(int photo, int pixels, std::vector<SharedPoint>* points) const {
-    const Raster& image = photos_[photo].linear;
-    const int step = std::max(
-        1, static_cast<int>(std::sqrt(static_cast<double>(image.width) * image.height / pixels)));
-    for (int y = step / 2; y < image.height; y += step) {
-      for (int x = step / 2; x < image.width; x += step) GatherAt(photo, {x, y}, points);
+  void Gather(int photo, int pixels, std::vector<SharedPlace>* places) const {
+    const Camera& camera = scene_.cameras[photo].camera;
+    const double area = static_cast<double>(camera.width()) * camera.height();
+    const int step = std::max(1, static_cast<int>(std::sqrt(area / pixels)));
+    for (int y = step / 2; y < camera.height(); y += step) {
+      for (int x = step / 2; x < camera.width(); x += step) {
+        if (auto place = PlaceAt(photo, Eigen::Vector2d(x, y))) places->push_back(*place);
+      }
     }
   }
 
  private:
-  void GatherAt(int photo, const Eigen::Vector2d& pixel, std::vector<SharedPoint>* points) const {
+  std::optional<SharedPlace> PlaceAt(int photo, const Eigen::Vector2d& pixel) const {
     const PosedCamera& posed = scene_.cameras[photo];
     const Eigen::Vector3d center = Center(posed.cam_from_world) - scene_.origin;
     const Eigen::Vector3d direction =
         (posed.cam_from_world.rotation.conjugate() * posed.camera.Unproject(pixel)).normalized();
     const auto hit = rays_.Nearest({center, direction});
-    if (!hit) return;
+    if (!hit) return std::nullopt;
     const int polygon = polygons_.polygon_of_triangle[hit->triangle];
-    if (mirrors_[polygon]) return;
-    const auto values = ValuesAt(photos_[photo], pixel);
-    if (!values) return;
+    if (mirrors_[polygon]) return std::nullopt;
     Eigen::Vector3d normal = scene_.polygons[polygon].normal;
     if (normal.dot(direction) > 0) normal = -normal;
     const Eigen::Vector3d surface = center + hit->distance * direction + kOffSurface * normal;
-    const double radius = SquaredRadius(posed.camera, pixel);
-    for (int other = 0; other < static_cast<int>(photos_.size()); ++other) {
-      if (other == photo) continue;
-      const auto seen = SeenIn(other, surface, normal);
+    SharedPlace place = {{photo, pixel, hit->distance}};
+    for (int other = 0; other < static_cast<int>(scene_.cameras.size()); ++other) {
+      const auto seen = other == photo ? std::nullopt : SeenIn(other, surface, normal);
       if (!seen) continue;
-      const auto theirs = ValuesAt(photos_[other], *seen);
-      if (!theirs) continue;
-      const double farther =
-          (Center(scene_.cameras[other].cam_from_world) - scene_.origin - surface).norm() -
-          hit->distance;
-      points->push_back({photo, other, radius - SquaredRadius(scene_.cameras[other].camera, *seen),
-                         std::hypot(kPointSigma, kHazePerMeter * farther),
-                         (values->array() / theirs->array()).log()});
+      const Eigen::Vector3d eye = Center(scene_.cameras[other].cam_from_world) - scene_.origin;
+      place.push_back({other, *seen, (eye - surface).norm()});
     }
+    return place.size() > 1 ? std::optional(place) : std::nullopt;
   }
 
   std::optional<Eigen::Vector2d> SeenIn(int photo, const Eigen::Vector3d& surface,
@@ -126,11 +125,42 @@ class SharedSurfaces {
   }
 
   const SceneGeometry& scene_;
-  const std::vector<Photograph>& photos_;
   const std::vector<bool>& mirrors_;
   PolygonMesh polygons_;
   RayScene rays_;
 };
+
+// One photograph after the other: they need not all be held at once.
+void ReadValues(const PhotographSet& photos, std::vector<SharedPlace>* places) {
+  std::vector<std::vector<ShownPlace*>> of_photo(photos.size());
+  for (SharedPlace& place : *places) {
+    for (ShownPlace& shown : place) of_photo[shown.photo].push_back(&shown);
+  }
+  for (size_t i = 0; i < photos.size(); ++i) {
+    const auto photo = photos[i];
+    for (ShownPlace* shown : of_photo[i]) shown->values = ValuesAt(*photo, shown->pixel);
+  }
+}
+
+std::vector<SharedPoint> SharedPoints(const SceneGeometry& scene,
+                                      const std::vector<SharedPlace>& places) {
+  const auto radius = [&](const ShownPlace& shown) {
+    return SquaredRadius(scene.cameras[shown.photo].camera, shown.pixel);
+  };
+  std::vector<SharedPoint> points;
+  for (const SharedPlace& place : places) {
+    const ShownPlace& own = place.front();
+    for (size_t i = 1; i < place.size(); ++i) {
+      const ShownPlace& other = place[i];
+      if (!own.values || !other.values) continue;
+      const double farther = other.distance - own.distance;
+      points.push_back({own.photo, other.photo, radius(own) - radius(other),
+                        std::hypot(kPointSigma, kHazePerMeter * farther),
+                        (own.values->array() / other.values->array()).log()});
+    }
+  }
+  return points;
+}
 
 // Unknowns: ln gain of each photograph, ln falloff at the corner, ln of the camera's own factor.
 struct LogGains {
@@ -246,7 +276,7 @@ void SetGain(PhotoExposure* photo) {
 
 }  // namespace
 
-ExposureFit MeasureExposures(const SceneGeometry& scene, const std::vector<Photograph>& photos,
+ExposureFit MeasureExposures(const SceneGeometry& scene, const PhotographSet& photos,
                              const std::vector<ExifExposure>& exif,
                              const std::vector<bool>& mirrors) {
   const int count = static_cast<int>(photos.size());
@@ -255,11 +285,13 @@ ExposureFit MeasureExposures(const SceneGeometry& scene, const std::vector<Photo
   ExposureFit fit;
   fit.photos.resize(photos.size());
   if (count < 2) return fit;
-  const SharedSurfaces surfaces(scene, photos, mirrors);
-  std::vector<SharedPoint> points;
+  const SharedSurfaces surfaces(scene, mirrors);
+  std::vector<SharedPlace> places;
   for (int i = 0; i < count; ++i) {
-    surfaces.Gather(i, std::clamp(12000 / count, 400, 4000), &points);
+    surfaces.Gather(i, std::clamp(12000 / count, 400, 4000), &places);
   }
+  ReadValues(photos, &places);
+  const std::vector<SharedPoint> points = SharedPoints(scene, places);
   for (const SharedPoint& point : points) {
     ++fit.photos[point.first].points;
     ++fit.photos[point.second].points;
@@ -287,8 +319,12 @@ ExposureFit MeasureExposures(const SceneGeometry& scene, const std::vector<Photo
   return fit;
 }
 
+Eigen::Vector3f FactorOfGain(const Eigen::Vector3d& gain) {
+  return gain.cwiseInverse().cast<float>();
+}
+
 void DivideByGain(const Eigen::Vector3d& gain, Raster* picture) {
-  const Eigen::Vector3f factor = gain.cwiseInverse().cast<float>();
+  const Eigen::Vector3f factor = FactorOfGain(gain);
   for (size_t i = 0; i < picture->data.size(); ++i) picture->data[i] *= factor[i % 3];
 }
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "calibration/photo/exif.h"
-#include "calibration/photo/photograph.h"
+#include "radiometry/measure/photograph_set.h"
 #include "reconstruction/geometry/scene_geometry.h"
 
 namespace insitu {
@@ -38,11 +38,12 @@ struct ExposureFit {
 // Robust least squares over points on the polygons that two photographs show, unclipped and of no
 // mirroring material, with EXIF's nominal values at a third of a stop. The unit is that of the
 // photograph in the middle. `mirrors`: by polygon, whether its material mirrors.
-ExposureFit MeasureExposures(const SceneGeometry& scene, const std::vector<Photograph>& photos,
+ExposureFit MeasureExposures(const SceneGeometry& scene, const PhotographSet& photos,
                              const std::vector<ExifExposure>& exif,
                              const std::vector<bool>& mirrors);
 
 // Divides a picture by the gain of its photograph, channel by channel.
 void DivideByGain(const Eigen::Vector3d& gain, Raster* picture);
+Eigen::Vector3f FactorOfGain(const Eigen::Vector3d& gain);  // by which that multiplies
 
 }  // namespace insitu

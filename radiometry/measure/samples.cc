@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <exception>
+#include <memory>
 
 #include "calibration/files/json_file.h"
 #include "radiometry/library/material_library.h"
@@ -26,11 +27,11 @@ struct PolygonHit {
 // The photographs with the polygons before them.
 class PhotographedScene {
  public:
-  PhotographedScene(const SceneGeometry& scene, const std::vector<Photograph>& photos)
+  PhotographedScene(const SceneGeometry& scene, const PhotographSet& photos)
       : scene_(scene), photos_(photos), polygons_(MeshOfPolygons(scene)), rays_(polygons_.mesh) {}
 
   const SceneGeometry& geometry() const { return scene_; }
-  const Photograph& photo(int index) const { return photos_[index]; }
+  std::shared_ptr<const Photograph> photo(int index) const { return photos_[index]; }
 
   // The polygon that a pixel sees first.
   std::optional<PolygonHit> First(int photo, const Eigen::Vector2d& pixel) const {
@@ -46,7 +47,7 @@ class PhotographedScene {
 
  private:
   const SceneGeometry& scene_;
-  const std::vector<Photograph>& photos_;
+  const PhotographSet& photos_;
   PolygonMesh polygons_;
   RayScene rays_;
 };
@@ -85,12 +86,13 @@ std::vector<Eigen::Vector2i> Patch(const PhotographedScene& scene, const PixelSa
     const auto hit = scene.First(sample.photo, pixel);
     return hit ? std::optional(hit->polygon) : std::nullopt;
   };
+  const auto photo = scene.photo(sample.photo);
   const std::optional<int> center_polygon = polygon_at(sample.pixel);
   const Eigen::Vector2i center = sample.pixel.array().round().cast<int>();
   std::vector<Eigen::Vector2i> patch;
   for (int y = center.y() - radius; y <= center.y() + radius; ++y) {
     for (int x = center.x() - radius; x <= center.x() + radius; ++x) {
-      if (!IsInside(scene.photo(sample.photo).linear, x, y)) continue;
+      if (!IsInside(photo->linear, x, y)) continue;
       if (polygon_at(Eigen::Vector2d(x, y)) == center_polygon) patch.emplace_back(x, y);
     }
   }
@@ -100,7 +102,8 @@ std::vector<Eigen::Vector2i> Patch(const PhotographedScene& scene, const PixelSa
 
 void MeasureColor(const PhotographedScene& scene, const JsonNode& node, int radius,
                   PixelSample* sample) {
-  const Photograph& photo = scene.photo(sample->photo);
+  const auto held = scene.photo(sample->photo);
+  const Photograph& photo = *held;
   const std::vector<Eigen::Vector2i> patch = Patch(scene, *sample, radius);
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   for (const Eigen::Vector2i& at : patch) {
@@ -166,7 +169,8 @@ PixelSample ReadPixel(const JsonNode& node, const PhotographedScene& scene) {
   sample.pixel = {node.At("x").Number(), node.At("y").Number()};
   sample.point.setZero();
   sample.place = {node.path(), node.line()};
-  const Raster& image = scene.photo(sample.photo).linear;
+  const auto photo = scene.photo(sample.photo);
+  const Raster& image = photo->linear;
   const Eigen::Vector2i rounded = sample.pixel.array().round().cast<int>();
   if (!IsInside(image, rounded.x(), rounded.y())) {
     throw Fault(node,
@@ -300,7 +304,7 @@ void ReadSpectra(const SitePaths& site, const JsonNode& file, LightSamples* samp
 void SampleOptions::Check() const { INSITU_CHECK(radius >= 0); }
 
 LightSamples ReadSamples(const SitePaths& site, const SceneGeometry& scene,
-                         const std::vector<Photograph>& photos, const SampleOptions& options,
+                         const PhotographSet& photos, const SampleOptions& options,
                          std::vector<Sentence>* faults) {
   options.Check();
   INSITU_CHECK(photos.size() == scene.cameras.size());

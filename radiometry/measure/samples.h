@@ -10,8 +10,8 @@
 
 #include "calibration/files/error.h"
 #include "calibration/files/sentence.h"
-#include "calibration/photo/photograph.h"
 #include "calibration/program/site.h"
+#include "radiometry/measure/photograph_set.h"
 #include "radiometry/spectrum/spectral_table.h"
 #include "reconstruction/geometry/scene_geometry.h"
 
@@ -51,7 +51,7 @@ struct LightSamples {
 // "daylight_spectrum". With `faults`, for samples that are still being chosen, the samples at fault
 // are left out and listed there instead, and there may be any number of the others.
 LightSamples ReadSamples(const SitePaths& site, const SceneGeometry& scene,
-                         const std::vector<Photograph>& photos, const SampleOptions& options = {},
+                         const PhotographSet& photos, const SampleOptions& options = {},
                          std::vector<Sentence>* faults = nullptr);
 
 }  // namespace insitu

@@ -60,6 +60,28 @@ double LargestShare(const Spectrum& change, const Spectrum& of) {
   return change.abs().maxCoeff() / std::max(of.maxCoeff(), 1e-300);
 }
 
+// In the same order: a piece's point lies in its own voxel.
+Patches PatchesOf(const SceneGeometry& scene, const SolvedLight& solved, const PatchGrid& grid) {
+  const int beyond = static_cast<int>(scene.polygons.size());
+  Patches patches(grid);
+  for (const SolvedPiece& piece : solved.pieces) {
+    const SurfacePoint& point = piece.point;
+    const bool is_natural = piece.polygon >= 0;
+    const bool is_back =
+        is_natural && scene.polygons.at(piece.polygon).normal.dot(point.normal) < 0;
+    const int face = piece.is_beyond ? beyond : piece.polygon;
+    const int index = is_natural ? patches.AddOfPolygon(face, is_back, point.position)
+                                 : patches.AddPlanned(point.normal, point.position);
+    INSITU_CHECK(index + 1 == std::ssize(patches.all()));
+    Patch& patch = patches.all()[index];
+    patch.point = point;
+    patch.polygon = piece.polygon;
+    patch.is_beyond = piece.is_beyond;
+    patch.is_seen = piece.is_seen;
+  }
+  return patches;
+}
+
 }  // namespace
 
 void InterreflectionOptions::Check() const {
@@ -83,6 +105,40 @@ Interreflection::Interreflection(const TransportScene& scene, const Daylight& li
   options_.Check();
   patches_ = MakePatches(scene.site, scene.natural, scene.planned, ground_, light, patches_.grid());
   GatherMeetings();
+}
+
+Interreflection::Interreflection(const TransportScene& scene, const Daylight& light,
+                                 const PatchGrid& grid, const SolvedLight& solved,
+                                 const InterreflectionOptions& options)
+    : scene_(scene),
+      options_(options),
+      patch_directions_(options.patch_directions),
+      point_directions_(options.point_directions),
+      planned_box_(BoxOf(scene.planned.mesh)),
+      clear_box_(scene.planned.clear ? BoxOf(scene.planned.clear->mesh) : Eigen::AlignedBox3d()),
+      zenith_(light.zenith_direction),
+      sky_pieces_(light.Sky(), light.sky_shape.IsUniform(), light.zenith_direction),
+      ground_(GroundOf(scene.site.scene, grid)),
+      patches_(PatchesOf(scene.site.scene, solved, grid)),
+      sky_(solved.sky),
+      beyond_(solved.beyond),
+      brdf_of_polygon_(solved.brdf_of_polygon) {
+  options_.Check();
+  for (const SolvedPiece& piece : solved.pieces) {
+    before_.push_back(piece.before);
+    change_.push_back(piece.change);
+    irradiance_.push_back(piece.irradiance);
+  }
+}
+
+SolvedLight Interreflection::Solution() const {
+  SolvedLight solved{sky_, beyond_, brdf_of_polygon_, {}};
+  for (size_t i = 0; i < before_.size(); ++i) {
+    const Patch& patch = patches_.all()[i];
+    solved.pieces.push_back({patch.point, patch.polygon, patch.is_beyond, patch.is_seen, before_[i],
+                             change_[i], irradiance_[i]});
+  }
+  return solved;
 }
 
 void Interreflection::MeetSite(const Ray& ray, const std::optional<RayHit>& hit,

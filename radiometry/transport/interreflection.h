@@ -18,6 +18,7 @@
 #include "radiometry/light/photographed_color.h"
 #include "radiometry/transport/cosine_directions.h"
 #include "radiometry/transport/patches.h"
+#include "radiometry/transport/solved_light.h"
 
 namespace insitu {
 
@@ -56,6 +57,11 @@ class Interreflection {
   // wanted: about the planned building, or about the samples.
   Interreflection(const TransportScene& scene, const Daylight& light, const PatchGrid& grid,
                   const InterreflectionOptions& options = {});
+
+  // The same as it was once solved: by Solution() of one with the same scene, light, grid, options.
+  Interreflection(const TransportScene& scene, const Daylight& light, const PatchGrid& grid,
+                  const SolvedLight& solved, const InterreflectionOptions& options = {});
+  SolvedLight Solution() const;
 
   // The radiance of every piece under a daylight of the geometry and of the sky's shape given at
   // first; its sky_radiance is the open sky's. What no photograph

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <span>
 
 #include "radiometry/light/fresnel.h"
 #include "renderer/trace/light_split.h"
@@ -176,9 +177,26 @@ PlannedFaces PlannedOf(const MontageScene& scene, const OpaqueFaces& opaque,
   return {faces.mesh, faces.rays, opaque.normals, opaque.material_of_triangle, brdfs, clear};
 }
 
+// What each piece meets, which solving takes, is let go: it is the largest part by far.
+Interreflection SolvedAmong(const TransportScene& transport, const MontageScene& scene,
+                            const InterreflectionOptions& options, const KeptLight* kept) {
+  const Daylight& light = scene.natural.light;
+  const PatchGrid grid = GridAbout(scene, FocusOf(scene));
+  if (kept) return {transport, light, grid, kept->solved, options};
+  Interreflection solved(transport, light, grid, options);
+  solved.Solve(OpenSky(light));
+  return {transport, light, grid, solved.Solution(), options};
+}
+
+std::span<const KeptPoint> PointsOf(const KeptLight* kept,
+                                    std::vector<KeptPoint> KeptLight::*points) {
+  return kept ? std::span<const KeptPoint>(kept->*points) : std::span<const KeptPoint>();
+}
+
 }  // namespace
 
-InterreflectedLight::InterreflectedLight(const MontageScene& scene, std::optional<int> bounces)
+InterreflectedLight::InterreflectedLight(const MontageScene& scene, std::optional<int> bounces,
+                                         const KeptLight* kept)
     : artificial_brdfs(DiffuseBrdfs(scene)),
       opaque(OpaqueFacesOf(scene)),
       kind_of_pane(KindsOfPanes(scene)),
@@ -186,16 +204,18 @@ InterreflectedLight::InterreflectedLight(const MontageScene& scene, std::optiona
       transport{scene.Photographed(), scene.natural_mesh,
                 PlannedOf(scene, opaque, artificial_brdfs, clear ? &*clear : nullptr),
                 LampsOf(scene)},
-      interreflection(transport, scene.natural.light, GridAbout(scene, FocusOf(scene)),
-                      {.bounces = bounces}),
-      on_site(interreflection, scene.natural_mesh, NaturalNormals(scene), SiteMapOptions(scene)),
+      interreflection(SolvedAmong(transport, scene, {.bounces = bounces}, kept)),
+      on_site(interreflection, scene.natural_mesh, NaturalNormals(scene), SiteMapOptions(scene),
+              PointsOf(kept, &KeptLight::on_site)),
       on_building(interreflection, scene.artificial_mesh, scene.artificial_normals,
-                  MapOptions(scene)) {
-  interreflection.Solve(OpenSky(scene.natural.light));
+                  MapOptions(scene), PointsOf(kept, &KeptLight::on_building)) {}
+
+void AddInterreflection(MontageScene* scene, std::optional<int> bounces, const KeptLight* kept) {
+  scene->interreflected = std::make_shared<const InterreflectedLight>(*scene, bounces, kept);
 }
 
-void AddInterreflection(MontageScene* scene, std::optional<int> bounces) {
-  scene->interreflected = std::make_shared<const InterreflectedLight>(*scene, bounces);
+KeptLight KeptLightOf(const InterreflectedLight& light) {
+  return {light.interreflection.Solution(), light.on_site.Kept(), light.on_building.Kept()};
 }
 
 }  // namespace insitu

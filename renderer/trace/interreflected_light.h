@@ -15,8 +15,16 @@ struct OpaqueFaces {
   std::vector<int> material_of_triangle;
 };
 
+// What an earlier run solved and gathered of it.
+struct KeptLight {
+  SolvedLight solved;
+  std::vector<KeptPoint> on_site, on_building;
+};
+
 struct InterreflectedLight {
-  InterreflectedLight(const MontageScene& scene, std::optional<int> bounces);
+  // `kept` of the same scene and bounces; null: none.
+  InterreflectedLight(const MontageScene& scene, std::optional<int> bounces,
+                      const KeptLight* kept = nullptr);
 
   std::vector<Spectrum> artificial_brdfs;  // of each material, its diffuse share
   OpaqueFaces opaque;
@@ -29,6 +37,10 @@ struct InterreflectedLight {
 
 // Solves the interreflection of `scene` and hands it to it. `bounces`: at most; nullopt: until they
 // change nothing; 0: sun and sky alone.
-void AddInterreflection(MontageScene* scene, std::optional<int> bounces);
+// `kept` by KeptLightOf with the same scene and bounces: that much need not be done again.
+void AddInterreflection(MontageScene* scene, std::optional<int> bounces,
+                        const KeptLight* kept = nullptr);
+
+KeptLight KeptLightOf(const InterreflectedLight& light);
 
 }  // namespace insitu

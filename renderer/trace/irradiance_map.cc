@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "renderer/trace/irradiance_map.h"
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <cmath>
@@ -276,9 +277,15 @@ struct IrradianceMap::Tree {
 
 IrradianceMap::IrradianceMap(const Interreflection& light, const TriangleMesh& mesh,
                              std::vector<Eigen::Vector3d> normals,
-                             const IrradianceMapOptions& options)
+                             const IrradianceMapOptions& options, std::span<const KeptPoint> kept)
     : tree_(std::make_unique<Tree>(light, mesh, std::move(normals), options)) {
   options.Check();
+  for (const KeptPoint& point : kept) {
+    const PointKey key{point.cells};
+    auto gathered = std::make_unique<const GatheredPoint>(GatheredPoint{
+        PointOf(key).position, point.before, point.change, point.calm, point.is_open});
+    tree_->shards[PointKeyHash()(key) % Tree::kShards].points.emplace(key, std::move(gathered));
+  }
 }
 
 IrradianceMap::~IrradianceMap() = default;
@@ -301,6 +308,18 @@ SmoothLight IrradianceMap::At(const FacePlace& place) const {
     weights[left] *= 2;
     node = &(*node->halves)[near_from ? 0 : 1];
   }
+}
+
+std::vector<KeptPoint> IrradianceMap::Kept() const {
+  std::vector<KeptPoint> kept;
+  for (Tree::Shard& shard : tree_->shards) {
+    const std::lock_guard lock(shard.mutex);
+    for (const auto& [key, point] : shard.points) {
+      kept.push_back({key.cells, point->before, point->change, point->calm, point->is_open});
+    }
+  }
+  std::ranges::sort(kept, {}, &KeptPoint::cells);
+  return kept;
 }
 
 long IrradianceMap::points() const {

@@ -6,8 +6,10 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <array>
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "radiometry/transport/interreflection.h"
@@ -40,11 +42,21 @@ struct SmoothLight {
   bool matters = false;  // the change is beyond the map's reach
 };
 
+// What was gathered at a point, known by the cells that its position and its normal lie in.
+struct KeptPoint {
+  std::array<int, 6> cells{};
+  Spectrum before = Spectrum::Zero(), change = Spectrum::Zero();
+  double calm = 0;  // edge that is short against what is around [m]
+  bool is_open = true;
+};
+
 class IrradianceMap {
  public:
   // `light` must be solved; it and the meshes must outlive the map. `normals` of each triangle.
+  // `kept` by another map of the same light, mesh and options: these points are not gathered again.
   IrradianceMap(const Interreflection& light, const TriangleMesh& mesh,
-                std::vector<Eigen::Vector3d> normals, const IrradianceMapOptions& options);
+                std::vector<Eigen::Vector3d> normals, const IrradianceMapOptions& options,
+                std::span<const KeptPoint> kept = {});
   ~IrradianceMap();
   IrradianceMap(const IrradianceMap&) = delete;
   IrradianceMap& operator=(const IrradianceMap&) = delete;
@@ -52,7 +64,8 @@ class IrradianceMap {
   // From any thread.
   SmoothLight At(const FacePlace& place) const;
 
-  long points() const;  // gathered so far
+  long points() const;                  // gathered so far, or kept
+  std::vector<KeptPoint> Kept() const;  // by cells
 
  private:
   struct Tree;

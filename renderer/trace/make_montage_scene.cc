@@ -107,28 +107,7 @@ void AddLamp(const PointLight& lamp, MontageScene* scene) {
       {position - (lamp.edge_u + lamp.edge_v) / 2, lamp.edge_u, lamp.edge_v, intensity / area});
 }
 
-}  // namespace
-
-SpectralMaterial SpectralMaterialOf(const SpectralBasis& spectra, const SurfaceMaterial& material) {
-  const Spectrum albedo = material.reflectance.empty()
-                              ? spectra.ReflectanceFromRgb(material.diffuse_rgb)
-                              : Sampled(material.reflectance, spectra.bins());
-  SpectralMaterial surface{.diffuse_weight = material.diffuse_weight,
-                           .brdf = albedo / std::numbers::pi,
-                           .specular = material.specular,
-                           .mirror_color = spectra.ReflectanceFromRgb(material.specular_rgb)};
-  if (material.metal) {
-    surface.metal = SpectralMetal{Sampled(material.metal->index, spectra.bins()),
-                                  Sampled(material.metal->extinction, spectra.bins())};
-  }
-  if (material.glass) surface.glass = GlassOf(spectra, *material.glass);
-  return surface;
-}
-
-MontageScene MakeMontageScene(NaturalEnvironment natural, const ArtificialEnvironment& artificial,
-                              std::vector<Raster> images) {
-  INSITU_CHECK(images.size() == natural.scene.cameras.size());
-  INSITU_CHECK(natural.input_images.size() == images.size());
+MontageScene WithoutImages(NaturalEnvironment natural, const ArtificialEnvironment& artificial) {
   const Eigen::Vector3d origin = natural.scene.origin;
   PolygonMesh polygons = MeshOfPolygons(natural.scene);
   TriangleMesh building = LocalMesh(artificial, origin);
@@ -154,7 +133,7 @@ MontageScene MakeMontageScene(NaturalEnvironment natural, const ArtificialEnviro
                      .facet_directions = {},
                      .inverse_facet_directions = {},
                      .solar_disc_radius = 0,
-                     .input_images = std::move(images),
+                     .input_images = {},
                      .images = {},
                      .mean_brdf_of_polygon = {},
                      .interreflected = {}};
@@ -180,12 +159,50 @@ MontageScene MakeMontageScene(NaturalEnvironment natural, const ArtificialEnviro
   // A cone of half angle a holds 2 pi (1 - cos a) steradians.
   const double cosine = 1 - site.light.sun_solid_angle / (2 * std::numbers::pi);
   scene.solar_disc_radius = std::sqrt(1 - cosine * cosine) / cosine;
-  for (size_t i = 0; i < scene.input_images.size(); ++i) {
-    PosedCamera camera = site.scene.cameras[i];
-    camera.camera = site.input_images[i].camera;
-    scene.images.emplace_back(camera, origin, scene.input_images[i]);
+  return scene;
+}
+
+}  // namespace
+
+SpectralMaterial SpectralMaterialOf(const SpectralBasis& spectra, const SurfaceMaterial& material) {
+  const Spectrum albedo = material.reflectance.empty()
+                              ? spectra.ReflectanceFromRgb(material.diffuse_rgb)
+                              : Sampled(material.reflectance, spectra.bins());
+  SpectralMaterial surface{.diffuse_weight = material.diffuse_weight,
+                           .brdf = albedo / std::numbers::pi,
+                           .specular = material.specular,
+                           .mirror_color = spectra.ReflectanceFromRgb(material.specular_rgb)};
+  if (material.metal) {
+    surface.metal = SpectralMetal{Sampled(material.metal->index, spectra.bins()),
+                                  Sampled(material.metal->extinction, spectra.bins())};
+  }
+  if (material.glass) surface.glass = GlassOf(spectra, *material.glass);
+  return surface;
+}
+
+MontageScene MakeMontageScene(NaturalEnvironment natural, const ArtificialEnvironment& artificial,
+                              const std::vector<LocalImage::ImageFunction>& images) {
+  INSITU_CHECK(images.size() == natural.scene.cameras.size());
+  INSITU_CHECK(natural.input_images.size() == images.size());
+  MontageScene scene = WithoutImages(std::move(natural), artificial);
+  for (size_t i = 0; i < images.size(); ++i) {
+    PosedCamera camera = scene.natural.scene.cameras[i];
+    camera.camera = scene.natural.input_images[i].camera;
+    scene.images.emplace_back(camera, scene.natural.scene.origin, images[i]);
   }
   scene.mean_brdf_of_polygon = MeanBrdfOfPolygons(scene);
+  return scene;
+}
+
+MontageScene MakeMontageScene(NaturalEnvironment natural, const ArtificialEnvironment& artificial,
+                              std::vector<Raster> images) {
+  std::vector<LocalImage::ImageFunction> functions;
+  for (const Raster& image : images) {
+    functions.emplace_back(
+        [&image](const Eigen::Vector2d& pixel) { return Interpolate(image, pixel); });
+  }
+  MontageScene scene = MakeMontageScene(std::move(natural), artificial, functions);
+  scene.input_images = std::move(images);  // which stay where they are
   return scene;
 }
 

@@ -15,6 +15,10 @@ namespace insitu {
 MontageScene MakeMontageScene(NaturalEnvironment natural, const ArtificialEnvironment& artificial,
                               std::vector<Raster> images);
 
+// The same where the images are not in memory; scene.input_images stays empty.
+MontageScene MakeMontageScene(NaturalEnvironment natural, const ArtificialEnvironment& artificial,
+                              const std::vector<LocalImage::ImageFunction>& images);
+
 // What a planned material is to rays, but for its texture.
 SpectralMaterial SpectralMaterialOf(const SpectralBasis& spectra, const SurfaceMaterial& material);
 

@@ -110,8 +110,9 @@ struct MontageScene {
   std::vector<Eigen::Array3f> inverse_facet_directions;  // for the slab test
   double solar_disc_radius = 0;                          // tangent of the sun's half angle
 
-  std::vector<Raster> input_images;  // in the order of natural.scene.cameras [Durisch92, §4.1]
-  std::vector<LocalImage> images;    // the same with their pinhole cameras
+  // In the order of natural.scene.cameras [Durisch92, §4.1]; empty: not in memory.
+  std::vector<Raster> input_images;
+  std::vector<LocalImage> images;  // the same with their pinhole cameras
   // Mean BRDF of each polygon's material over the photographs, for polygons that none shows.
   std::vector<Spectrum> mean_brdf_of_polygon;
 

@@ -57,18 +57,20 @@ Eigen::Vector2d PixelSampler::OnFacet(int ray) const { return SpreadPoint(facet_
 
 uint64_t PixelSampler::Seed(int ray) const { return SplitMix64(seed_ + ray); }
 
-void ColorStatistics::Add(const Eigen::Vector3d& linear_rgb) {
-  Eigen::Array3d encoded;
-  for (int c = 0; c < 3; ++c) encoded[c] = SrgbFromLinear(std::clamp(linear_rgb[c], 0.0, 1.0));
-  ++count_;
-  sum_ += encoded;
-  sum_of_squares_ += encoded.square();
-}
+void ColorStatistics::Add(const Eigen::Vector3d& linear_rgb) { colors_.push_back(linear_rgb); }
 
 double ColorStatistics::StandardError() const {
-  const Eigen::Array3d mean = sum_ / count_;
-  const Eigen::Array3d variance = (sum_of_squares_ / count_ - mean.square()).max(0);
-  return std::sqrt(variance.maxCoeff() / (count_ - 1));
+  Eigen::Array3d sum = Eigen::Array3d::Zero(), sum_of_squares = Eigen::Array3d::Zero();
+  for (const Eigen::Vector3d& linear_rgb : colors_) {
+    Eigen::Array3d encoded;
+    for (int c = 0; c < 3; ++c) encoded[c] = SrgbFromLinear(std::clamp(linear_rgb[c], 0.0, 1.0));
+    sum += encoded;
+    sum_of_squares += encoded.square();
+  }
+  const auto count = static_cast<double>(colors_.size());
+  const Eigen::Array3d mean = sum / count;
+  const Eigen::Array3d variance = (sum_of_squares / count - mean.square()).max(0);
+  return std::sqrt(variance.maxCoeff() / (count - 1));
 }
 
 }  // namespace insitu

@@ -5,6 +5,7 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <vector>
 
 namespace insitu {
 
@@ -31,14 +32,14 @@ class PixelSampler {
 // Mean and spread of the colours that the rays of a pixel return, spread in sRGB units.
 class ColorStatistics {
  public:
+  ColorStatistics() { colors_.reserve(kUsualRays); }
   void Add(const Eigen::Vector3d& linear_rgb);
   // Largest standard error of the mean over the three channels.
   double StandardError() const;
 
  private:
-  int count_ = 0;
-  Eigen::Array3d sum_ = Eigen::Array3d::Zero();
-  Eigen::Array3d sum_of_squares_ = Eigen::Array3d::Zero();
+  static constexpr size_t kUsualRays = 16;
+  std::vector<Eigen::Vector3d> colors_;  // most pixels never ask for their spread
 };
 
 }  // namespace insitu

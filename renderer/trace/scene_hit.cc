@@ -44,12 +44,18 @@ std::optional<double> MeetPanel(const Ray& ray, const LuminousPanel& panel) {
   return distance;
 }
 
+bool IsTowardsBuilding(const MontageScene& scene, const Ray& ray) {
+  const InfluenceBox& box = scene.building_box;
+  return !box.IsEmpty() && box.MayMeet(ray.origin.cast<float>().array(),
+                                       ray.direction.cast<float>().array().inverse());
+}
+
 }  // namespace
 
 std::optional<SceneHit> FindHit(const MontageScene& scene, Ray ray, World world) {
   const PhaseScope phase(Phase::kEmbree);
   std::optional<SceneHit> found;
-  if (world == World::kWithBuilding) {
+  if (world == World::kWithBuilding && IsTowardsBuilding(scene, ray)) {
     if (const auto hit = scene.artificial_rays.Nearest(ray)) {
       const Eigen::Vector3d& normal = scene.artificial_normals[hit->triangle];
       found = SceneHit{true, hit->triangle, hit->distance, Facing(ray, hit->distance, normal),

@@ -66,6 +66,49 @@ Spectrum MirroredBefore(const MontageScene& scene, const SurfacePoint& surface,
   return MirrorReflectance(material, CosineTo(surface, to_camera)) * image;
 }
 
+// Irradiance of a natural surface before and what the building changes of it; of the lamps alone
+// where they are counted apart.
+struct LightBalance {
+  Spectrum before, change;
+  std::optional<Spectrum> lamps = {};
+};
+
+// D1 and D3 in one: what the building takes of sun, sky and surroundings, and what it sends.
+// nullopt: nothing, case D2.
+std::optional<LightBalance> BalanceAt(const MontageScene& scene, const SurfacePoint& surface,
+                                      const LightDirections& light,
+                                      const std::optional<SmoothLight>& around) {
+  const Daylight& daylight = scene.natural.light;
+  const Spectrum E_lamps =
+      scene.lamps.empty() ? Spectrum::Zero().eval() : LampIrradiance(scene, surface, light);
+  const bool lit = (E_lamps > 0).any();
+  if (around) {
+    const SplitSun sun = SplitSunlight(scene, surface, light, lit || around->matters);
+    if (!lit && !around->matters && !sun.is_blocked) return std::nullopt;
+    return LightBalance{daylight.sun_radiance * sun.natural + around->before,
+                        E_lamps + around->change - daylight.sun_radiance * sun.blocked};
+  }
+  const SplitLight split = SplitDaylight(scene, surface, light, lit);
+  if (!lit && !split.IsChanged()) return std::nullopt;
+  return LightBalance{
+      TotalIrradiance(daylight, split.natural),
+      -(SunIrradiance(daylight, split.blocked) + SkyIrradiance(daylight, split.blocked)), E_lamps};
+}
+
+// The change of a surface's radiance.
+Spectrum ChangeBy(const LightBalance& balance, const Spectrum& true_color, double diffuse_weight) {
+  const Spectrum rho = DiffuseBrdf(true_color, diffuse_weight, balance.before);
+  if (balance.lamps) {
+    const Spectrum removed = ReflectedRadiance(diffuse_weight, rho, balance.change);  // D3
+    const Spectrum added = ReflectedRadiance(diffuse_weight, rho, *balance.lamps);    // D1
+    return removed.max(-true_color) + added;
+  }
+  // No surface sends back more than it receives, but for errors of photograph and light: they
+  // must not grow where light is added.
+  const Spectrum bounded = (balance.change > 0).select(rho.min(1 / (diffuse_weight * kPi)), rho);
+  return ReflectedRadiance(diffuse_weight, bounded, balance.change).max(-true_color);
+}
+
 // Case D on a primary ray: the change of the pixel. The photograph is the current one.
 Eigen::Vector3d ChangeOfPixel(const MontageScene& scene, const PrimaryRay& primary,
                               const SceneHit& hit) {
@@ -73,6 +116,8 @@ Eigen::Vector3d ChangeOfPixel(const MontageScene& scene, const PrimaryRay& prima
   const SpectralBasis& spectra = scene.natural.spectra;
   const Atmosphere& air = scene.natural.air;
   const Eigen::Vector3d to_viewer = -primary.ray.direction;
+  const auto balance = BalanceAt(scene, hit.surface, primary.light, LightAround(scene, hit));
+  if (!balance && !material.specular) return Eigen::Vector3d::Zero();  // D2, most of a photograph
   const Spectrum L0 =
       TrueColor(spectra.SpectrumFromRgb(primary.apparent_rgb), air, hit.distance).max(0);
   Spectrum change = Spectrum::Zero();
@@ -86,8 +131,9 @@ Eigen::Vector3d ChangeOfPixel(const MontageScene& scene, const PrimaryRay& prima
     change =
         mirrored(World::kWithBuilding) - (is_rough ? mirrored(World::kSiteOnly) : mirrored_before);
   }
-  change += DiffuseChange(scene, hit.surface, (L0 - mirrored_before).max(0),
-                          material.diffuse_weight, primary.light, LightAround(scene, hit));
+  if (balance) {
+    change += ChangeBy(*balance, (L0 - mirrored_before).max(0), material.diffuse_weight);
+  }
   if ((change == 0).all()) return Eigen::Vector3d::Zero();  // D2
   change = change.max(-L0) * TransmittanceOver(air, hit.distance);
   return spectra.RgbFromSpectrum(change);
@@ -132,19 +178,6 @@ Spectrum SiteColor(const MontageScene& scene, const SceneHit& hit, const Eigen::
     L0 += DiffuseChange(scene, hit.surface, diffuse, material.diffuse_weight, light, around);
   }
   return L0.max(0);
-}
-
-// D1 and D3 in one: what the building takes of sun, sky and surroundings, and what it sends.
-Spectrum ChangeInBalance(const Daylight& light, const SplitSun& sun, const SmoothLight& around,
-                         const Spectrum& E_lamps, const Spectrum& true_color,
-                         double diffuse_weight) {
-  const Spectrum E_before = light.sun_radiance * sun.natural + around.before;
-  const Spectrum E_change = E_lamps + around.change - light.sun_radiance * sun.blocked;
-  const Spectrum rho = DiffuseBrdf(true_color, diffuse_weight, E_before);
-  // No surface sends back more than it receives, but for errors of photograph and light: they
-  // must not grow where light is added.
-  const Spectrum bounded = (E_change > 0).select(rho.min(1 / (diffuse_weight * kPi)), rho);
-  return ReflectedRadiance(diffuse_weight, bounded, E_change).max(-true_color);
 }
 
 // What a face of the building is made of where a ray meets it.
@@ -217,24 +250,8 @@ Spectrum BuildingColor(const MontageScene& scene, const SurfacePoint& surface,
 Spectrum DiffuseChange(const MontageScene& scene, const SurfacePoint& surface,
                        const Spectrum& true_color, double diffuse_weight,
                        const LightDirections& light, const std::optional<SmoothLight>& around) {
-  const Spectrum E_lamps =
-      scene.lamps.empty() ? Spectrum::Zero().eval() : LampIrradiance(scene, surface, light);
-  const bool lit = (E_lamps > 0).any();
-  if (around) {
-    const SplitSun sun = SplitSunlight(scene, surface, light, lit || around->matters);
-    if (!lit && !around->matters && !sun.is_blocked) return Spectrum::Zero();  // D2
-    return ChangeInBalance(scene.natural.light, sun, *around, E_lamps, true_color, diffuse_weight);
-  }
-  const SplitLight split = SplitDaylight(scene, surface, light, lit);
-  if (!lit && !split.IsChanged()) return Spectrum::Zero();  // D2
-  const Daylight& daylight = scene.natural.light;
-  const Spectrum E_natural = TotalIrradiance(daylight, split.natural);
-  const Spectrum E_blocked =
-      SunIrradiance(daylight, split.blocked) + SkyIrradiance(daylight, split.blocked);
-  const Spectrum rho = DiffuseBrdf(true_color, diffuse_weight, E_natural);
-  const Spectrum removed = ReflectedRadiance(diffuse_weight, rho, -E_blocked);  // D3
-  const Spectrum added = ReflectedRadiance(diffuse_weight, rho, E_lamps);       // D1
-  return removed.max(-true_color) + added;
+  const auto balance = BalanceAt(scene, surface, light, around);
+  return balance ? ChangeBy(*balance, true_color, diffuse_weight) : Spectrum::Zero();
 }
 
 Spectrum TraceSecondary(const MontageScene& scene, const Ray& ray, const LightDirections& light,

@@ -12,6 +12,7 @@
 #include "calibration/files/whole_file.h"
 #include "calibration/foreground_matte.h"
 #include "radiometry/natural_environment.h"
+#include "renderer/light_cache.h"
 #include "renderer/tiles/partial_render.h"
 #include "renderer/trace/interreflected_light.h"
 #include "renderer/trace/make_montage_scene.h"
@@ -322,6 +323,41 @@ TEST_F(RenderSiteTest, WhatWasRenderedOfOtherInputsIsNotGoneOnWith) {
   WriteArtificialEnvironment(site_, Box(small_, {-2, 0, 0}, {2, 4, 6}, white));
   RenderSite(site_, {});
   expected = Montages(site_);
+  std::filesystem::remove_all(site_.root / "work/render");
+  RenderSite(site_, {});
+  EXPECT_EQ(Montages(site_), expected);
+}
+
+// The hash that a cache begins with after its first word.
+std::string InputsOf(const std::filesystem::path& cache) {
+  const std::string text = ReadWhole(cache);
+  const size_t first = text.find(' ') + 1;
+  return text.substr(first, text.find(' ', first) - first);
+}
+
+TEST_F(RenderSiteTest, TheNextRenderTakesUpTheLight) {
+  const auto cache = site_.root / "work/render/light.cache";
+  RenderSite(site_, {});
+  const auto expected = Montages(site_);
+  RenderSite(site_, {});
+  EXPECT_EQ(Montages(site_), expected);
+  auto light = ReadLightCache(cache, InputsOf(cache));
+  ASSERT_TRUE(light);
+  ASSERT_FALSE(light->on_building.empty());
+  for (KeptPoint& point : light->on_building) point.before *= 2;
+  WriteLightCache(cache, InputsOf(cache), *light);
+  RenderSite(site_, {});
+  EXPECT_NE(Montages(site_), expected);
+}
+
+TEST_F(RenderSiteTest, AnotherBuildingHasItsOwnLight) {
+  const auto cache = site_.root / "work/render/light.cache";
+  RenderSite(site_, {});
+  const std::string before = InputsOf(cache);
+  WriteArtificialEnvironment(site_, Box(small_, {-1, 0, 0}, {2, 4, 6}, {}));
+  RenderSite(site_, {});
+  EXPECT_NE(InputsOf(cache), before);
+  const auto expected = Montages(site_);
   std::filesystem::remove_all(site_.root / "work/render");
   RenderSite(site_, {});
   EXPECT_EQ(Montages(site_), expected);

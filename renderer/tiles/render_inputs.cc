@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "renderer/render_inputs.h"
+#include "renderer/tiles/render_inputs.h"
 
 #include <set>
 
@@ -16,8 +16,8 @@ std::string HashLine(const std::filesystem::path& file) {
 }  // namespace
 
 std::string SiteInputsSha256(const SitePaths& site, const NaturalEnvironment& natural,
-                             const ArtificialEnvironment& building, const std::string& options) {
-  std::string text = options + "\n" + HashLine("/proc/self/exe");
+                             const ArtificialEnvironment& building) {
+  std::string text = HashLine("/proc/self/exe");
   text += HashLine(site.environment());
   for (const InputImage& image : natural.input_images) text += HashLine(image.file);
   if (!building.triangles.empty() || !building.lights.empty()) {

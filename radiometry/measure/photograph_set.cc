@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "calibration/photo/photograph_set.h"
+#include "radiometry/measure/photograph_set.h"
 
 #include <algorithm>
 #include <utility>
@@ -23,8 +23,7 @@ PhotographSet::PhotographSet(std::vector<std::filesystem::path> files, size_t mo
     const Eigen::Vector2i size = ReadPhotographSize(file);
     Entry entry;
     entry.file = std::move(file);
-    entry.bytes =
-        3 * sizeof(float) * static_cast<size_t>(size.x()) * static_cast<size_t>(size.y());
+    entry.bytes = 3 * sizeof(float) * static_cast<size_t>(size.x()) * static_cast<size_t>(size.y());
     photos_.push_back(std::move(entry));
   }
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "calibration/photo/photograph_set.h"
+#include "radiometry/measure/photograph_set.h"
 
 #include <gtest/gtest.h>
 

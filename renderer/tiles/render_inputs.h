@@ -11,10 +11,10 @@
 
 namespace insitu {
 
-// Of all photographs of a site: descriptions, input images, textures, this program itself, and the
-// options that change pixels, as a text. `building`: empty without one.
+// Of all photographs of a site: descriptions, input images, textures and this program itself.
+// `building`: empty without one.
 std::string SiteInputsSha256(const SitePaths& site, const NaturalEnvironment& natural,
-                             const ArtificialEnvironment& building, const std::string& options);
+                             const ArtificialEnvironment& building);
 
 // The same with a photograph and what stands in front of it.
 std::string PhotographInputsSha256(const SitePaths& site, const std::string& site_inputs,
