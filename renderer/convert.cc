@@ -78,9 +78,10 @@ class Converter {
   Converter(const SitePaths& site, const ConvertOptions& options)
       : site_(site),
         options_(options),
-        file_(site.building() / "materials.json"),
+        place_(fs::exists(site.building()) ? site.building() : options.models.front()),
+        file_(fs::exists(site.building()) ? site.building() / "materials.json" : place_),
         library_(LibraryFolders(site)),
-        materials_(BuildingMaterials::Read(file_, library_)) {}
+        materials_(BuildingMaterials::Read(site.building() / "materials.json", library_)) {}
 
   void Add(const fs::path& path);
   Conversion Finish();
@@ -100,7 +101,7 @@ class Converter {
 
   SitePaths site_;
   ConvertOptions options_;
-  fs::path file_;
+  fs::path place_, file_;  // for messages: building/ and materials.json there, or a model alone
   MaterialLibrary library_;
   BuildingMaterials materials_;
   ModelMesh mesh_;
@@ -270,7 +271,7 @@ void Converter::WarnOfMaterials() {
 void Converter::WarnOfSolids() {
   const SolidsReport& s = conversion_.solids;
   const auto warn = [this](int count, const std::string& what) {
-    if (count > 0) Warn(site_.building(), std::to_string(count) + " " + what);
+    if (count > 0) Warn(place_, std::to_string(count) + " " + what);
   };
   warn(s.duplicate_faces, "faces dropped: they lie on others of the same name");
   warn(s.degenerate_faces, "faces dropped: they have no area");
@@ -295,9 +296,9 @@ Conversion Converter::Finish() {
   for (const Vector3d& vertex : mesh_.vertices) conversion_.box.extend(vertex);
   const int raised = RaiseOverlaidFaces(&mesh_);
   if (raised > 0) {
-    Warn(site_.building(), std::to_string(raised) +
-                               " faces are drawn on larger ones of another name: put 2 mm before "
-                               "them");
+    Warn(place_, std::to_string(raised) +
+                     " faces are drawn on larger ones of another name: put 2 mm before "
+                     "them");
   }
   conversion_.layers = LayersOf(mesh_);
   ArtificialEnvironment& environment = conversion_.environment;
@@ -308,7 +309,7 @@ Conversion Converter::Finish() {
   const bool names_unit = std::ranges::all_of(
       conversion_.models, [](const ModelReport& m) { return m.metres_per_unit.has_value(); });
   for (const std::string& suspicion : SuspicionsOf(conversion_.box, SiteBox(site_), names_unit)) {
-    Warn(site_.building(), suspicion);
+    Warn(place_, suspicion);
   }
   const fs::path lights = site_.building() / "lights.json";
   if (fs::exists(lights)) environment.lights = ReadLights(lights, library_);

@@ -28,7 +28,7 @@ install(FILES README.md CHANGELOG.md CONVENTIONS.md DESTINATION ${CMAKE_INSTALL_
 # The material library, for people to read and to copy from, too.
 install(DIRECTORY radiometry/library/data/ DESTINATION ${CMAKE_INSTALL_DATADIR}/insitu/library)
 
-# What reads IFC, as scripts/setup has fetched it; without it IFC is refused.
+# What reads IFC, as scripts/setup has fetched it; without it IFC is refused. What turns previews.
 install(FILES build/web-ifc/web-ifc-api-node.js build/web-ifc/web-ifc-node.wasm
     build/web-ifc/LICENSE.md build/web-ifc/package.json
   DESTINATION ${CMAKE_INSTALL_DATADIR}/insitu/web-ifc OPTIONAL)

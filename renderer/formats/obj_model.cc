@@ -10,7 +10,9 @@
 
 #include "calibration/files/error.h"
 #include "calibration/files/wording.h"
+#include "calibration/photo/color_space.h"
 #include "renderer/foreign/file_reference.h"
+#include "renderer/foreign/mesh_builder.h"
 #include "renderer/formats/obj_material.h"
 #include "renderer/formats/obj_words.h"
 #include "renderer/formats/unit_comment.h"
@@ -24,7 +26,7 @@ using Eigen::Vector3d;
 
 class ObjReader {
  public:
-  explicit ObjReader(const fs::path& path) : path_(path), index_(&model_.mesh.surfaces) {
+  explicit ObjReader(const fs::path& path) : path_(path), builder_(path, &model_) {
     model_.format = "OBJ";
   }
 
@@ -33,7 +35,7 @@ class ObjReader {
         path_, [this](std::string_view keyword, ObjWords& words, int) { ReadLine(keyword, words); },
         [this](const std::string& line) { ReadComment(line); });
     for (Vector3d& vertex : model_.mesh.vertices) vertex *= model_.metres_per_unit.value_or(1);
-    if (has_vertex_colors_) model_.skipped[{"colour by vertex", "not shown"}] = 1;
+    if (!colors_.empty()) builder_.SayColorsByVertex();
     if (uvs_.empty()) model_.mesh.corner_uvs.clear();
     if (normals_.empty()) model_.mesh.corner_normals.clear();
     DropUnused(&model_.mesh);
@@ -45,7 +47,7 @@ class ObjReader {
     ModelMesh& mesh = model_.mesh;
     if (keyword == "v") {
       mesh.vertices.push_back(words.Point());
-      has_vertex_colors_ |= words.Next() && words.Next() && words.Next();  // not x y z w
+      AddColor(words);
     } else if (keyword == "vt") {
       const std::optional<double> u = words.FindNumber(), v = words.FindNumber();
       if (!u) ++model_.skipped[{"vt", "no number: taken as 0"}];
@@ -65,6 +67,26 @@ class ObjReader {
     } else {
       Skip(std::string(keyword));
     }
+  }
+
+  // "v x y z r g b", as scanners and MeshLab write it; of "x y z w", none.
+  void AddColor(ObjWords& words) {
+    const std::optional<double> r = words.FindNumber(), g = words.FindNumber();
+    const std::optional<double> b = words.FindNumber();
+    if (!r || !g || !b) return;
+    colors_.resize(model_.mesh.vertices.size() - 1, Eigen::Vector3f::Ones());
+    Vector3d color = Vector3d(*r, *g, *b).cwiseMax(0).cwiseMin(1);
+    for (double& channel : color) channel = LinearFromSrgb(channel);
+    colors_.push_back(color.cast<float>());
+  }
+  // Of a triangle's corners together.
+  Vector3d MeanColor(const Eigen::Vector3i& triangle) const {
+    Vector3d mean = Vector3d::Zero();
+    for (const int corner : triangle) {
+      const bool colored = static_cast<size_t>(corner) < colors_.size();
+      mean += colored ? Vector3d(colors_[corner].cast<double>()) : Vector3d(Vector3d::Ones());
+    }
+    return mean / 3;
   }
 
   void ReadComment(const std::string& line) {
@@ -183,7 +205,8 @@ class ObjReader {
                                       .normalized()
                                       .cast<float>();
     mesh.triangles.push_back(triangle);
-    mesh.surface_of_triangle.push_back(*surface_);
+    mesh.surface_of_triangle.push_back(
+        colors_.empty() ? *surface_ : builder_.ColoredSurface(*surface_, MeanColor(triangle)));
     if (uvs_.empty() && normals_.empty()) return;
     mesh.corner_uvs.resize(3 * mesh.triangles.size() - 3, Eigen::Vector2f(0, 0));
     FillNormals(mesh.triangles.size() - 1);
@@ -219,18 +242,19 @@ class ObjReader {
       names.texture = found->second.texture;
       names.texture_place = found->second.texture_place;
     }
-    return index_.IndexOf(names);
+    return builder_.SurfaceOf(names);
   }
 
   fs::path path_;
   Model model_;
-  SurfaceIndex index_;
+  MeshBuilder builder_;
   std::vector<Eigen::Vector2f> uvs_;
   std::vector<Eigen::Vector3f> normals_;
   std::map<std::string, ObjMaterial> materials_;
   std::string object_, group_, material_;
   std::optional<int> surface_;
-  bool has_vertex_colors_ = false;
+  std::vector<Eigen::Vector3f>
+      colors_;  // linear Rec. 709, of vertices; empty, or as many as have one
 };
 
 }  // namespace

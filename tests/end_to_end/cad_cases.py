@@ -157,7 +157,7 @@ def colours():
         one.check('colour' in one.message and 'vert' in one.message, 'colours by vertex are told of')
     one = Converted(kind + 'e07_magics').area(216, 180)
     one.says('colours of facets')
-    Converted('11-vertex-colours-lost', 'cube_with_vertexcolors.obj').says('colour by vertex')
+    Converted('11-vertex-colours-lost', 'cube_with_vertexcolors.obj').says('colours by vertex')
 
 
 def stl():

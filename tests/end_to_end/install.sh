@@ -47,7 +47,7 @@ takes_a_folder() {
   for command in calibrate tie-points reconstruct undistort light convert render montage; do
     status=0
     error=$("$insitu" "$command" "$temporary/nothing" 2>&1) || status=$?
-    [[ $status -ne 2 || $error != "insitu-$command: SITE: Directory does not exist"* ]] || continue
+    [[ $status -ne 2 || $error != "insitu-$command: SITE: "@(Directory|Path)" does not exist"* ]] || continue
     printf '%s: status %d, %s' "$command" "$status" "$error"
     return 1
   done

@@ -105,5 +105,15 @@ TEST_F(ObjModel, CommentsNameTheUnit) {
   EXPECT_EQ(unit("# my house").warnings.size(), 0u);
 }
 
+TEST_F(ObjModel, ColoursByVertexAreShownByFace) {
+  const Model model = Read("a.obj",
+                           "v 0 0 0 1 0 0\nv 1 0 0 1 0 0\nv 0 1 0 1 0 0\nv 1 1 0\n"
+                           "f 1 2 3\nf 2 4 3\n");
+  ASSERT_EQ(model.mesh.surfaces.size(), 2u);
+  EXPECT_EQ(model.mesh.surfaces[0].rgb, Vector3d(1, 0, 0));
+  EXPECT_EQ(model.skipped.begin()->first.first, "mesh with colours by vertex");
+  EXPECT_TRUE(Read("b.obj", "v 0 0 0 1\nv 1 0 0 1\nv 0 1 0 1\nf 1 2 3\n").skipped.empty());
+}
+
 }  // namespace
 }  // namespace insitu
