@@ -125,7 +125,8 @@ class Delivery {
   // Where the codes are written with the colour space, its profile is there already.
   void Describe(const fs::path& path, const fs::path& temporary, bool with_orientation,
                 bool with_profile = false) {
-    const CopiedMetadata copied = {with_profile, with_orientation, &montage_.statement};
+    const CopiedMetadata copied = {with_profile, color().profile, with_orientation,
+                                   &montage_.statement};
     for (const std::string& text : CopyMetadata(montage_.source, temporary, copied)) {
       Remark(path, text);
     }
