@@ -114,6 +114,7 @@ ExifExposure ReadExifExposure(const std::filesystem::path& photo) {
 }
 
 void RequireNoPanorama(const std::filesystem::path& photo) {
+  Exiv2::LogMsg::setLevel(Exiv2::LogMsg::mute);  // of what is cut short others say so
   std::string projection;
   try {
     const auto image = Exiv2::ImageFactory::open(photo.string());
