@@ -85,7 +85,7 @@ for ending in jpg png exr; do check "case 05, the $ending" stands_upright "$endi
 new_site "$cases/06-xmp-over-64k/bigxmp.tif"
 warns_of_xmp() {
   run undistort
-  "$INSITU_BIN/insitu-render" "$site" --no-building --photo "$name" 2>&1 >/dev/null |
+  "$INSITU_BIN/insitu-render" "$site" --no-building --photo "$name" 2>&1 |
     grep "$name.jpg: its XMP does not fit"
 }
 check 'case 06, what does not fit is told' warns_of_xmp
