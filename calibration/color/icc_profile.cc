@@ -207,6 +207,20 @@ std::shared_ptr<const ColorConversion> ConversionByMatrix(const Profile& profile
                              "photograph to sRGB");
 }
 
+// The profile without what follows it, of whole words, as PNG's library wants it.
+std::string Tidied(const std::string& bytes, const fs::path& path) {
+  constexpr size_t kLeast = 132;  // a header and a count of no tags
+  uint32_t stated = 0;
+  for (size_t i = 0; i < 4 && bytes.size() >= kLeast; ++i) {
+    stated = stated << 8 | static_cast<unsigned char>(bytes[i]);
+  }
+  if (stated < kLeast || stated > bytes.size()) FailProfile(path, "is damaged");
+  std::string tidied = bytes.substr(0, stated);
+  tidied.resize((tidied.size() + 3) / 4 * 4, '\0');
+  for (int i = 0; i < 4; ++i) tidied[i] = static_cast<char>(tidied.size() >> (24 - 8 * i) & 255);
+  return tidied;
+}
+
 ColorSpace RgbSpace(const Profile& profile, const std::string& bytes, const fs::path& path) {
   ColorSpace space;
   space.name = NameOf(profile);
@@ -260,7 +274,7 @@ ColorSpace ReadIccProfile(const std::string& bytes, int channels, const fs::path
     FailProfile(path, "is for " + SignatureText(colors) + " but the file holds " +
                           (channels == 1 ? "grey" : "red, green and blue"));
   }
-  return channels == 1 ? GreySpace(profile, path) : RgbSpace(profile, bytes, path);
+  return channels == 1 ? GreySpace(profile, path) : RgbSpace(profile, Tidied(bytes, path), path);
 }
 
 ColorSpace MakeColorSpace(const std::string& name, const Primaries& primaries,

@@ -83,6 +83,18 @@ std::string ProfileOfJpeg(const std::vector<JpegSegment>& segments, const fs::pa
                              "photograph to sRGB");
 }
 
+// PNG's library would say so on the terminal, beside us. Throws InputError: the file ends before
+// its last chunk.
+void RequireWholePng(std::string_view png, const fs::path& path) {
+  for (size_t at = 8; at + 12 <= png.size();) {
+    const size_t length = BigEndian(png, at, 4);
+    if (at + 12 + length > png.size()) break;
+    if (png.substr(at + 4, 4) == "IEND") return;
+    at += 12 + length;
+  }
+  throw InputError(path, "cut short or damaged: its last chunk, IEND, is missing");
+}
+
 // The chunks before the picture, by their names; of one name the first.
 std::map<std::string, std::string_view> ChunksOf(std::string_view png) {
   std::map<std::string, std::string_view> chunks;
@@ -206,6 +218,7 @@ ColorSpace ColorOfGamma(const std::map<std::string, std::string_view>& chunks,
 }
 
 ColorSpace ColorOfPng(std::string_view png, const DecodedHeader& header, const fs::path& path) {
+  RequireWholePng(png, path);
   const auto chunks = ChunksOf(png);
   if (const auto points = chunks.find("cICP"); points != chunks.end()) {
     return ColorOfCodePoints(points->second, path);
@@ -217,7 +230,7 @@ ColorSpace ColorOfPng(std::string_view png, const DecodedHeader& header, const f
   return ColorOfGamma(chunks, path);
 }
 
-// Of a file without profile.
+// Of a file without profile. Of a TIFF of fewer than 8 bits the decoder gives the bare numbers.
 ColorSpace ColorOfExif(const fs::path& path) {
   Exiv2::LogMsg::setLevel(Exiv2::LogMsg::mute);  // cameras' own oddities are not the user's
   Exiv2::ExifData exif;
@@ -232,6 +245,12 @@ ColorSpace ColorOfExif(const fs::path& path) {
     const auto entry = exif.findKey(Exiv2::ExifKey(key));
     return entry == exif.end() ? std::string() : entry->toString();
   };
+  const std::string photometric = text("Exif.Image.PhotometricInterpretation"),
+                    bits = text("Exif.Image.BitsPerSample");
+  if ((photometric == "0" || photometric == "1") && (bits == "1" || bits == "2" || bits == "4")) {
+    throw InputError(path, "has " + bits + (bits == "1" ? " bit" : " bits") +
+                               " a pixel, expected 8 or 16 bits a channel");
+  }
   const std::string space = text("Exif.Photo.ColorSpace"),
                     index = text("Exif.Iop.InteroperabilityIndex");
   if (space == "2" || (space != "1" && index.starts_with("R03"))) {

@@ -12,7 +12,7 @@
 
 #include "calibration/files/error.h"
 #include "calibration/files/whole_file.h"
-#include "calibration/program/raw_ending.h"
+#include "calibration/files/raw_ending.h"
 
 namespace insitu {
 namespace {
@@ -254,6 +254,7 @@ std::vector<std::string> CopyMetadata(const fs::path& source, const fs::path& ta
   if (!copied.with_orientation) MakeUpright(&metadata);
   if (copied.statement) Add(*copied.statement, &metadata.xmp);
   if (format == Exiv2::ImageType::jpeg) FitIntoJpeg(&metadata.xmp, &remarks);
+  if (metadata.profile.empty()) metadata.profile = copied.profile;
   if (copied.with_profile) CopyProfile(metadata, target, &remarks);
   CopyTexts(metadata, target, &remarks);
   if (format == Exiv2::ImageType::png) {

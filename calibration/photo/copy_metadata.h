@@ -20,6 +20,7 @@ struct MontageStatement {
 // What is copied of it.
 struct CopiedMetadata {
   bool with_profile = true;                     // else the target's own stays
+  std::string profile = {};                     // ICC, where the source's cannot be read
   bool with_orientation = true;                 // else the target is upright: 1
   const MontageStatement* statement = nullptr;  // none: nothing is added
 };

@@ -7,7 +7,7 @@
 #include "calibration/files/error.h"
 #include "calibration/photo/photograph.h"
 #include "calibration/photo/raw_photograph.h"
-#include "calibration/program/raw_ending.h"
+#include "calibration/files/raw_ending.h"
 
 namespace insitu {
 namespace {
@@ -114,6 +114,7 @@ ExifExposure ReadExifExposure(const std::filesystem::path& photo) {
 }
 
 void RequireNoPanorama(const std::filesystem::path& photo) {
+  Exiv2::LogMsg::setLevel(Exiv2::LogMsg::mute);  // of what is cut short others say so
   std::string projection;
   try {
     const auto image = Exiv2::ImageFactory::open(photo.string());

@@ -14,7 +14,7 @@
 #include "calibration/files/whole_file.h"
 #include "calibration/photo/exif.h"
 #include "calibration/photo/jpeg_blocks.h"
-#include "calibration/program/raw_ending.h"
+#include "calibration/files/raw_ending.h"
 
 namespace insitu {
 namespace {
@@ -125,7 +125,8 @@ class Delivery {
   // Where the codes are written with the colour space, its profile is there already.
   void Describe(const fs::path& path, const fs::path& temporary, bool with_orientation,
                 bool with_profile = false) {
-    const CopiedMetadata copied = {with_profile, with_orientation, &montage_.statement};
+    const CopiedMetadata copied = {with_profile, color().profile, with_orientation,
+                                   &montage_.statement};
     for (const std::string& text : CopyMetadata(montage_.source, temporary, copied)) {
       Remark(path, text);
     }

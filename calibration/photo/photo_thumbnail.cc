@@ -4,15 +4,17 @@
 #include <openssl/evp.h>
 
 #include <algorithm>
+#include <limits>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
+#include <type_traits>
 #include <variant>
 #include <vector>
 
 #include "calibration/files/whole_file.h"
 #include "calibration/photo/photograph.h"
 #include "calibration/photo/raw_photograph.h"
-#include "calibration/program/raw_ending.h"
+#include "calibration/files/raw_ending.h"
 
 namespace insitu {
 namespace {
@@ -43,39 +45,54 @@ void ShowAsSrgb(const ColorSpace& color, cv::Mat* image) {
   });
 }
 
-// Codes of 8 bits, blue first, about `width` pixels wide or more; empty: OpenCV does not read it.
-cv::Mat Decoded(const std::filesystem::path& photograph, int width) {
-  const std::string content = ReadWhole(photograph);
-  if (content.starts_with("\x76\x2f\x31\x01")) return {};  // EXR
-  // A quarter of the size costs a JPEG's decoder little.
-  const bool is_large = ReadPhotographSize(photograph).x() >= 4 * width;
+constexpr char kExr[] = "\x76\x2f\x31\x01";
+
+// By OpenCV, in codes of 8 bits, blue first, about `width` pixels wide or more. A quarter of the
+// size costs a JPEG's decoder little.
+cv::Mat Decoded(const std::string& content, bool is_large) {
   return cv::imdecode(
       cv::Mat(1, static_cast<int>(content.size()), CV_8U, const_cast<char*>(content.data())),
       (is_large ? cv::IMREAD_REDUCED_COLOR_4 : cv::IMREAD_COLOR) | cv::IMREAD_IGNORE_ORIENTATION);
 }
 
-// The same of raw, as sRGB: the camera's linear codes are too coarse in 8 bits.
-cv::Mat DecodedRaw(const std::filesystem::path& photograph) {
-  CodedPhotograph raw = ReadRawPhotograph(photograph, true);
-  const auto& codes = std::get<std::vector<uint16_t>>(raw.samples);
-  cv::Mat image(raw.height, raw.width, CV_8UC3);
-  image.forEach<cv::Vec3b>([&](cv::Vec3b& code, const int* at) {
-    const uint16_t* rgb = &codes[(static_cast<size_t>(at[0]) * raw.width + at[1]) * 3];
-    code = SrgbCode(raw.color.Linear(Eigen::Vector3d(rgb[0], rgb[1], rgb[2]) / 65535));
-  });
+// The same of any photograph, as sRGB.
+cv::Mat Developed(CodedPhotograph photo) {
+  cv::Mat image(photo.height, photo.width, CV_8UC3);
+  std::visit(
+      [&](const auto& samples) {
+        using Sample = typename std::decay_t<decltype(samples)>::value_type;
+        const double highest =
+            std::is_floating_point_v<Sample> ? 1 : double(std::numeric_limits<Sample>::max());
+        image.forEach<cv::Vec3b>([&](cv::Vec3b& code, const int* at) {
+          const Sample* rgb = &samples[(static_cast<size_t>(at[0]) * photo.width + at[1]) * 3];
+          const Eigen::Vector3d encoded = Eigen::Vector3d(rgb[0], rgb[1], rgb[2]) / highest;
+          const bool is_light = std::is_floating_point_v<Sample> && photo.color.IsDefault();
+          code = SrgbCode(is_light ? encoded : photo.color.Linear(encoded));
+        });
+      },
+      photo.samples);
   return image;
 }
 
 }  // namespace
 
 std::optional<std::string> PhotoThumbnail(const std::filesystem::path& photograph, int width) {
-  const bool is_raw = HasRawEnding(photograph);
-  const cv::Mat image = is_raw ? DecodedRaw(photograph) : Decoded(photograph, width);
+  cv::Mat image, small;
+  bool is_srgb = true;
+  if (HasRawEnding(photograph)) {
+    RawPhotograph raw = ReadRawPhotograph(photograph, true);
+    image = Developed({raw.width, raw.height, std::move(raw.codes), raw.color});
+  } else {
+    const std::string content = ReadWhole(photograph);
+    if (content.starts_with(kExr)) return std::nullopt;
+    const bool is_large = ReadPhotographSize(photograph).x() >= 4 * width;
+    is_srgb = !content.starts_with("\xff\xd8") && !content.starts_with("\x89PNG");
+    image = is_srgb ? Developed(ReadCodedPhotograph(photograph)) : Decoded(content, is_large);
+  }
   if (image.empty()) return std::nullopt;
-  cv::Mat small;
   cv::resize(image, small, cv::Size(width, std::max(1, image.rows * width / image.cols)), 0, 0,
              cv::INTER_AREA);
-  if (!is_raw) ShowAsSrgb(ReadPhotographColor(photograph), &small);
+  if (!is_srgb) ShowAsSrgb(ReadPhotographColor(photograph), &small);
   std::vector<unsigned char> jpeg;
   if (!cv::imencode(".jpg", small, jpeg, {cv::IMWRITE_JPEG_QUALITY, kQuality})) return std::nullopt;
   return "data:image/jpeg;base64," + Base64(jpeg);

@@ -23,7 +23,7 @@
 #include "calibration/files/whole_file.h"
 #include "calibration/photo/copy_metadata.h"
 #include "calibration/photo/raw_photograph.h"
-#include "calibration/program/raw_ending.h"
+#include "calibration/files/raw_ending.h"
 
 namespace insitu {
 namespace {
@@ -211,8 +211,7 @@ Code NearestCode(double encoded) {
 // The default's, of one channel.
 template <typename Code>
 Code Encoded(float linear) {
-  const double clamped = linear > 0 ? std::min(static_cast<double>(linear), 1.0) : 0.0;
-  return NearestCode<Code>(SrgbFromLinear(clamped));
+  return NearestCode<Code>(SrgbFromLinear(linear));
 }
 
 template <typename Code>
@@ -289,7 +288,10 @@ void DescribeExr(const std::vector<float>& chromaticities, ImageSpec* spec) {
 }  // namespace
 
 CodedPhotograph ReadCodedPhotograph(const fs::path& path) {
-  if (HasRawEnding(path)) return ReadRawPhotograph(path);
+  if (HasRawEnding(path)) {
+    RawPhotograph raw = ReadRawPhotograph(path);
+    return {raw.width, raw.height, std::move(raw.codes), raw.color};
+  }
   const auto input = Open(path);
   CodedPhotograph photo{input->spec().width, input->spec().height, {}, {}};
   const Encoding encoding = EncodingOf(input->spec(), path);
@@ -309,11 +311,8 @@ CodedPhotograph ReadCodedPhotograph(const fs::path& path) {
 
 Photograph ReadPhotograph(const fs::path& path) {
   CodedPhotograph coded = ReadCodedPhotograph(path);
-  Photograph photo;
-  photo.linear = std::visit([&](auto& samples) { return Decoded(coded, samples); }, coded.samples);
-  photo.encoding = static_cast<Encoding>(coded.samples.index());
-  photo.color = coded.color;
-  return photo;
+  Raster linear = std::visit([&](auto& samples) { return Decoded(coded, samples); }, coded.samples);
+  return {std::move(linear), static_cast<Encoding>(coded.samples.index()), coded.color};
 }
 
 ColorSpace ReadPhotographColor(const fs::path& path) {

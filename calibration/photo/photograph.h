@@ -2,12 +2,14 @@
 // Photographs as files: decoding to linear light and the exact inverse, whole-or-nothing writing.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <string>
+#include <variant>
+#include <vector>
 
 #include "calibration/color/color_space.h"
-#include "calibration/photo/coded_photograph.h"
 #include "calibration/photo/raster.h"
 
 namespace insitu {
@@ -30,7 +32,13 @@ struct Photograph {
 // another one's.
 Photograph ReadPhotograph(const std::filesystem::path& path);
 
-// The same, as its file has it.
+// The same, as its file has it: codes of 8 or 16 bits, or numbers, in its colour space; three
+// channels, rows of red, green and blue.
+struct CodedPhotograph {
+  int width = 0, height = 0;  // [px]
+  std::variant<std::vector<uint8_t>, std::vector<uint16_t>, std::vector<float>> samples;
+  ColorSpace color = {};
+};
 CodedPhotograph ReadCodedPhotograph(const std::filesystem::path& path);
 
 // The colour space alone. Throws InputError as ReadPhotograph does of it.

@@ -107,7 +107,8 @@ class RawFile {
   void RequireSize() const {
     const int width = data().sizes.width, height = data().sizes.height;
     if (int64_t{width} * height <= kMostRawPixels) return;
-    throw InputError(path_, "is " + SizeText(width, height) + ", expected at most 536 megapixels");
+    throw InputError(path_, "is " + std::to_string(width) + "x" + std::to_string(height) +
+                                " px, expected at most 536 megapixels");
   }
 
   void RequireWhole() const {
@@ -228,7 +229,7 @@ std::vector<uint16_t> RawCodes(const libraw_data_t& data) {
 
 }  // namespace
 
-CodedPhotograph ReadRawPhotograph(const fs::path& path, bool is_half) {
+RawPhotograph ReadRawPhotograph(const fs::path& path, bool is_half) {
   RawFile file(path, is_half);
   const ColorSpace color = ColorOfRaw(file.data());
   file.Unpack();

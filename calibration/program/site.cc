@@ -7,7 +7,7 @@
 #include <map>
 
 #include "calibration/files/error.h"
-#include "calibration/program/raw_ending.h"
+#include "calibration/files/raw_ending.h"
 
 namespace insitu {
 namespace fs = std::filesystem;

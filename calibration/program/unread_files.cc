@@ -7,7 +7,7 @@
 #include <set>
 #include <string_view>
 
-#include "calibration/program/raw_ending.h"
+#include "calibration/files/raw_ending.h"
 
 namespace insitu {
 namespace fs = std::filesystem;

@@ -10,7 +10,7 @@
 
 #include "calibration/files/error.h"
 #include "calibration/files/wording.h"
-#include "calibration/photo/color_space.h"
+#include "calibration/color/color_space.h"
 #include "renderer/foreign/file_reference.h"
 #include "renderer/foreign/mesh_builder.h"
 #include "renderer/formats/obj_material.h"

@@ -207,8 +207,9 @@ TEST_F(Site, FaultsOfThePhotosFolder) {
   EXPECT_EQ(InputErrorOf([&] { ListPhotographs(site_); }),
             site_.photos().string() + ": no such folder, expected the site's photographs in it");
   fs::create_directories(site_.photos());
-  EXPECT_EQ(InputErrorOf([&] { ListPhotographs(site_); }),
-            site_.photos().string() + ": no photographs, expected JPEG, PNG, TIFF, EXR or raw files");
+  EXPECT_EQ(
+      InputErrorOf([&] { ListPhotographs(site_); }),
+      site_.photos().string() + ": no photographs, expected JPEG, PNG, TIFF, EXR or raw files");
   folder_.Write("photos/a.jpg", "");
   folder_.Write("photos/a.png", "");
   EXPECT_EQ(InputErrorOf([&] { ListPhotographs(site_); }),

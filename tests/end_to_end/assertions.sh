@@ -43,3 +43,24 @@ check_figures() {
     check "$what, ${line#*: }" test "${line%%: *}" = ok
   done < <("$@" || printf 'FAIL: %s ends with an error\n' "${2##*/}")
 }
+
+# fresh_site: a copy of the demo site with all its results, at $site.
+fresh_site() {
+  site=$temporary/site
+  rm -rf -- "$site"
+  cp -a -- "$DEMO_SITE" "$site"
+}
+
+# refuses PROGRAM PATTERN: insitu-PROGRAM refuses $site, its one line of stderr matches PATTERN
+# after the site's path, and no result is changed.
+refuses() {
+  local program=$1 pattern=$2 status=0 message before
+  before=$(checksums "$site/work" "$site/montages")
+  message=$("$INSITU_BIN/insitu-$program" "$site" 2>&1 >/dev/null) || status=$?
+  printf '%s' "${message//"$site/"/}"
+  [[ $status -eq 2 && $message != *$'\n'* && $message =~ ^"$site"/$pattern &&
+    $before == "$(checksums "$site/work" "$site/montages")" ]]
+}
+
+# halve FILE: cuts it in the middle.
+halve() { truncate -s $(($(stat -c %s -- "$1") / 2)) -- "$1"; }

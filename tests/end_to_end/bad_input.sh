@@ -6,24 +6,6 @@ set -euo pipefail
 # shellcheck source=assertions.sh
 source "$(dirname -- "${BASH_SOURCE[0]}")/assertions.sh"
 
-# fresh_site: a copy of the demo site with all its results, at $site.
-fresh_site() {
-  site=$temporary/site
-  rm -rf -- "$site"
-  cp -a -- "$DEMO_SITE" "$site"
-}
-
-# refuses PROGRAM PATTERN: insitu-PROGRAM refuses $site, its one line of stderr matches PATTERN
-# after the site's path, and no result is changed.
-refuses() {
-  local program=$1 pattern=$2 status=0 message before
-  before=$(checksums "$site/work" "$site/montages")
-  message=$("$INSITU_BIN/insitu-$program" "$site" 2>&1 >/dev/null) || status=$?
-  printf '%s' "${message//"$site/"/}"
-  [[ $status -eq 2 && $message != *$'\n'* && $message =~ ^"$site"/$pattern &&
-    $before == "$(checksums "$site/work" "$site/montages")" ]]
-}
-
 # edit_json FILE STATEMENT: runs a Python statement on `data`, the content of survey/FILE.
 edit_json() {
   /usr/bin/python3 - "$site/survey/$1" "$2" <<'PYTHON'
@@ -37,9 +19,6 @@ PYTHON
 
 # last_line FILE: the number of its last line.
 last_line() { awk 'END { print NR }' "$1"; }
-
-# halve FILE: cuts it in the middle.
-halve() { truncate -s $(($(stat -c %s -- "$1") / 2)) -- "$1"; }
 
 survey() { printf '%s' "$site/survey/$1"; }
 

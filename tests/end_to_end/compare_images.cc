@@ -6,6 +6,8 @@
 //   compare_images error MONTAGE TRUTH BEFORE MASK MAX_RATIO
 //       status 0 if, where MASK is not 0, the sRGB RMS error against TRUTH is at most MAX_RATIO
 //       of that of BEFORE, the photograph without the building.
+//   compare_images colors A B MAX
+//       status 0 if the mean colour difference (CIE 1976, of what sRGB shows) is at most MAX.
 #include <algorithm>
 #include <cmath>
 #include <exception>
@@ -84,12 +86,42 @@ bool IsErrorBelow(const std::vector<std::string>& files, double max_ratio) {
   return ratio <= max_ratio;  // false for NaN too: a mask without changed pixels
 }
 
+// CIE L*a*b* under the white of Rec. 709 [CIE 015:2018, 8.2.1]; what no screen shows is clipped.
+Eigen::Vector3d Lab(const Eigen::Vector3d& linear) {
+  static const Eigen::Matrix3d xyz = XyzFromRgb(kRec709);
+  static const Eigen::Vector3d white = xyz * Eigen::Vector3d::Ones();
+  const Eigen::Vector3d share =
+      (xyz * linear.cwiseMax(0).cwiseMin(1)).cwiseQuotient(white).unaryExpr([](double t) {
+        return t > 216.0 / 24389 ? std::cbrt(t) : t * 841 / 108 + 4.0 / 29;
+      });
+  return {116 * share[1] - 16, 500 * (share[0] - share[1]), 200 * (share[1] - share[2])};
+}
+
+bool AreColorsNear(const std::vector<std::string>& files, double most) {
+  const Raster a = ReadLinear(files[0]), b = ReadLinear(files[1]);
+  RequireSameSize(a, b);
+  double sum = 0, largest = 0;
+  for (int y = 0; y < a.height; ++y) {
+    for (int x = 0; x < a.width; ++x) {
+      const double difference = (Lab(a.Rgb(x, y)) - Lab(b.Rgb(x, y))).norm();
+      sum += difference;
+      largest = std::max(largest, difference);
+    }
+  }
+  const double mean = sum / a.width / a.height;
+  std::cout << "mean colour difference " << mean << ", at most " << most << "; largest " << largest
+            << "\n";
+  return mean <= most;
+}
+
 bool Compare(const std::vector<std::string>& arguments) {
   const std::string mode = arguments.empty() ? "" : arguments[0];
   const std::vector<std::string> rest(arguments.begin() + !arguments.empty(), arguments.end());
   if (mode == "identical" && (rest.size() == 2 || rest.size() == 3)) return AreIdentical(rest);
   if (mode == "error" && rest.size() == 5) return IsErrorBelow(rest, std::stod(rest[4]));
-  throw std::runtime_error("expected identical A B [MASK] or error A TRUTH BEFORE MASK MAX_RATIO");
+  if (mode == "colors" && rest.size() == 3) return AreColorsNear(rest, std::stod(rest[2]));
+  throw std::runtime_error(
+      "expected identical A B [MASK], error A TRUTH BEFORE MASK MAX_RATIO or colors A B MAX");
 }
 
 }  // namespace

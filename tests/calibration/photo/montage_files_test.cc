@@ -7,6 +7,7 @@
 
 #include <exiv2/exiv2.hpp>
 
+#include "calibration/files/whole_file.h"
 #include "tests/calibration/files/scratch_folder.h"
 #include "tests/calibration/photo/made_photographs.h"
 
@@ -112,6 +113,22 @@ TEST_F(MontageFiles, WithoutBuildingKeepEvery16BitCode) {
     EXPECT_EQ(CodesIn<uint16_t>("out.tif"), CodesIn<uint16_t>("a.tif"));
     EXPECT_EQ(ReadPhotograph(At("out.tif")).linear.data, ReadPhotograph(At("a.tif")).linear.data);
   }
+}
+
+// Exiv2 reads no profile whose pieces are out of order, though that is allowed.
+TEST_F(MontageFiles, AJpegKeepsAProfileInPieces) {
+  WriteMade(At("a.jpg"), 64, 3, ManyColors<uint8_t>(64 * 48));
+  const std::string profile = MadeProfile(kDisplayP3, kSrgbTransfer);
+  const auto segment = [&](int number, const std::string& piece) {
+    const std::string data = std::string("ICC_PROFILE\0", 12) + char(number) + '\2' + piece;
+    const size_t length = data.size() + 2;
+    return std::string("\xff\xe2") + char(length >> 8) + char(length & 255) + data;
+  };
+  std::string jpeg = ReadWhole(At("a.jpg"));
+  jpeg.insert(2, segment(2, profile.substr(100)) + segment(1, profile.substr(0, 100)));
+  folder_.Write("a.jpg", jpeg);
+  WriteMontageFiles(At("out"), Unchanged("a.jpg"));
+  EXPECT_EQ(ReadPhotographColor(At("out.jpg")).profile, ReadPhotographColor(At("a.jpg")).profile);
 }
 
 TEST_F(MontageFiles, AnExrKeepsItsChromaticitiesAndEveryNumber) {

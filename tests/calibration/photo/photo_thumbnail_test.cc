@@ -20,6 +20,19 @@ TEST(PhotoThumbnail, IsASmallJpegAsADataUri) {
   EXPECT_EQ(*thumbnail, *PhotoThumbnail(folder.path() / "a.png", 16));
 }
 
+// OpenCV reads only some TIFF, and complains of the others on the terminal.
+TEST(PhotoThumbnail, ATiffHasThatOfAPng) {
+  ScratchFolder folder;
+  Raster raster(64, 48);
+  for (size_t i = 0; i < raster.data.size(); ++i) raster.data[i] = float(i % 7) / 7;
+  WritePng(folder.path() / "a.png", raster, Encoding::kSrgb8);
+  WriteCodes(folder.path() / "a.tif", CodesOf(raster, Encoding::kSrgb8, {}));
+  EXPECT_EQ(PhotoThumbnail(folder.path() / "a.tif", 64),
+            PhotoThumbnail(folder.path() / "a.png", 64));
+  WriteCodes(folder.path() / "b.tif", CodesOf(raster, Encoding::kLinear, {}));
+  EXPECT_TRUE(PhotoThumbnail(folder.path() / "b.tif", 16));
+}
+
 TEST(PhotoThumbnail, ExrHasNone) {
   ScratchFolder folder;
   WriteExr(folder.path() / "a.exr", Raster(64, 48));

@@ -7,6 +7,7 @@
 #include "calibration/photo/exif.h"
 #include "calibration/photo/montage_files.h"
 #include "calibration/photo/photo_thumbnail.h"
+#include "calibration/photo/photograph.h"
 #include "tests/calibration/files/scratch_folder.h"
 #include "tests/calibration/photo/made_raw.h"
 
@@ -20,7 +21,7 @@ Eigen::Vector3d TwoColors(int x, int) {
   return x < 32 ? Eigen::Vector3d(0.25, 0.25, 0.25) : Eigen::Vector3d(0.05, 0.3, 0.1);
 }
 
-class RawPhotograph : public testing::Test {
+class ReadRaw : public testing::Test {
  protected:
   fs::path Write(const std::string& name, const MadeRaw& raw) const {
     const fs::path path = folder_.path() / name;
@@ -35,7 +36,7 @@ void ExpectNear(const Eigen::Vector3d& value, const Eigen::Vector3d& expected, d
   EXPECT_LT((value - expected).cwiseAbs().maxCoeff(), bound) << value.transpose();
 }
 
-TEST_F(RawPhotograph, IsLinearRec709OfTheScene) {
+TEST_F(ReadRaw, IsLinearRec709OfTheScene) {
   const Photograph photo = ReadPhotograph(Write("a.DNG", {.scene = TwoColors}));
   EXPECT_EQ(photo.linear.width, 64);
   EXPECT_EQ(photo.linear.height, 48);
@@ -46,13 +47,13 @@ TEST_F(RawPhotograph, IsLinearRec709OfTheScene) {
 }
 
 // No brightness of its own choosing, though nothing in it is bright.
-TEST_F(RawPhotograph, OfAQuarterOfTheLightHasAQuarter) {
+TEST_F(ReadRaw, OfAQuarterOfTheLightHasAQuarter) {
   const Photograph dark = ReadPhotograph(Write(
       "a.dng", {.scene = [](int x, int y) -> Eigen::Vector3d { return TwoColors(x, y) / 4; }}));
   ExpectNear(dark.linear.Rgb(50, 20), TwoColors(50, 20) / 4, 3e-4);
 }
 
-TEST_F(RawPhotograph, SaysWhereItsSensorClipped) {
+TEST_F(ReadRaw, SaysWhereItsSensorClipped) {
   const Photograph photo =
       ReadPhotograph(Write("a.dng", {.scene = [](int x, int) -> Eigen::Vector3d {
                              return Eigen::Vector3d::Constant(x < 32 ? 0.9 : 3);
@@ -64,7 +65,7 @@ TEST_F(RawPhotograph, SaysWhereItsSensorClipped) {
 }
 
 // The channels that did not clip keep what they measured.
-TEST_F(RawPhotograph, ClipsChannelByChannel) {
+TEST_F(ReadRaw, ClipsChannelByChannel) {
   const auto scene = [](int, int) { return Eigen::Vector3d(0.1, 1.8, 0.1); };
   const CodedPhotograph photo = ReadCodedPhotograph(Write("a.dng", {.scene = scene}));
   const auto& codes = std::get<std::vector<uint16_t>>(photo.samples);
@@ -74,7 +75,7 @@ TEST_F(RawPhotograph, ClipsChannelByChannel) {
   EXPECT_LT(rgb[2], 60000);
 }
 
-TEST_F(RawPhotograph, StaysAsTheSensorHasIt) {
+TEST_F(ReadRaw, StaysAsTheSensorHasIt) {
   const fs::path path = Write("a.dng", {.scene = TwoColors, .orientation = 6});
   EXPECT_EQ(ReadPhotographSize(path), Eigen::Vector2i(64, 48));
   EXPECT_EQ(ReadPhotograph(path).linear.width, 64);
@@ -83,22 +84,21 @@ TEST_F(RawPhotograph, StaysAsTheSensorHasIt) {
   EXPECT_EQ(ReadOrientation(Write("c.dng", {.scene = TwoColors, .orientation = 3})), 3);
 }
 
-TEST_F(RawPhotograph, HalfAsLargeIsTheSame) {
-  const CodedPhotograph half = ReadRawPhotograph(Write("a.dng", {.scene = TwoColors}), true);
+TEST_F(ReadRaw, HalfAsLargeIsTheSame) {
+  const RawPhotograph half = ReadRawPhotograph(Write("a.dng", {.scene = TwoColors}), true);
   EXPECT_EQ(half.width, 32);
-  const auto& codes = std::get<std::vector<uint16_t>>(half.samples);
-  const uint16_t* rgb = &codes[3 * (10 * 32 + 25)];
+  const uint16_t* rgb = &half.codes[3 * (10 * 32 + 25)];
   ExpectNear(half.color.Linear(Eigen::Vector3d(rgb[0], rgb[1], rgb[2]) / 65535), TwoColors(50, 20),
              3e-4);
 }
 
-TEST_F(RawPhotograph, HasAThumbnail) {
+TEST_F(ReadRaw, HasAThumbnail) {
   const auto thumbnail = PhotoThumbnail(Write("a.dng", {.scene = TwoColors}), 16);
   ASSERT_TRUE(thumbnail);
   EXPECT_TRUE(thumbnail->starts_with("data:image/jpeg;base64,"));
 }
 
-TEST_F(RawPhotograph, OfAnUnknownCameraIsRefused) {
+TEST_F(ReadRaw, OfAnUnknownCameraIsRefused) {
   const fs::path path = Write("a.dng", {.scene = TwoColors, .has_colors = false});
   const std::string text = path.string() + ": is of a camera (Insitu Test) whose colours LibRaw " +
                            "0.20.2-Release does not know; convert it to DNG, or develop it to a "
@@ -108,7 +108,7 @@ TEST_F(RawPhotograph, OfAnUnknownCameraIsRefused) {
   EXPECT_EQ(InputErrorOf([&] { ReadPhotographColor(path); }), text);
 }
 
-TEST_F(RawPhotograph, ThatIsNoneIsRefused) {
+TEST_F(ReadRaw, ThatIsNoneIsRefused) {
   const fs::path text = folder_.Write("a.nef", std::string(20000, 'x'));
   EXPECT_TRUE(InputErrorOf([&] {
                 ReadPhotograph(text);
@@ -121,14 +121,14 @@ TEST_F(RawPhotograph, ThatIsNoneIsRefused) {
 }
 
 // OpenImageIO would show the small picture that a raw may begin with.
-TEST_F(RawPhotograph, UnderATiffsNameIsRefused) {
+TEST_F(ReadRaw, UnderATiffsNameIsRefused) {
   const fs::path path = Write("a.tif", {.scene = TwoColors});
   EXPECT_TRUE(InputErrorOf([&] {
                 ReadPhotograph(path);
               }).starts_with(path.string() + ": is a TIFF of photometric"));
 }
 
-class RawMontage : public RawPhotograph {
+class RawMontage : public ReadRaw {
  protected:
   void SetUp() override {
     const fs::path path = Write("a.dng", {.scene = TwoColors, .orientation = 6});

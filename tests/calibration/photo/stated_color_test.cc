@@ -163,6 +163,7 @@ TEST_F(StatedColor, ProfilesThatSayNothingAreRefused) {
       {MadeCmykProfile(), "is for CMYK but the file holds red, green and blue"},
       {MadeGreyProfile(2.2), "is for GRAY but the file holds red, green and blue"},
       {good.substr(0, 200), "is damaged"},
+      {"\x7f" + good.substr(1), "is damaged"},  // says that it is longer than it is
       {std::string(300, 'x'), "is damaged"}};
   for (const auto& [profile, fault] : faults) {
     WriteMade<uint8_t>(At("a.jpg"), 1, 3, {1, 2, 3}, profile);
@@ -171,6 +172,32 @@ TEST_F(StatedColor, ProfilesThatSayNothingAreRefused) {
     EXPECT_NE(message.find(fault), std::string::npos) << message;
     EXPECT_NE(message.find("convert the photograph to sRGB"), std::string::npos) << message;
   }
+}
+
+// As some programs pad it; PNG's library would not write it.
+TEST_F(StatedColor, AProfileWithSomethingBehindIsDelivered) {
+  const std::string good = MadeProfile(kDisplayP3, kSrgbTransfer);
+  WriteMade<uint8_t>(At("a.jpg"), 1, 3, {1, 2, 3}, good + "abc");
+  const ColorSpace color = ReadPhotographColor(At("a.jpg"));
+  EXPECT_EQ(color.profile.size() % 4, 0u);
+  WriteCodes(At("b.png"), CodesOf(Raster(2, 2), Encoding::kSrgb8, color));
+  EXPECT_EQ(ReadPhotographColor(At("b.png")).profile, color.profile);
+}
+
+TEST_F(StatedColor, APngWithoutEndIsRefusedByOneLine) {
+  WriteMade(At("a.png"), 64, 3, ManyColors<uint8_t>(64 * 48));
+  fs::resize_file(At("a.png"), fs::file_size(At("a.png")) / 2);
+  testing::internal::CaptureStderr();
+  EXPECT_EQ(FaultOf("a.png"),
+            At("a.png").string() + ": cut short or damaged: its last chunk, IEND, is missing");
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+}
+
+TEST_F(StatedColor, APictureOfBitsIsRefused) {
+  WriteMade<uint8_t>(At("a.tif"), 8, 1, std::vector<uint8_t>(64, 255), "",
+                     [](OIIO::ImageSpec* spec) { spec->attribute("oiio:BitsPerSample", 1); });
+  EXPECT_EQ(FaultOf("a.tif"),
+            At("a.tif").string() + ": has 1 bit a pixel, expected 8 or 16 bits a channel");
 }
 
 TEST_F(StatedColor, AProfileThatUnpacksWithoutEndIsRefused) {

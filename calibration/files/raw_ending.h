@@ -1,14 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "calibration/program/raw_ending.h"
+// Which files are a camera's raw data.
+#pragma once
 
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <filesystem>
 #include <string>
 
 namespace insitu {
 
-bool HasRawEnding(const std::filesystem::path& name) {
+// Whether a name ends as a camera's raw data do (.dng, .nef, .cr3 ...), in any case.
+inline bool HasRawEnding(const std::filesystem::path& name) {
   static constexpr std::array kEndings = {".3fr", ".ari", ".arw", ".cr2", ".cr3", ".crw", ".dcr",
                                           ".dng", ".erf", ".fff", ".iiq", ".k25", ".kdc", ".mef",
                                           ".mos", ".mrw", ".nef", ".nrw", ".orf", ".pef", ".raf",
