@@ -20,10 +20,10 @@
 namespace insitu {
 namespace {
 
-constexpr int kDirections = 4096;        // in which a sample's surroundings are looked at
-constexpr double kPieceAtSample = 0.15;  // [m], of what surrounds it
-constexpr int kRounds = 4;               // of light and unseen surroundings; each gains a digit
-constexpr double kUnseenSigma = 0.5;     // of what unseen surroundings are taken to send
+constexpr double kUnseenSigma = 0.5;  // of what unseen surroundings are taken to send
+// While samples are being chosen: at once, within a fraction of the sigmas.
+constexpr SurroundingsDetail kSoFar = {
+    .directions = 1024, .piece_m = 0.3, .piece_directions = 64, .rounds = 3};
 
 // For a site as it stands.
 struct NothingPlanned {
@@ -209,17 +209,19 @@ void FitInSurroundings(const PhotographSet& photos, const std::vector<SurfacePoi
                                 polygons.mesh,
                                 nothing.faces,
                                 {}};
-  PatchGrid grid{{}, kPieceAtSample};
+  PatchGrid grid{{}, options.around.piece_m};
   for (const SurfacePoint& point : points) {
     grid.foci.emplace_back(point.position, point.position);
   }
   Daylight light = environment.light;
   Interreflection interreflection(scene, light, grid,
-                                  {.bounces = options.bounces, .point_directions = kDirections});
+                                  {.bounces = options.bounces,
+                                   .patch_directions = options.around.piece_directions,
+                                   .point_directions = options.around.directions});
   const bool has_sun = environment.scene.sun.has_value();
   DaylightFit& fit = measured->daylight_fit;
   const std::vector<DaylightSample> bare = measured->daylight;
-  for (int round = 0; round < kRounds; ++round) {
+  for (int round = 0; round < options.around.rounds; ++round) {
     interreflection.Solve(light);
     measured->daylight = bare;
     SetSurroundings(interreflection, points, measured->brdf, &measured->daylight,
@@ -341,7 +343,8 @@ LightMeasurement MeasureDaylight(const SitePaths& site, const LightOptions& opti
 LightMeasurement MeasureDaylightSoFar(const SitePaths& site, const SceneGeometry& scene,
                                       const std::vector<Photograph>& photos,
                                       std::vector<Sentence>* left_out) {
-  const LightOptions options;
+  LightOptions options;
+  options.around = kSoFar;
   LightMeasurement measured = WithoutSamples(site, scene, options);
   measured.samples = ReadSamples(site, scene, photos, {}, left_out);
   RequireEnough(site, &measured.samples, left_out);

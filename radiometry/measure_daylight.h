@@ -11,12 +11,21 @@
 
 namespace insitu {
 
+// How finely the surroundings of samples are looked at.
+struct SurroundingsDetail {
+  int directions = 4096;       // about a sample
+  double piece_m = 0.15;       // of what surrounds it, where that is nearest
+  int piece_directions = 256;  // about each piece
+  int rounds = 4;              // of light and unseen surroundings; each gains a digit
+};
+
 struct LightOptions {
   int bins = kMaxBins;   // 16, or 9 as the paper's mode
   int polar_facets = 8;  // m_h
   bool average_over_wavelength = false;
   bool uniform_ambient = false;     // Eq. (4) as printed, instead of photographed surroundings
   std::optional<int> bounces = {};  // of light among surfaces, at most; 0: sun and sky alone
+  SurroundingsDetail around = {};
 
   void Check() const;  // throws CheckError that names the field that is wrong
 };

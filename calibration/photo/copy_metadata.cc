@@ -11,8 +11,8 @@
 #include <string>
 
 #include "calibration/files/error.h"
-#include "calibration/files/whole_file.h"
 #include "calibration/files/raw_ending.h"
+#include "calibration/files/whole_file.h"
 
 namespace insitu {
 namespace {

@@ -5,9 +5,9 @@
 #include <exiv2/exiv2.hpp>
 
 #include "calibration/files/error.h"
+#include "calibration/files/raw_ending.h"
 #include "calibration/photo/photograph.h"
 #include "calibration/photo/raw_photograph.h"
-#include "calibration/files/raw_ending.h"
 
 namespace insitu {
 namespace {

@@ -11,10 +11,10 @@
 #include <utility>
 
 #include "calibration/files/error.h"
+#include "calibration/files/raw_ending.h"
 #include "calibration/files/whole_file.h"
 #include "calibration/photo/exif.h"
 #include "calibration/photo/jpeg_blocks.h"
-#include "calibration/files/raw_ending.h"
 
 namespace insitu {
 namespace {

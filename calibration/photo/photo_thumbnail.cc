@@ -11,10 +11,10 @@
 #include <variant>
 #include <vector>
 
+#include "calibration/files/raw_ending.h"
 #include "calibration/files/whole_file.h"
 #include "calibration/photo/photograph.h"
 #include "calibration/photo/raw_photograph.h"
-#include "calibration/files/raw_ending.h"
 
 namespace insitu {
 namespace {

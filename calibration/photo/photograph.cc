@@ -20,10 +20,10 @@
 #include "calibration/color/stated_color.h"
 #include "calibration/files/error.h"
 #include "calibration/files/error_at.h"
+#include "calibration/files/raw_ending.h"
 #include "calibration/files/whole_file.h"
 #include "calibration/photo/copy_metadata.h"
 #include "calibration/photo/raw_photograph.h"
-#include "calibration/files/raw_ending.h"
 
 namespace insitu {
 namespace {

@@ -8,9 +8,9 @@
 #include <limits>
 #include <map>
 
+#include "calibration/color/color_space.h"
 #include "calibration/files/error.h"
 #include "calibration/files/wording.h"
-#include "calibration/color/color_space.h"
 #include "renderer/foreign/file_reference.h"
 #include "renderer/foreign/mesh_builder.h"
 #include "renderer/formats/obj_material.h"

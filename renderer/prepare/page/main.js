@@ -18,7 +18,7 @@ import {addPolygonKeys} from "./tools/polygon_tool.js";
 import {emit} from "./site/signals.js";
 import {showSketches} from "./points/sketches.js";
 import {followRuns, showStages} from "./around/stages.js";
-import {start} from "./site/state.js";
+import {connect, start} from "./site/state.js";
 import {buildToolPanel} from "./tools/tool_panel.js";
 import {activePane} from "./site/ui.js";
 import {language, said, t} from "./words/words.js";
@@ -75,6 +75,7 @@ async function begin() {
     activePane()?.focus();
   }
   listenToKeys();
+  await connect();
   document.body.dataset.ready = "true";
   emit("view");
 }

@@ -2,6 +2,7 @@
 // Panes beside each other: one, two or four; the first is the large one.
 
 import {byId} from "../words/dom.js";
+import {firstLayout} from "./first_look.js";
 import {Pane} from "./pane.js";
 import {live, mark, state} from "../site/state.js";
 import {emit, on, redraw} from "../site/signals.js";
@@ -13,10 +14,8 @@ export function buildPanes() {
   onUndecodable((photo, why) => {
     state.photos[photo].fault = why;
   });
-  setLayout(
-    Number(localStorage.getItem("insitu-layout")) ||
-      Math.min(state.photos.length > 2 ? 4 : state.photos.length || 1, 4)
-  );
+  byId("panes").replaceChildren(); // the first look
+  setLayout(firstLayout(state.photos));
   on("draw", () =>
     ui.panes.forEach(pane => {
       pane.isDrawn = false;

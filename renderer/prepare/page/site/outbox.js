@@ -16,6 +16,7 @@ const keys = new Map();
 /** @type {Set<string>} ids of those that the store holds for sure */
 const kept = new Set();
 let isSending = false,
+  isOpen = false, // what an earlier page left is here, which goes first
   site = "",
   timer = 0;
 let handlers = {
@@ -61,11 +62,13 @@ function store(operation) {
 export async function openOutbox(siteFolder, called) {
   site = siteFolder;
   handlers = called;
-  for (const {order, operation} of await keptOf(site)) {
-    waiting.push(operation);
+  const earlier = (await keptOf(site)).filter(({operation}) => !keys.has(operation.id));
+  for (const {order, operation} of earlier) {
     keys.set(operation.id, Promise.resolve(order));
     kept.add(operation.id);
   }
+  waiting.unshift(...earlier.map(({operation}) => operation));
+  isOpen = true;
   if (waiting.length > 0) sendNow();
 }
 
@@ -110,7 +113,7 @@ async function send(operation) {
 
 /** Sends what waits; after a failure again in a while. */
 export async function sendNow() {
-  if (isSending) return;
+  if (isSending || !isOpen) return;
   isSending = true;
   clearTimeout(timer);
   try {

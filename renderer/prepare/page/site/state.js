@@ -3,7 +3,7 @@
 // since. What the server has computed from them stands beside, as it was last told.
 
 import {connectLive, getJson} from "./api.js";
-import {firstSite} from "./first.js";
+import {firstSite} from "../photo/first_look.js";
 import {enqueue, newId, openOutbox, unconfirmed} from "./outbox.js";
 import {emit} from "./signals.js";
 import {said} from "../words/words.js";
@@ -287,9 +287,13 @@ function takeSite(site) {
   for (const signal of ["site", "history", "todo", "adjusted", "light", "saved"]) emit(signal);
 }
 
-/** The first load; then the live connection, which loads again each time it comes back. */
+/** The first load, after which all can be shown. */
 export async function start() {
   takeSite(await firstSite);
+}
+
+/** Then what an earlier page left, and the live connection, which loads again where it missed something. */
+export async function connect() {
   await openOutbox(state.siteFolder, {
     confirmed: (operation, revision) => {
       if (!seen.has(operation.id) && !(revision <= base)) applyEdits(confirmed, operation.edits);
