@@ -9,6 +9,7 @@
 #include <cstdio>
 #include <sstream>
 
+#include "calibration/files/remark_keys.h"
 #include "calibration/files/whole_file.h"
 
 namespace insitu {
@@ -92,6 +93,7 @@ std::vector<std::pair<std::string, JsonNode>> JsonNode::Members() const {
   if (!value_->isObject()) throw Error(Expected("an object", *value_));
   std::vector<std::pair<std::string, JsonNode>> members;
   for (const std::string& key : value_->getMemberNames()) {
+    if (IsRemarkKey(key)) continue;
     const std::string place = place_.empty() ? key : place_ + "." + key;
     members.emplace_back(key, JsonNode(document_, &(*value_)[key], place));
   }

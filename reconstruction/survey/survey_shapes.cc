@@ -33,10 +33,9 @@ InputError UnknownKey(const JsonNode& member, const std::string& what,
   return member.Error("is not a key of " + what + ", expected " + expected);
 }
 
-// A key that is misspelt would be left out without a word. Every object may hold a comment.
+// A key that is misspelt would be left out without a word.
 void RequireKnownKeys(const JsonNode& node, const std::string& what,
-                      std::vector<std::string> keys) {
-  keys.push_back("comment");
+                      const std::vector<std::string>& keys) {
   for (const auto& [key, member] : node.Members()) {
     if (std::find(keys.begin(), keys.end(), key) != keys.end()) continue;
     throw UnknownKey(member, what, keys);
