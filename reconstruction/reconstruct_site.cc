@@ -10,17 +10,21 @@
 #include "calibration/photo/distinct_photographs.h"
 #include "calibration/photo/photo_thumbnail.h"
 #include "reconstruction/adjustment/adjust.h"
+#include "reconstruction/adjustment/find_start_values.h"
 #include "reconstruction/report/input_files.h"
 #include "reconstruction/report/montage_points.h"
 #include "reconstruction/report/residual_csv.h"
 #include "reconstruction/report/residual_page.h"
 #include "reconstruction/report/residual_report.h"
+#include "reconstruction/site_gps.h"
 #include "reconstruction/site_photos.h"
 #include "reconstruction/site_sun.h"
 #include "reconstruction/survey/read_survey.h"
 
 namespace insitu {
 namespace {
+
+constexpr double kSlips = 0.05;  // of a photo's marks: more outside are no slips of the pen
 
 Rigid3 Upright(const Eigen::Vector3d& center, const Eigen::Vector3d& forward) {
   const Eigen::Vector3d up = std::abs(forward.normalized().z()) < 0.999 ? Eigen::Vector3d::UnitZ()
@@ -128,12 +132,18 @@ Adjustment ReconstructSite(const SitePaths& site, const AdjustmentOptions& optio
   Survey survey =
       ReadSurvey(site, photos, tie_points ? SurveyFolder::kOptional : SurveyFolder::kRequired);
   survey.tie_points = tie_points;
+  // A fault of input is told before the photographs are read.
+  RequireMarksOnPhotographs(survey, photos, site_photos.cameras, kSlips);
+  const GpsPositions gps = FindGpsPositions(site, site_photos, survey);
+  survey.camera_positions.insert(survey.camera_positions.end(), gps.positions.begin(),
+                                 gps.positions.end());
   RequireSizes(site_photos.paths, site_photos.cameras);
   RequireDistinctPhotographs(site_photos.paths);
   std::map<std::string, Rigid3> estimates;
   if (!start_poses.empty()) estimates = ReadStartPoses(start_poses, photos);
   Adjustment adjustment =
       Adjust(survey, photos, site_photos.cameras, options, site_photos.lenses, estimates);
+  if (!gps.remark.empty()) adjustment.warnings.push_back(gps.remark);
   const std::optional<Json::Value> sun = CheckSun(site, site_photos, survey, &adjustment);
   ReportContext context = SiteContext(site, site_photos, options, adjustment, tie_points);
   context.command = command;

@@ -22,6 +22,7 @@ using Command = std::pair<std::string, std::string>;  // name, summary
 std::vector<Command> OtherCommands() {
   return {{"montage", "all of these, as far as their results do not hold any more"},
           {"prepare", "the measuring page: everything in survey/, measured on the photographs"},
+          {"new", "a site's folder from photographs, with files that explain themselves"},
           {"materials", "the library of materials and lamps: its list, swatches, proposals"},
           {"view", "the viewing page: before and after, pixel by pixel; renders as they run"},
           {"import-survey", "control points and marks of other programs for a site"},

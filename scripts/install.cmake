@@ -28,6 +28,10 @@ install(FILES README.md CHANGELOG.md CONVENTIONS.md DESTINATION ${CMAKE_INSTALL_
 # The material library, for people to read and to copy from, too.
 install(DIRECTORY radiometry/library/data/ DESTINATION ${CMAKE_INSTALL_DATADIR}/insitu/library)
 
+# What people write, told file by file, and the schemas by which editors help with it.
+install(FILES reconstruction/FILES.md DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/insitu)
+install(DIRECTORY reconstruction/schemas/ DESTINATION ${CMAKE_INSTALL_DATADIR}/insitu/schemas)
+
 # What reads IFC, as scripts/setup has fetched it; without it IFC is refused. What turns previews.
 install(FILES build/web-ifc/web-ifc-api-node.js build/web-ifc/web-ifc-node.wasm
     build/web-ifc/LICENSE.md build/web-ifc/package.json

@@ -10,6 +10,7 @@
 #include <sstream>
 
 #include "calibration/files/error_at.h"
+#include "calibration/files/remark_keys.h"
 #include "calibration/files/whole_file.h"
 
 namespace insitu {
@@ -108,6 +109,7 @@ std::vector<std::pair<std::string, JsonNode>> JsonNode::Members() const {
   if (!value_->isObject()) throw OtherType(*this, *value_, Sentence("jsonObject", "an object"));
   std::vector<std::pair<std::string, JsonNode>> members;
   for (const std::string& key : value_->getMemberNames()) {
+    if (IsRemarkKey(key)) continue;
     const std::string place = place_.empty() ? key : place_ + "." + key;
     members.emplace_back(key, JsonNode(document_, &(*value_)[key], place));
   }

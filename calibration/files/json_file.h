@@ -25,7 +25,7 @@ class JsonNode {
   JsonNode At(const std::string& key) const;                      // must exist, must not be null
   std::optional<JsonNode> Find(const std::string& key) const;     // nullopt if absent or null
   std::vector<JsonNode> Items() const;                            // of an array
-  std::vector<std::pair<std::string, JsonNode>> Members() const;  // of an object, sorted by key
+  std::vector<std::pair<std::string, JsonNode>> Members() const;  // by key; no remark_keys.h
 
   double Number() const;  // finite
   int Integer() const;

@@ -12,6 +12,8 @@
 namespace insitu {
 namespace {
 
+constexpr double kReceiverPlan = 5, kReceiverHeight = 10;  // [m], single-frequency, open sky
+
 std::optional<double> Positive(const Exiv2::ExifData& exif, const char* key) {
   const auto entry = exif.findKey(Exiv2::ExifKey(key));
   if (entry == exif.end() || entry->count() == 0) return std::nullopt;
@@ -77,6 +79,20 @@ Exiv2::ExifData ReadExif(const std::filesystem::path& photo) {
   }
 }
 
+// By the last part of its key, whatever prefix the maker gives the namespace.
+std::optional<double> PositiveXmp(const std::filesystem::path& photo, const std::string& tag) {
+  try {
+    const auto image = Exiv2::ImageFactory::open(photo.string());
+    image->readMetadata();
+    for (const Exiv2::Xmpdatum& entry : image->xmpData()) {
+      const double value = entry.tagName() == tag ? entry.toFloat() : 0;
+      if (std::isfinite(value) && value > 0) return value;
+    }
+  } catch (const Exiv2::Error&) {  // a format without metadata
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 std::optional<double> ExifCamera::FocalPx() const {
@@ -100,6 +116,25 @@ ExifPlace ReadExifPlace(const std::filesystem::path& photo) {
   const Exiv2::ExifData exif = ReadExif(photo);
   return {Degrees(exif, "Exif.GPSInfo.GPSLatitude", "S"),
           Degrees(exif, "Exif.GPSInfo.GPSLongitude", "W"), Altitude(exif), LocalTime(exif)};
+}
+
+std::optional<ExifPosition> ReadExifPosition(const std::filesystem::path& photo) {
+  const ExifPlace place = ReadExifPlace(photo);
+  if (!place.latitude || !place.longitude || !place.altitude) return std::nullopt;
+  ExifPosition position{*place.latitude, *place.longitude, *place.altitude,
+                        Eigen::Vector3d(kReceiverPlan, kReceiverPlan, kReceiverHeight), false};
+  if (const auto error =
+          Positive(ReadExif(photo), "Exif.GPSInfo.GPSHPositioningError")) {  // of the radius
+    const double plan = *error / std::sqrt(2.0);
+    position.sigma_m = {plan, plan, 2 * plan};
+    position.is_sigma_stated = true;
+  }
+  const auto east = PositiveXmp(photo, "RtkStdLon"), north = PositiveXmp(photo, "RtkStdLat"),
+             up = PositiveXmp(photo, "RtkStdHgt");
+  if (!east || !north || !up) return position;
+  position.sigma_m = {*east, *north, *up};
+  position.is_sigma_stated = true;
+  return position;
 }
 
 std::optional<double> ExifExposure::Relative() const {

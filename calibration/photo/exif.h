@@ -30,6 +30,19 @@ struct ExifPlace {
                                               // where that is not stated
 };
 
+// Where the satellite receiver's antenna was, with standard deviations east, north, up.
+struct ExifPosition {
+  double latitude = 0, longitude = 0;  // [deg], WGS 84
+  double altitude = 0;                 // [m]
+  Eigen::Vector3d sigma_m;
+  bool is_sigma_stated = false;  // by XMP of drones (RtkStdLon, ...) or EXIF's GPSHPositioningError
+};
+
+// nullopt: latitude, longitude or altitude is not stated. Without a word on it a position is taken
+// to be good to 5 m in plan and 10 m in height, what single-frequency receivers in cameras and
+// telephones reach under an open sky [GPS SPS Performance Standard, 2020].
+std::optional<ExifPosition> ReadExifPosition(const std::filesystem::path& photo);
+
 // Empty when the file holds no metadata.
 ExifPlace ReadExifPlace(const std::filesystem::path& photo);
 

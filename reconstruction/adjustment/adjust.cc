@@ -77,6 +77,8 @@ void AddStatistics(const NetworkSolution& solution, const AdjustmentOptions& opt
   adjustment->datum_defect = solution.datum.defect();
   adjustment->redundancy = solution.redundancy;
   adjustment->datum = DatumInWords(solution.datum);
+  adjustment->datum_worth = solution.datum_worth;
+  adjustment->has_scale = !solution.datum.is_free[6];
   adjustment->sigma0 = solution.sigma0;
   adjustment->critical_w = CriticalTestValue(options.significance);
   adjustment->chi_square_p = ChiSquareTwoSided(solution.square_sum, solution.redundancy);
@@ -161,6 +163,12 @@ Adjustment Adjust(const Survey& survey, const std::vector<std::string>& photos,
   adjustment.unknowns_of = CountUnknowns(network, solution.columns);
   WarnOfStart(start, survey, &adjustment);
   WarnOfMasks(survey, &adjustment);
+  for (const std::string& camera : survey_network.usual_lenses) {
+    adjustment.warnings.push_back(
+        "camera '" + camera +
+        "': its calibration states no uncertainty and no control shows any; 0.05 % of the focal "
+        "length is taken, also for the principal point");
+  }
   adjustment.residuals = AdjustedObservations(survey_network, solution, options.significance);
   adjustment.cameras = AdjustedCameras(network, solution);
   adjustment.poses = AdjustedPoses(network, solution);

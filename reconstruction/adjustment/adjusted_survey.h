@@ -11,6 +11,7 @@
 
 #include "calibration/lens/rigid3.h"
 #include "reconstruction/geometry/scene_geometry.h"
+#include "reconstruction/network/network_system.h"
 
 namespace insitu {
 
@@ -156,6 +157,8 @@ struct Adjustment {
   int observations = 0, unknowns = 0, datum_defect = 0, redundancy = 0, iterations = 0;
   bool is_converged = true;
   std::map<std::string, int> unknowns_of;  // their number by what they belong to: "points", ...
+  DatumWorth datum_worth;
+  bool has_scale = true;    // else a unit of length is arbitrary
   std::string datum;        // in words: "fixed by the survey", or what is free and how it was fixed
   double chi_square_p = 0;  // two-sided p of the global test
   GlobalTest global_test;
@@ -169,6 +172,8 @@ struct Adjustment {
   std::vector<Correlation> correlations;  // largest first
   std::vector<std::string> warnings;      // besides a datum that is free
   std::string BriefReport() const;
+  // What scale, north and height are worth for a building of this size [m].
+  std::string DatumWorthInWords(double building) const;
 };
 
 }  // namespace insitu

@@ -7,6 +7,7 @@
 
 #include "calibration/files/error.h"
 #include "calibration/files/wording.h"
+#include "reconstruction/colmap/upright_model.h"
 #include "reconstruction/geometry/intersection.h"
 
 namespace insitu {
@@ -14,6 +15,8 @@ namespace {
 
 constexpr double kLeastAngle = 0.02;   // [rad], between the rays to a control point
 constexpr double kBendOfModel = 2e-3;  // of the control's extent: how far image matching drifts
+
+constexpr char kControlPoint[] = "control point ";
 
 struct Located {
   std::string name;
@@ -35,8 +38,8 @@ std::optional<Located> Locate(const Survey& survey, const std::map<std::string, 
   for (size_t i = 0; i < posed.size(); ++i) sights.push_back({&posed[i], marks[i]->pixel});
   const auto position = Intersect(sights, kLeastAngle);
   if (!position) return std::nullopt;
-  Located located{"control point '" + control.name + "'", *position, control.position,
-                  control.sigma};
+  Located located{std::string(kControlPoint) + "'" + control.name + "'", *position,
+                  control.position, control.sigma};
   for (size_t i = 0; i < posed.size(); ++i) {  // no better than its worst ray: errs to caution
     const double distance = (*position - Center(posed[i].cam_from_world)).norm();
     const double sigma_px = std::max(marks[i]->sigma_px, tie_points.sigma_px);
@@ -66,34 +69,88 @@ Eigen::Quaterniond ShortestTurn(const Eigen::Vector3d& from, const Eigen::Vector
   return Eigen::Quaterniond(cosine, axis.x(), axis.y(), axis.z()).normalized();
 }
 
-// Fewer than three pairs: position, and with two of them scale and the direction between them.
-Similarity3 AsFarAsKnown(const std::vector<SimilarityPair>& pairs) {
-  Similarity3 world_from_model;
+// Fewer than three pairs: position, and with two of them scale and the direction between them; the
+// rest from what else is stated.
+Similarity3 AsFarAsKnown(const std::vector<SimilarityPair>& pairs, const UprightModel& upright) {
+  Similarity3 world_from_model = upright.world_from_model;
   if (pairs.empty()) return world_from_model;
   if (pairs.size() >= 2) {
     const Eigen::Vector3d source = pairs[1].source - pairs[0].source;
     const Eigen::Vector3d target = pairs[1].target - pairs[0].target;
     if (source.norm() > 0 && target.norm() > 0) {
       world_from_model.scale = target.norm() / source.norm();
-      world_from_model.rotation = ShortestTurn(source, target);
+      const Eigen::Quaterniond up = upright.world_from_model.rotation;
+      world_from_model.rotation = ShortestTurn(up * source, target) * up;
     }
   }
   world_from_model.translation = pairs[0].target - world_from_model * pairs[0].source;
   return world_from_model;
 }
 
+// Places that tell no tilt, as satellite positions on a line do: plumb by what else is stated, then
+// turned about the zenith and scaled to fit in plan.
+Similarity3 LevelFit(const std::vector<SimilarityPair>& pairs, const UprightModel& upright) {
+  Similarity3 fit = upright.world_from_model;
+  Eigen::Vector3d source = Eigen::Vector3d::Zero(), target = Eigen::Vector3d::Zero();
+  for (const SimilarityPair& pair : pairs) {
+    source += pair.source / static_cast<double>(pairs.size());
+    target += pair.target / static_cast<double>(pairs.size());
+  }
+  double along = 0, across = 0, squares = 0;
+  for (const SimilarityPair& pair : pairs) {
+    const Eigen::Vector2d s = (fit.rotation * (pair.source - source)).head<2>();
+    const Eigen::Vector2d t = (pair.target - target).head<2>();
+    along += s.dot(t);
+    across += s.x() * t.y() - s.y() * t.x();
+    squares += s.squaredNorm();
+  }
+  const Eigen::AngleAxisd heading(std::atan2(across, along), Eigen::Vector3d::UnitZ());
+  fit.rotation = heading * fit.rotation;
+  if (upright.lengths == 0 && squares > 0) fit.scale = std::hypot(along, across) / squares;
+  if (!(fit.scale > 0)) fit.scale = 1;
+  fit.translation = target - fit.scale * (fit.rotation * source);
+  return fit;
+}
+
+// Whether no surveyed point is among what is known, and the tilt that is fitted means nothing.
+bool NeedsLevelFit(const ModelControl& control, const std::optional<SimilarityFit>& fit) {
+  constexpr double kUncertainTilt = 0.1;  // [rad]
+  const bool has_points = std::ranges::any_of(
+      control.names, [](const std::string& name) { return name.starts_with(kControlPoint); });
+  if (control.pairs.size() < 3 || has_points) return false;
+  if (!fit) return true;
+  const double tilt = std::sqrt(std::max(fit->covariance(0, 0), fit->covariance(1, 1)));
+  return fit->sigma0 * tilt > kUncertainTilt;
+}
+
+// "orientation and scale are arbitrary, a unit is no metre", as far as nothing else is stated.
+std::string Arbitrary(const std::string& before, const UprightModel& upright) {
+  std::string text = before + (upright.plumb > 0 ? "heading" : "orientation");
+  if (upright.lengths == 0) text += " and scale";
+  const bool is_one = before.empty() && upright.lengths > 0;
+  text += is_one ? " is arbitrary" : " are arbitrary";
+  if (upright.lengths == 0) text += ", a unit is image matching's own and no metre";
+  text += upright.plumb > 0
+              ? "; turned upright by " + std::to_string(upright.plumb) + " plumb or level lines"
+              : "; turned upright as the cameras were held";
+  if (upright.lengths > 0) {
+    text += "; scale by " + std::to_string(upright.lengths) +
+            (upright.lengths == 1 ? " length" : " lengths");
+  }
+  return text;
+}
+
 // What stays arbitrary without a fit.
-std::string DatumWarning(const ModelControl& control) {
+std::string DatumWarning(const ModelControl& control, const UprightModel& upright) {
   const size_t pairs = control.pairs.size();
   if (pairs == 0) {
-    return "no control: position, orientation and scale are arbitrary, a unit is image matching's "
-           "own and no metre; mark three surveyed points on two photos each, or survey three "
-           "camera positions";
+    return "no control: " +
+           Arbitrary(upright.lengths > 0 ? "position and " : "position, ", upright) +
+           "; mark three surveyed points on two photos each, or survey three camera positions";
   }
   if (pairs == 1) {
-    return "only " + control.names[0] +
-           " is known: orientation and scale are arbitrary, a unit is no metre; mark two more "
-           "surveyed points on two photos each";
+    return "only " + control.names[0] + " is known: " + Arbitrary("", upright) +
+           "; mark two more surveyed points on two photos each";
   }
   if (pairs == 2) {
     return "only " + control.names[0] + " and " + control.names[1] +
@@ -149,6 +206,12 @@ TiePointAlignment AlignTiePoints(const Survey& survey, const std::map<std::strin
   TiePointAlignment alignment;
   alignment.pairs = static_cast<int>(control.pairs.size());
   alignment.fit = FitSimilarity(control.pairs);
+  if (NeedsLevelFit(control, alignment.fit)) {
+    alignment.fit.reset();
+    alignment.world_from_model = LevelFit(control.pairs, FindUpright(survey, cameras, *tie_points));
+    Transform(alignment.world_from_model, tie_points);
+    return alignment;
+  }
   if (alignment.fit && alignment.fit->is_mirrored) {
     const FilePlace place = survey.control_points.empty() ? survey.camera_positions[0].place
                                                           : survey.control_points[0].place;
@@ -161,8 +224,14 @@ TiePointAlignment AlignTiePoints(const Survey& survey, const std::map<std::strin
     alignment.world_from_model = alignment.fit->target_from_source;
     WarnOfOutliers(control, *alignment.fit, &alignment.warnings);
   } else {
-    alignment.world_from_model = AsFarAsKnown(control.pairs);
-    alignment.warnings.push_back(DatumWarning(control));
+    const UprightModel upright = FindUpright(survey, cameras, *tie_points);
+    alignment.world_from_model = AsFarAsKnown(control.pairs, upright);
+    alignment.warnings.push_back(DatumWarning(control, upright));
+    if (upright.is_contradictory) {
+      alignment.warnings.emplace_back(
+          "the distances or heights of constraints.json contradict each other in scale by over a "
+          "tenth: check their values and points");
+    }
   }
   Transform(alignment.world_from_model, tie_points);
   return alignment;

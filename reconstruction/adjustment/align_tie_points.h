@@ -32,11 +32,14 @@ struct TiePointAlignment {
   std::optional<SimilarityFit> fit;  // nullopt: fewer than three pairs, or they lie on one line
   Similarity3 world_from_model;      // of the fit, else as far as one or two pairs tell
   int pairs = 0;
-  std::vector<std::string> warnings;  // outliers by name; what stays free
+  std::vector<std::string>
+      warnings;  // outliers by name; what stays free; no fit and none of these:
+                 // camera positions that tell no tilt, which is then upright's
 };
 
 // Moves the model into the world as well as its control tells: by three or more pairs wholly; by
-// two in position and scale, turned as little as possible; by one in position; by none not at all.
+// two in position and scale, turned as little as possible; by one in position. What these leave
+// open upright_model.h gives, as far as it can.
 // The warnings say what of scale and datum stays arbitrary. Throws InputError, at the control file,
 // if a mirror image would fit far better.
 TiePointAlignment AlignTiePoints(const Survey& survey, const std::map<std::string, Camera>& cameras,

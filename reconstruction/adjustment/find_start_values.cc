@@ -2,6 +2,7 @@
 #include "reconstruction/adjustment/find_start_values.h"
 
 #include <algorithm>
+#include <unordered_map>
 #include <utility>
 
 #include "calibration/files/wording.h"
@@ -10,6 +11,15 @@
 namespace insitu {
 namespace {
 
+void RequireOnPhotograph(const std::string& what, const std::string& photo, const Camera& camera,
+                         const Eigen::Vector2d& pixel, const FilePlace& place) {
+  if (camera.Sees(pixel)) return;
+  throw InputError(place.path, place.line,
+                   what + " is marked outside photo '" + photo + "', expected a position within " +
+                       std::to_string(camera.width()) + "x" + std::to_string(camera.height()) +
+                       " pixels");
+}
+
 // Grows the start values of a survey that must be whole: tells what it lacks.
 class StartFinder {
  public:
@@ -17,16 +27,7 @@ class StartFinder {
               const std::vector<Camera>& cameras,
               const std::map<std::string, Rigid3>& initial_cam_from_world)
       : survey_(survey), growth_(survey, photos, cameras, initial_cam_from_world) {
-    std::map<std::string, const Camera*> camera_of;
-    for (size_t i = 0; i < photos.size(); ++i) camera_of[photos[i]] = &cameras[i];
-    for (const ImageObservation& mark : survey.observations) {
-      RequireOnPhotograph("point '" + mark.point + "'", mark.photo, *camera_of.at(mark.photo),
-                          mark.pixel, mark.place);
-    }
-    for (const EdgeMark& mark : survey.edges) {
-      RequireOnPhotograph("edge '" + mark.from + "' to '" + mark.to + "'", mark.photo,
-                          *camera_of.at(mark.photo), mark.pixel, mark.place);
-    }
+    RequireMarksOnPhotographs(survey, photos, cameras);
   }
 
   StartValues Find() {
@@ -53,16 +54,6 @@ class StartFinder {
   }
 
  private:
-  static void RequireOnPhotograph(const std::string& what, const std::string& photo,
-                                  const Camera& camera, const Eigen::Vector2d& pixel,
-                                  const FilePlace& place) {
-    if (camera.Sees(pixel)) return;
-    throw InputError(place.path, place.line,
-                     what + " is marked outside photo '" + photo +
-                         "', expected a position within " + std::to_string(camera.width()) + "x" +
-                         std::to_string(camera.height()) + " pixels");
-  }
-
   const std::string& NameOf(size_t photo) { return growth_.values().cameras[photo].photo; }
 
   // Photos that image matching left out and that show too little control: from points that others
@@ -165,6 +156,36 @@ class StartFinder {
 };
 
 }  // namespace
+
+void RequireMarksOnPhotographs(const Survey& survey, const std::vector<std::string>& photos,
+                               const std::vector<Camera>& cameras, double most_outside) {
+  struct Frame {
+    const Camera* camera = nullptr;
+    double outside = 0, all = 0;
+  };
+  std::unordered_map<std::string, Frame> frames;
+  for (size_t i = 0; i < photos.size(); ++i) frames[photos[i]].camera = &cameras[i];
+  const auto count = [&](const auto& marks) {
+    for (const auto& mark : marks) {
+      Frame& frame = frames.at(mark.photo);
+      frame.all += 1;
+      frame.outside += frame.camera->Sees(mark.pixel) ? 0 : 1;
+    }
+  };
+  count(survey.observations);
+  count(survey.edges);
+  const auto require = [&](const auto& mark, const std::string& what) {
+    const Frame& frame = frames.at(mark.photo);
+    if (frame.outside == 0 || frame.outside > most_outside * frame.all) return;
+    RequireOnPhotograph(what, mark.photo, *frame.camera, mark.pixel, mark.place);
+  };
+  for (const ImageObservation& mark : survey.observations) {
+    require(mark, "point '" + mark.point + "'");
+  }
+  for (const EdgeMark& mark : survey.edges) {
+    require(mark, "edge '" + mark.from + "' to '" + mark.to + "'");
+  }
+}
 
 StartValues FindStartValues(const Survey& survey, const std::vector<std::string>& photos,
                             const std::vector<Camera>& cameras,

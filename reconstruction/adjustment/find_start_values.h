@@ -11,6 +11,11 @@
 
 namespace insitu {
 
+// Throws InputError at the first mark off its photograph, of photos of whose marks no larger share
+// lies outside: of others all may be counted otherwise, which the diagnosis tells.
+void RequireMarksOnPhotographs(const Survey& survey, const std::vector<std::string>& photos,
+                               const std::vector<Camera>& cameras, double most_outside = 1);
+
 // Photos that image matching placed take their poses from its model, moved into the world by
 // control (align_tie_points.h); without control the model is taken as it is, with a warning. Other
 // photos are resected from control, or from points that the placed photos determine. The points are

@@ -75,7 +75,7 @@ void StartGrowth::PlaceByTiePoints() {
   bool can_resect_all = true;
   for (size_t i = 0; i < cameras.size(); ++i) can_resect_all = can_resect_all && CanResect(i);
   if (!alignment.fit && can_resect_all) return;
-  if (!alignment.fit && alignment.pairs >= 3) {
+  if (!alignment.fit && alignment.pairs >= 3 && !alignment.warnings.empty()) {
     throw InputError(FileOfObservations(survey_).path, alignment.warnings.at(0));
   }
   values_.warnings = alignment.warnings;

@@ -4,6 +4,7 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <set>
 
 #include "reconstruction/geometry/plane.h"
@@ -14,6 +15,10 @@ namespace {
 constexpr double kOriginStep = 10;        // [m]
 constexpr double kLeastLength = 1e-6;     // [m]
 constexpr double kHardPlaneSigma = 1e-5;  // [m]
+// Of the focal length, for it and the principal point, and of k1. An assumption, not a measurement:
+// a px or two in the corners, as focusing and handling change a lens that was calibrated with care.
+constexpr double kUsualLensSigma = 5e-4;
+constexpr double kPlumbSigma = 1;  // [m], camera positions known worse hold no plumb
 
 // A round point near the control, or near the points where there is none.
 Eigen::Vector3d RoundedCentroid(const Survey& survey, const StartValues& start) {
@@ -35,6 +40,22 @@ bool IsPositiveDefinite(const Eigen::MatrixXd& covariance) {
   const Eigen::VectorXd scale = covariance.diagonal().cwiseSqrt().cwiseInverse();
   return Eigen::LLT<Eigen::MatrixXd>(scale.asDiagonal() * covariance * scale.asDiagonal()).info() ==
          Eigen::Success;
+}
+
+bool HasPlainIntrinsics(const Camera& camera) {
+  return camera.lens_model().starts_with("LENSMODEL_OPENCV") ||
+         camera.lens_model() == "LENSMODEL_PINHOLE";
+}
+
+// fx and fy together, cx, cy, and k1 where there is one.
+Eigen::MatrixXd UsualCovariance(const Camera& camera) {
+  const auto count = static_cast<Eigen::Index>(camera.intrinsics().size());
+  const double variance = std::pow(kUsualLensSigma * camera.intrinsics()[0], 2);
+  Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(count, count);
+  covariance.topLeftCorner<2, 2>().setConstant(variance);
+  covariance.block<2, 2>(2, 2) = variance * Eigen::Matrix2d::Identity();
+  if (count > 4) covariance(4, 4) = std::pow(kUsualLensSigma, 2);
+  return covariance;
 }
 
 // Builds the network's lists in order; names become indices.
@@ -81,6 +102,11 @@ class Builder {
       }
     }
     NetworkCamera added{lens.camera, camera, {}, lens.covariance};
+    if (lens.covariance.size() == 0 && survey_.tie_points && !options_.is_self_calibrating &&
+        SurveyedPlaces() < 3 && HasPlainIntrinsics(camera)) {
+      added.calibration_covariance = UsualCovariance(camera);
+      result_.usual_lenses.push_back(lens.camera);
+    }
     const int index = static_cast<int>(network_.cameras.size());
     if (options_.is_self_calibrating) {
       added.is_free.assign(camera.intrinsics().size(), true);
@@ -150,13 +176,31 @@ class Builder {
     return index;
   }
 
+  // Where fewer than three places are surveyed, the zenith is what decides about up: it is the z
+  // axis, and the pairs turn the network.
   void AddZenith() {
     if (!survey_.zenith_pairs.empty()) {
       result_.zenith = AddDirection("zenith", survey_.zenith_pairs, options_.zenith_sigma);
+      if (SurveyedPlaces() >= 3) return;
+      network_.directions[*result_.zenith].unit = Eigen::Vector3d::UnitZ();
+      network_.directions[*result_.zenith].is_fixed = true;
     } else {
       result_.zenith = static_cast<int>(network_.directions.size());
       network_.directions.push_back({"zenith", Eigen::Vector3d::UnitZ(), true});
     }
+  }
+
+  std::ptrdiff_t SurveyedPlaces() const {
+    return std::ranges::count_if(survey_.control_points,
+                                 [&](const ControlPoint& point) {
+                                   return point.role == ControlRole::kControl &&
+                                          start_.points.contains(point.name);
+                                 }) +
+           std::ranges::count_if(survey_.camera_positions, [](const CameraPosition& position) {
+             return position.role == PositionRole::kFixed ||
+                    (position.role == PositionRole::kWeighted &&
+                     position.sigma.maxCoeff() < kPlumbSigma);
+           });
   }
 
   void AddMarks() {
@@ -197,7 +241,8 @@ class Builder {
         photo.center = position;
         photo.is_center_fixed = true;
       } else if (surveyed.role == PositionRole::kWeighted) {
-        network_.centers.push_back({Photo(surveyed.photo), position, surveyed.sigma});
+        network_.centers.push_back(
+            {Photo(surveyed.photo), position, surveyed.sigma, surveyed.lever_arm});
       }
     }
   }

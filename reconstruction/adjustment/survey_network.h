@@ -19,11 +19,14 @@ struct SurveyNetwork {
   Network network;
   std::map<std::string, int> index_of_photo, index_of_point, index_of_plane;  // plane by polygon
   std::optional<int> sun, zenith;  // indices of directions; without sun pairs there is no sun
+  std::vector<std::string> usual_lenses;  // cameras whose uncertainty is the usual, not their own
 };
 
 // `lenses` go with the start values' cameras; without any all share one exact camera.
 // Planes are those of polygons with four vertices or more, or that a constraint names. Without
 // zenith pairs the z axis is the zenith, fixed.
+// A lens without covariance counts as exact where three places are surveyed, whose marks show what
+// is wrong with it; photographs alone do not, so it is considered as uncertain as such files are.
 // Throws InputError at a direction pair whose points coincide or that contradicts the others.
 SurveyNetwork MakeSurveyNetwork(const Survey& survey, const StartValues& start,
                                 const std::vector<PhotoLens>& lenses,

@@ -6,6 +6,7 @@
 
 #include "calibration/files/error.h"
 #include "calibration/files/json_file.h"
+#include "calibration/files/remark_keys.h"
 
 namespace insitu {
 namespace {
@@ -86,8 +87,9 @@ void JsonSurveyText::CheckRows(const Listed& listed, const Json::Value& meaning,
   if (is_members ? !meaning.isObject() : !meaning.isArray()) {
     throw fault(meaning, is_members ? "expected an object" : "expected an array");
   }
-  for (const Json::Value& item : meaning) {
-    if (!item.isObject()) throw fault(item, "holds what is no object, expected objects");
+  for (auto item = meaning.begin(); item != meaning.end(); ++item) {
+    if (item->isObject() || (is_members && IsRemarkKey(item.name()))) continue;
+    throw fault(*item, "holds what is no object, expected objects");
   }
 }
 
@@ -99,6 +101,7 @@ void JsonSurveyText::LoadList(Listed& listed, const std::string& value,
   Json::ArrayIndex i = 0;
   for (auto piece = listed.pieces.pieces.begin(); piece != listed.pieces.pieces.end(); ++piece) {
     const std::string name = piece->KeyName();
+    if (meaning.isObject() && IsRemarkKey(name)) continue;
     const Json::Value& item = meaning.isArray() ? meaning[i++] : meaning[name];
     listed.rows.push_back(RowOfMember(listed.table, name, item));
     AddPlace(listed, piece, std::prev(listed.rows.end()));

@@ -6,6 +6,7 @@
 #include <map>
 #include <set>
 
+#include "calibration/files/remark_keys.h"
 #include "calibration/files/text_table.h"
 #include "calibration/files/wording.h"
 #include "reconstruction/editing/survey_text.h"
@@ -172,10 +173,9 @@ Fault FaultOfPolygon(const Json::Value& row, const Texts& photos) {
                     row["photo"].isNull() ? Fault() : FaultOfPhotoName(row, photos));
 }
 
-Fault FaultOfKeys(const Json::Value& row, Texts keys) {
-  keys.push_back("comment");
+Fault FaultOfKeys(const Json::Value& row, const Texts& keys) {
   for (const std::string& key : row.getMemberNames()) {
-    if (IsIn(keys, key)) continue;
+    if (IsRemarkKey(key) || IsIn(keys, key)) continue;
     return Sentence("rowNoKey", "{key} is no key here, expected {keys}",
                     {{"key", Quoted(key)}, {"keys", OrList(keys)}});
   }

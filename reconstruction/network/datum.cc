@@ -3,6 +3,7 @@
 
 #include <ceres/sphere_manifold.h>
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <Eigen/QR>
 #include <Eigen/SVD>
@@ -18,6 +19,8 @@ namespace {
 
 constexpr int kMotions = 7;                  // tx ty tz rx ry rz scale
 constexpr double kFreeSingularValue = 1e-9;  // of motions scaled to 1
+constexpr double kFixedSigma = 1e-4;         // [m], of what is taken as exact
+constexpr double kNothing = 1e-13;           // of weights: rounding
 
 using PointMotions = Eigen::Matrix<double, 3, kMotions>;
 
@@ -129,13 +132,16 @@ bool HoldsDatum(const Network& network, const ObservationRow& row) {
   }
 }
 
-// Rows over sigma, each scaled so that without cancellation it would be about 1.
+// Rows over sigma of what holds the datum; if they are to be scaled, so that each would be about 1
+// without cancellation.
 Eigen::MatrixXd HeldMotions(const Network& network, const std::vector<ObservationRow>& rows,
-                            const Jacobian& jacobian, const Eigen::MatrixXd& g) {
+                            const Jacobian& jacobian, const Eigen::MatrixXd& g,
+                            bool is_scaled = true) {
   const std::vector<PointMotions> fixed = MotionsOfFixed(network);
+  const double fixed_weight = is_scaled ? 1 : ExtentOf(network).radius / kFixedSigma;
   std::vector<Eigen::Matrix<double, 1, kMotions>> held;
   for (const PointMotions& motions : fixed) {
-    for (int axis = 0; axis < 3; ++axis) held.emplace_back(motions.row(axis));
+    for (int axis = 0; axis < 3; ++axis) held.emplace_back(fixed_weight * motions.row(axis));
   }
   for (int row = 0; row < static_cast<int>(rows.size()); ++row) {
     const bool holds_datum = HoldsDatum(network, rows[row]);
@@ -151,7 +157,7 @@ Eigen::MatrixXd HeldMotions(const Network& network, const std::vector<Observatio
     // turn about the fixed direction itself.
     if (!holds_datum) seen.head<3>().setZero(), seen[6] = 0;
     if (unit) seen.segment<3>(3) -= seen.segment<3>(3).dot(*unit) * unit->transpose();
-    if (magnitude > 0) held.emplace_back(seen / magnitude);
+    if (magnitude > 0) held.emplace_back(is_scaled ? seen / magnitude : seen);
   }
   Eigen::MatrixXd matrix(static_cast<Eigen::Index>(held.size()), kMotions);
   for (size_t i = 0; i < held.size(); ++i) matrix.row(static_cast<Eigen::Index>(i)) = held[i];
@@ -205,6 +211,35 @@ Datum FindDatum(const Network& network, const NetworkColumns& columns,
   for (int k = 0; k < kMotions && defect > 0; ++k) datum.is_free[k] = free.row(k).norm() > 1e-6;
   for (int k = 0; k < defect; ++k) datum.motions.col(k).normalize();
   return datum;
+}
+
+DatumWorth FindDatumWorth(const Network& network, const NetworkColumns& columns,
+                          const std::vector<ObservationRow>& rows, const Jacobian& jacobian) {
+  const Eigen::MatrixXd held =
+      HeldMotions(network, rows, jacobian, SimilarityMotions(network, columns), false);
+  const Eigen::Matrix<double, kMotions, kMotions> normal = held.transpose() * held;
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, kMotions, kMotions>> eigen(normal);
+  const double least = kNothing * std::max(eigen.eigenvalues()[kMotions - 1], 1e-300);
+  // Of one of the seven, or nullopt where a motion that nothing holds takes part in it.
+  const auto variance = [&](int motion) -> std::optional<double> {
+    double sum = 0;
+    for (int k = 0; k < kMotions; ++k) {
+      const double share = std::pow(eigen.eigenvectors()(motion, k), 2);
+      if (eigen.eigenvalues()[k] > least) {
+        sum += share / eigen.eigenvalues()[k];
+      } else if (share > 1e-6) {
+        return std::nullopt;
+      }
+    }
+    return sum;
+  };
+  const auto worst = [&](int first, int second, double unit) -> std::optional<double> {
+    const auto a = variance(first), b = variance(second);
+    if (!a || !b) return std::nullopt;
+    return unit * std::sqrt(std::max(*a, *b));
+  };
+  const double radius = ExtentOf(network).radius;
+  return {worst(0, 1, radius), worst(2, 2, radius), worst(3, 4, 1), worst(5, 5, 1), worst(6, 6, 1)};
 }
 
 std::vector<int> DatumPins(const Network& network, const NetworkColumns& columns,

@@ -18,6 +18,10 @@ namespace insitu {
 Datum FindDatum(const Network& network, const NetworkColumns& columns,
                 const std::vector<ObservationRow>& rows, const Jacobian& jacobian);
 
+// From the same rows, and what is fixed as if known to a tenth of a millimetre.
+DatumWorth FindDatumWorth(const Network& network, const NetworkColumns& columns,
+                          const std::vector<ObservationRow>& rows, const Jacobian& jacobian);
+
 // As many columns of photos as motions, whose values would fix the datum well. Photos, since some
 // points may be far away and hardly determined.
 std::vector<int> DatumPins(const Network& network, const NetworkColumns& columns,

@@ -5,6 +5,7 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -77,11 +78,12 @@ struct ControlObservation {
   Eigen::Vector3d sigma;     // [m], per axis
 };
 
-// A surveyed centre of projection.
+// A surveyed centre of projection, or an antenna at `arm` from it.
 struct CenterObservation {
   int photo = 0;
-  Eigen::Vector3d position;  // [m], local
-  Eigen::Vector3d sigma;     // [m], per axis
+  Eigen::Vector3d position;                       // [m], local
+  Eigen::Vector3d sigma;                          // [m], per axis
+  Eigen::Vector3d arm = Eigen::Vector3d::Zero();  // [m], in the camera's axes
 };
 
 // What a calibration told of a lens. Where the lens is adjusted, of its free parameters; else this
@@ -150,6 +152,9 @@ struct Network {
   std::vector<NetworkDirection> directions;
 
   std::vector<MarkObservation> marks;
+  // By what tie marks' variances are multiplied where they are weighted, since errors of neighbours
+  // are alike (mark_correlation.h); nullopt: to be found with the solution.
+  std::optional<double> tie_mark_inflation = {};
   std::vector<EdgeObservation> edges;
   std::vector<ControlObservation> control;
   std::vector<CenterObservation> centers;

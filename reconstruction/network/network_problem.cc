@@ -139,6 +139,7 @@ void NetworkProblem::AddObservations() {
 }
 
 void NetworkProblem::AddMarks() {
+  const double tie_factor = std::sqrt(network_.tie_mark_inflation.value_or(1));
   for (int i = 0; i < static_cast<int>(network_.marks.size()); ++i) {
     const MarkObservation& mark = network_.marks[i];
     const int camera = network_.photos[mark.photo].camera;
@@ -146,11 +147,12 @@ void NetworkProblem::AddMarks() {
                                    values_.Point(mark.point)};
     const bool is_adjusted = columns_.camera[camera].has_value();
     if (is_adjusted) blocks.push_back(values_.Lens(camera).data());
-    AddResidual(
-        ObservationRow::Kind::kMark, i,
-        new MarkCost(network_.cameras[camera].lens, is_adjusted ? nullptr : &values_.Lens(camera),
-                     mark.pixel, mark.sigma_px),
-        blocks, {mark.sigma_px, mark.sigma_px});
+    const double sigma_px =
+        mark.sigma_px * (network_.points[mark.point].is_tie_point ? tie_factor : 1);
+    AddResidual(ObservationRow::Kind::kMark, i,
+                new MarkCost(network_.cameras[camera].lens,
+                             is_adjusted ? nullptr : &values_.Lens(camera), mark.pixel, sigma_px),
+                blocks, {sigma_px, sigma_px});
   }
 }
 
@@ -180,6 +182,13 @@ void NetworkProblem::AddPositions() {
   }
   for (int i = 0; i < static_cast<int>(network_.centers.size()); ++i) {
     const CenterObservation& center = network_.centers[i];
+    if (!center.arm.isZero()) {
+      AddResidual(ObservationRow::Kind::kCenter, i,
+                  AutoDiff<3, 4, 3>(AntennaCost{{center.position, center.sigma}, center.arm}),
+                  {values_.Rotation(center.photo), values_.Center(center.photo)},
+                  List(center.sigma));
+      continue;
+    }
     AddResidual(ObservationRow::Kind::kCenter, i,
                 AutoDiff<3, 3>(PositionCost{center.position, center.sigma}),
                 {values_.Center(center.photo)}, List(center.sigma));

@@ -56,6 +56,14 @@ struct Datum {
   int defect() const { return static_cast<int>(motions.cols()); }
 };
 
+// What holds position, orientation and scale is worth, a priori and were the network rigid:
+// standard deviations; nullopt: nothing holds it.
+struct DatumWorth {
+  std::optional<double> plan, height;   // [m], of the points' middle
+  std::optional<double> tilt, heading;  // [rad]
+  std::optional<double> scale;          // relative
+};
+
 // The observations do not determine these.
 class RankDefect : public std::runtime_error {
  public:

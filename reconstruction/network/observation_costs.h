@@ -62,6 +62,20 @@ struct PositionCost {
   }
 };
 
+// The same of an antenna, at an arm in the camera's axes from its centre.
+struct AntennaCost {
+  PositionCost position;
+  Eigen::Vector3d arm;  // [m]
+
+  template <typename T>
+  bool operator()(const T* cam_from_local, const T* center, T* residual) const {
+    const Eigen::Map<const Eigen::Quaternion<T>> rotation(cam_from_local);
+    const Eigen::Map<const Eigen::Matrix<T, 3, 1>> c(center);
+    const Eigen::Matrix<T, 3, 1> antenna = c + rotation.conjugate() * arm.cast<T>();
+    return position(antenna.data(), residual);
+  }
+};
+
 // One component of a rotation's left increment [rad] from where it was, times a weight.
 struct TurnCost {
   int axis = 0;

@@ -9,6 +9,7 @@
 #include "calibration/files/error.h"
 #include "calibration/lens/lens_residual.h"
 #include "reconstruction/network/datum.h"
+#include "reconstruction/network/mark_correlation.h"
 #include "reconstruction/network/network_problem.h"
 #include "reconstruction/network/variance_factor.h"
 
@@ -94,16 +95,51 @@ std::vector<Eigen::MatrixXd> LensSensitivity(const Network& network,
   return sensitivity;
 }
 
+// To the minimum, with what holds a free datum meanwhile.
+ceres::Solver::Summary Minimize(const Network& network, NetworkProblem* problem) {
+  HoldFreeDatum(network, problem->Linearize(), problem);
+  ceres::Solver::Summary summary = problem->Solve();
+  if (!summary.IsSolutionUsable()) throw NoSolution(summary.message);
+  return summary;
+}
+
+bool HasTiePoints(const Network& network) {
+  return std::ranges::any_of(network.points,
+                             [](const NetworkPoint& point) { return point.is_tie_point; });
+}
+
+// The network is then solved with independent tie marks: near the solution with all others.
+void FindTieMarkInflation(Network* network) {
+  NetworkProblem problem(network);
+  Minimize(*network, &problem);
+  network->tie_mark_inflation =
+      TieMarkInflation(*network, problem.rows(), problem.Linearize().residuals);
+}
+
+// Tie marks are weighted by their inflated sigma, but each alone errs by its own, by which it is
+// judged.
+void JudgeByOwnSigmas(const Network& network, NetworkSolution* solution) {
+  const double inflation = network.tie_mark_inflation.value_or(1);
+  if (inflation == 1) return;
+  for (size_t row = 0; row < solution->rows.size(); ++row) {
+    if (solution->rows[row].kind != ObservationRow::Kind::kMark) continue;
+    const MarkObservation& mark = network.marks[solution->rows[row].index];
+    if (!network.points[mark.point].is_tie_point) continue;
+    const auto i = static_cast<Eigen::Index>(row);
+    solution->sigmas[i] = mark.sigma_px;
+    const double squared = std::pow(solution->residuals[i] / mark.sigma_px, 2);
+    solution->square_sum += squared * (1 - 1 / inflation);
+  }
+}
+
 }  // namespace
 
 NetworkSolution SolveNetwork(Network* network) {
   const std::vector<Eigen::Vector3d> start = Positions(*network);
+  if (!network->tie_mark_inflation && HasTiePoints(*network)) FindTieMarkInflation(network);
   NetworkProblem problem(network);
+  const ceres::Solver::Summary summary = Minimize(*network, &problem);
   NetworkProblem::Linearization linear = problem.Linearize();
-  HoldFreeDatum(*network, linear, &problem);
-  const ceres::Solver::Summary summary = problem.Solve();
-  if (!summary.IsSolutionUsable()) throw NoSolution(summary.message);
-  linear = problem.Linearize();
 
   NetworkSolution solution;
   solution.is_converged = summary.termination_type == ceres::CONVERGENCE;
@@ -111,6 +147,7 @@ NetworkSolution SolveNetwork(Network* network) {
   solution.columns = problem.columns();
   solution.rows = problem.rows();
   solution.datum = FindDatum(*network, solution.columns, solution.rows, linear.jacobian);
+  solution.datum_worth = FindDatumWorth(*network, solution.columns, solution.rows, linear.jacobian);
   if (solution.datum.defect() > 0) {
     MoveToStart(solution.columns, start, network, &solution.datum);
     linear = problem.Linearize();
@@ -120,6 +157,7 @@ NetworkSolution SolveNetwork(Network* network) {
       problem.sigmas().data(), static_cast<Eigen::Index>(problem.sigmas().size()));
   solution.residuals = linear.residuals.cwiseProduct(solution.sigmas);
   solution.square_sum = linear.residuals.squaredNorm();
+  JudgeByOwnSigmas(*network, &solution);
   solution.observations = static_cast<int>(solution.jacobian.rows());
   solution.unknowns = static_cast<int>(solution.jacobian.cols());
   solution.redundancy = solution.observations - solution.unknowns + solution.datum.defect();

@@ -18,6 +18,7 @@ struct NetworkSolution {
   int iterations = 0;
 
   NetworkColumns columns;
+  DatumWorth datum_worth;
   Datum datum;  // where it is free: inner constraints over all points, about the start values
   int observations = 0, unknowns = 0, redundancy = 0;  // redundancy = n - u + datum.defect()
   double square_sum = 0;                               // sum (v / sigma)^2

@@ -41,6 +41,21 @@ Json::Value TestReport(const Adjustment& adjustment) {
   return json;
 }
 
+// Standard deviations of what holds the datum; null: nothing holds it.
+Json::Value WorthReport(const Adjustment& adjustment) {
+  const DatumWorth& worth = adjustment.datum_worth;
+  const auto value = [](const std::optional<double>& sigma) {
+    return sigma ? Json::Value(*sigma) : Json::Value();
+  };
+  Json::Value json;
+  json["plan_m"] = value(worth.plan);
+  json["height_m"] = value(worth.height);
+  json["tilt_rad"] = value(worth.tilt);
+  json["heading_rad"] = value(worth.heading);
+  json["scale"] = value(worth.scale);
+  return json;
+}
+
 // The root mean square a priori sigma of the image coordinates [px]; 0 without any.
 double ImageSigma(const Adjustment& adjustment) {
   double squares = 0;
@@ -88,6 +103,8 @@ Json::Value SummarySection(const Adjustment& adjustment, const std::vector<Image
   for (const auto& [what, count] : adjustment.unknowns_of) json["unknowns_of"][what] = count;
   json["datum"] = adjustment.datum;
   json["datum_defect"] = adjustment.datum_defect;
+  json["datum_worth"] = WorthReport(adjustment);
+  json["unit"] = adjustment.has_scale ? "m" : "arbitrary";
   json["redundancy"] = adjustment.redundancy;
   json["iterations"] = adjustment.iterations;
   json["termination"] = adjustment.is_converged ? "converged" : "stopped before it converged";

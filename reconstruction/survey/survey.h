@@ -65,6 +65,8 @@ struct CameraPosition {
   Eigen::Vector3d sigma;     // [m], > 0
   PositionRole role = PositionRole::kWeighted;
   FilePlace place;
+  // From the centre of projection to what was surveyed, an antenna, in the camera's axes [m].
+  Eigen::Vector3d lever_arm = Eigen::Vector3d::Zero();
 };
 
 // edges.csv: photo,from,to,x,y,sigma. A pixel anywhere on the image of a straight edge.

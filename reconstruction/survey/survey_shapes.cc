@@ -43,10 +43,9 @@ SaidError UnknownKey(const std::string& key, const JsonNode& member, const std::
                    {{"key", key}, {"expected", expected}})};
 }
 
-// A key that is misspelt would be left out without a word. Every object may hold a comment.
+// A key that is misspelt would be left out without a word.
 void RequireKnownKeys(const JsonNode& node, const std::string& what,
-                      std::vector<std::string> keys) {
-  keys.push_back("comment");
+                      const std::vector<std::string>& keys) {
   for (const auto& [key, member] : node.Members()) {
     if (std::find(keys.begin(), keys.end(), key) != keys.end()) continue;
     throw UnknownKey(key, member, what, keys);

@@ -6,7 +6,7 @@ function showSummary() {
   const unknowns = Object.entries(s.unknowns_of).map(([what, n]) => `${n} of ${what}`).join(", ");
   element(node, "p", `${s.observations} observations, ${s.unknowns} unknowns` +
     `${unknowns ? ` (${unknowns})` : ""}, datum defect ${s.datum_defect}, redundancy ${s.redundancy}; ${count(s.iterations, "iteration")}, ${s.termination}. ` +
-    `The datum is ${s.datum || "not stated"}.`);
+    `The datum is ${s.datum || "not stated"}.` + datumWorth(s.datum_worth));
   element(node, "p", `σ0 ${fixed(s.sigma0, 4)} a posteriori (1 a priori), ${fixed(s.sigma0_px, 3)} px ` +
     `in the images; RMS of the residuals of ${count(s.marks, "mark")} ${fixed(s.image_rms_px, 3)} px. ` +
     `Median σ of a vertex coordinate ${fixed(1000 * s.vertex_sigma_m, 1)} mm.`);
@@ -51,4 +51,29 @@ function showConventions() {
   const node = section("Conventions");
   table(node, Object.entries(report.conventions), [
     ["what", c => c[0].replaceAll("_", " "), "text"], ["convention", c => c[1], "long"]]);
+}
+
+// What scale, plumb, north and height are worth, in per cent of a building's size.
+function datumWorth(worth) {
+  if (!worth) return "";
+  const degrees = radians => `${+(180 / Math.PI * radians).toPrecision(2)}°`;
+  const percent = share => `${+(100 * share).toPrecision(2)} %`;
+  const say = (what, sigma, words) => `${what} ${isKnown(sigma) ? words(sigma) : "unknown"}`;
+  const turned = sigma => `to ${degrees(sigma)} (${percent(sigma)})`;
+  return " Were the network rigid, what holds it is worth: " + [
+    say("scale", worth.scale, sigma => `to ${percent(sigma)}`),
+    say("plumb", worth.tilt_rad, turned), say("north", worth.heading_rad, turned),
+    say("height", worth.height_m, sigma => `to ${+sigma.toPrecision(2)} m`)].join(", ") +
+    "; in per cent of a building's size.";
+}
+
+// Where nothing gives the scale, what is told in metres elsewhere is told in units.
+function nameUnit() {
+  if (report.summary.unit !== "arbitrary") return;
+  const texts = document.createTreeWalker(document.body, NodeFilter.SHOW_TEXT);
+  while (texts.nextNode()) {
+    const node = texts.currentNode;
+    if (node.parentElement.closest("script, style")) continue;
+    node.data = node.data.replace(/\bmm\b(?!\/m)/g, "unit/1000").replace(/(\d) m\b(?!\/)/g, "$1 units");
+  }
 }

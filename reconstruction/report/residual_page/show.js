@@ -20,3 +20,4 @@ showSnooping();
 showCorrelations();
 showIdentity();
 showConventions();
+nameUnit();
