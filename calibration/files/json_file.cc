@@ -10,7 +10,6 @@
 #include <sstream>
 
 #include "calibration/files/error_at.h"
-#include "calibration/files/remark_keys.h"
 #include "calibration/files/whole_file.h"
 
 namespace insitu {

@@ -9,12 +9,17 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
 #include "calibration/files/error.h"
 
 namespace insitu {
+
+// Keys that every object of a JSON file may have and no reader takes for its own: what people and
+// their editors note.
+inline bool IsRemarkKey(std::string_view key) { return key == "comment" || key == "$schema"; }
 
 // One value of a JSON file. Every accessor throws InputError, at the value's line, when the value
 // is not what is asked for.
@@ -25,7 +30,7 @@ class JsonNode {
   JsonNode At(const std::string& key) const;                      // must exist, must not be null
   std::optional<JsonNode> Find(const std::string& key) const;     // nullopt if absent or null
   std::vector<JsonNode> Items() const;                            // of an array
-  std::vector<std::pair<std::string, JsonNode>> Members() const;  // by key; no remark_keys.h
+  std::vector<std::pair<std::string, JsonNode>> Members() const;  // by key; no remarks
 
   double Number() const;  // finite
   int Integer() const;

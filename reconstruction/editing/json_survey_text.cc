@@ -6,7 +6,6 @@
 
 #include "calibration/files/error.h"
 #include "calibration/files/json_file.h"
-#include "calibration/files/remark_keys.h"
 
 namespace insitu {
 namespace {

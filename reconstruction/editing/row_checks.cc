@@ -6,7 +6,7 @@
 #include <map>
 #include <set>
 
-#include "calibration/files/remark_keys.h"
+#include "calibration/files/json_file.h"
 #include "calibration/files/text_table.h"
 #include "calibration/files/wording.h"
 #include "reconstruction/editing/survey_text.h"

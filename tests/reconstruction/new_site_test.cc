@@ -7,7 +7,6 @@
 #include "calibration/files/json_file.h"
 #include "calibration/files/whole_file.h"
 #include "calibration/photo/photograph.h"
-#include "radiometry/light/material.h"
 #include "reconstruction/editing/edited_tables.h"
 #include "reconstruction/editing/row_checks.h"
 #include "reconstruction/site_schemas.h"
@@ -45,7 +44,6 @@ TEST_F(NewSiteFolder, HoldsTemplatesThatAreRead) {
   EXPECT_THAT(made.remarks, Contains(HasSubstr("no photograph states its place")));
   const Survey survey = ReadSurvey(site_, photos_);
   EXPECT_TRUE(survey.control_points.empty() && survey.observations.empty());
-  EXPECT_TRUE(ReadNaturalMaterials(site_).empty());
   EXPECT_EQ(JsonNode::Load(site_.description()).At("name").Text(), "mill");
   EXPECT_EQ(JsonNode::Load(site_.survey() / "samples.json").At("daylight").Items().size(), 0u);
   for (const SiteSchema& schema : kSiteSchemas) {
@@ -87,8 +85,7 @@ class FilesOfDocument : public NewSiteFolder {
     for (const std::string file :
          {"site.json", "survey/control_points.csv", "survey/observations.csv",
           "survey/polygons.json", "survey/directions.json", "survey/constraints.json",
-          "survey/camera_positions.csv", "survey/edges.csv", "survey/samples.json",
-          "survey/materials.json"}) {
+          "survey/camera_positions.csv", "survey/edges.csv", "survey/samples.json"}) {
       WriteWhole(site_.root / file, ExampleOf(file));
     }
   }
@@ -109,10 +106,7 @@ TEST_F(FilesOfDocument, AreReadAsASurvey) {
   EXPECT_EQ(sun->local_time, "2024-05-15T09:45:00+02:00");
 }
 
-TEST_F(FilesOfDocument, AreReadAsLightAndMaterials) {
-  const auto materials = ReadNaturalMaterials(site_);
-  ASSERT_EQ(materials.size(), 2u);
-  EXPECT_NEAR(materials.at("water").specular->roughness.slope, 0.05, 1e-12);
+TEST_F(FilesOfDocument, HoldSamplesThatThePageTakes) {
   const Json::Value samples = ReadJson(site_.survey() / "samples.json");
   for (const EditedTable& table : EditedTables()) {
     if (table.file != "survey/samples.json" || table.member.empty()) continue;
