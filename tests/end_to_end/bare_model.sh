@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
 # A model alone, without a site: its description, its report and the page on which it is turned.
+# shellcheck disable=SC2317 # the functions are called through check
 set -euo pipefail
 # shellcheck source=assertions.sh
 source "$(dirname -- "${BASH_SOURCE[0]}")/assertions.sh"
