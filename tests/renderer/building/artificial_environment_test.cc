@@ -87,7 +87,7 @@ TEST(ArtificialEnvironment, KeepsWhatTheRendererDoesNotShow) {
   written.lights[0].edge_u = {1, 0, 0};
   written.lights[0].edge_v = {0, 2, 0};
   written.lights[0].is_visible = true;
-  WriteArtificialEnvironment({folder.path()}, written);
+  WriteArtificialEnvironment(SitePaths{folder.path()}, written);
   const ArtificialEnvironment read = ReadArtificialEnvironment({folder.path()});
   EXPECT_EQ(read.materials[0].texture, "wall.png");
   EXPECT_EQ(read.materials[0].texture_size, Eigen::Vector2d(1.5, 0.75));
@@ -119,7 +119,7 @@ TEST(ArtificialEnvironment, KeepsWhatTheRendererDoesNotShow) {
 TEST(ArtificialEnvironment, SameInputSameBytes) {
   const ScratchFolder one, two;
   for (const ScratchFolder* folder : {&one, &two}) {
-    WriteArtificialEnvironment({folder->path()}, GlazedTriangle());
+    WriteArtificialEnvironment(SitePaths{folder->path()}, GlazedTriangle());
   }
   for (const char* name : {"work/building.json", "work/building.bin"}) {
     EXPECT_EQ(ReadWhole(one.path() / name), ReadWhole(two.path() / name));
@@ -128,7 +128,7 @@ TEST(ArtificialEnvironment, SameInputSameBytes) {
 
 TEST(ArtificialEnvironment, EmptyBuildingIsOne) {
   const ScratchFolder folder;
-  WriteArtificialEnvironment({folder.path()}, {});
+  WriteArtificialEnvironment(SitePaths{folder.path()}, {});
   EXPECT_TRUE(ReadArtificialEnvironment({folder.path()}).triangles.empty());
 }
 
