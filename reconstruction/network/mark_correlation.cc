@@ -64,7 +64,8 @@ Frame FrameOf(const std::vector<TieResidual>& marks) {
 }
 
 Parts PartsOf(const std::vector<TieResidual>& marks, const Frame& frame, int parts) {
-  Parts result{Eigen::MatrixXd::Zero(2, parts * parts), Eigen::VectorXd::Zero(parts * parts)};
+  const Eigen::Index count = Eigen::Index{parts} * parts;
+  Parts result{Eigen::MatrixXd::Zero(2, count), Eigen::VectorXd::Zero(count)};
   for (const TieResidual& mark : marks) {
     const Eigen::Array2i part =
         ((mark.pixel.array() - frame.low) / frame.side * parts).cast<int>().min(parts - 1);
@@ -114,8 +115,9 @@ double PairSum(const Parts& parts, double length) {
   for (int a = 0; a < kFinest * kFinest; ++a) {
     if (parts.counts[a] == 0) continue;
     for (int b = 0; b < kFinest * kFinest; ++b) {
-      const double across = a % kFinest - b % kFinest, down = a / kFinest - b / kFinest;
-      const double squared = (across * across + down * down) / (kFinest * kFinest);
+      const int across = a % kFinest - b % kFinest, down = a / kFinest - b / kFinest;
+      const double squared =
+          static_cast<double>(across * across + down * down) / (kFinest * kFinest);
       const double like =
           a == b ? MeanWithin(1.0 / kFinest, length) : std::exp(-squared / (2 * length * length));
       sum += parts.counts[a] * (parts.counts[b] - (a == b ? 1 : 0)) * like;
