@@ -12,7 +12,7 @@
 namespace insitu {
 namespace {
 
-constexpr size_t kBytes = 10 * 10 * 12;  // of one photograph here
+constexpr size_t kBytes = 1200;  // of one photograph of 10 x 10 pixels
 
 class PhotographSetTest : public testing::Test {
  protected:
