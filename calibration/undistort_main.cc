@@ -6,14 +6,15 @@
 #include "calibration/site_undistortion.h"
 
 int main(int argc, char** argv) {
-  CLI::App app("Removes the lens distortion from a site's photographs, in linear light.",
-               "insitu-undistort");
+  insitu::ProgramOptions program(
+      "Removes the lens distortion from a site's photographs, in linear light.",
+      "insitu-undistort");
   insitu::SitePaths site;
-  insitu::AddSite(&app, &site);
-  app.footer(
+  program.Site(&site);
+  program.Footer(
       "Example: insitu-undistort gallery\n"
       "writes gallery/work/input_images/*.exr and pinhole.cameramodel.");
-  return insitu::RunProgram(app, argc, argv, [&] {
+  return insitu::RunProgram(program, argc, argv, [&] {
     const insitu::SiteUndistortion undistortion = insitu::UndistortSite(site);
     std::cout << undistortion.BriefReport() << "\n" << insitu::WarningLines(undistortion.warnings);
   });

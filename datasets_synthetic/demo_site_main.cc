@@ -5,15 +5,15 @@
 #include "datasets_synthetic/demo_site.h"
 
 int main(int argc, char** argv) {
-  CLI::App app(
+  insitu::ProgramOptions program(
       "Makes the demo site: photographs of a small gallery on a lawn, its survey, a planned\n"
       "building, and in truth/ what the finished montages ought to show.",
       "insitu-demo-site");
   std::filesystem::path folder;
-  app.add_option("OUT_DIR", folder, "the site folder to write; files of the same name are replaced")
-      ->required();
-  app.footer("Example: insitu-demo-site demo");
-  return insitu::RunProgram(app, argc, argv, [&] {
+  program.Value("OUT_DIR", &folder, "the site folder to write; files of the same name are replaced",
+                {.is_required = true});
+  program.Footer("Example: insitu-demo-site demo");
+  return insitu::RunProgram(program, argc, argv, [&] {
     insitu::Progress progress("demo site", insitu::demo::kDemoSiteSteps);
     insitu::demo::DemoSiteOptions options;
     options.step_done = [&progress] { progress.Step(); };

@@ -12,26 +12,24 @@ namespace insitu {
 namespace {
 
 int RunLight(int argc, char** argv) {
-  CLI::App app("Measures haze and daylight of a site and writes work/environment.json.",
-               "insitu-light");
-  app.footer("Example: insitu-light sites/gallery --sky-facets 8");
+  ProgramOptions program("Measures haze and daylight of a site and writes work/environment.json.",
+                         "insitu-light");
+  program.Footer("Example: insitu-light sites/gallery --sky-facets 8");
   SitePaths site;
   LightOptions options;
-  AddSite(&app, &site);
-  app.add_option("--bins", options.bins, "spectral bins: 16, or 9 as in the paper")
-      ->check(CLI::IsMember({9, 16}))
-      ->capture_default_str();
-  app.add_option("--sky-facets", options.polar_facets, "m_h: the sky has 4 m_h^2 facets")
-      ->check(CLI::Range(1, kMostPolarFacets))
-      ->capture_default_str();
-  app.add_flag("--average", options.average_over_wavelength,
+  program.Site(&site);
+  program.Value("--bins", &options.bins, "spectral bins: 16, or 9 as in the paper",
+                {.shows_default = true, .one_of = {"9", "16"}});
+  program.Value("--sky-facets", &options.polar_facets, "m_h: the sky has 4 m_h^2 facets",
+                {.shows_default = true, .range = {{1, kMostPolarFacets}}});
+  program.Flag("--average", &options.average_over_wavelength,
                "the paper's one spectrum for sun, sky and ambient light");
-  app.add_flag("--uniform-ambient", options.uniform_ambient,
+  program.Flag("--uniform-ambient", &options.uniform_ambient,
                "the paper's ambient light, alike everywhere, instead of photographed surroundings");
-  app.add_option("--bounces", options.bounces,
-                 "bounces of light among surfaces; 0: sun and sky alone; without: all")
-      ->check(CLI::NonNegativeNumber);
-  return RunProgram(app, argc, argv, [&] {
+  program.Value("--bounces", &options.bounces,
+                "bounces of light among surfaces; 0: sun and sky alone; without: all",
+                {.check = OptionCheck::kNonNegative});
+  return RunProgram(program, argc, argv, [&] {
     const LightMeasurement measurement = MeasureDaylight(site, options);
     const Json::Value report = LightPageReport(site, measurement);
     WriteEnvironment(site, measurement);

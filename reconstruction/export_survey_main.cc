@@ -48,19 +48,18 @@ insitu::SurveyExport Export(const Request& request) {
 
 int main(int argc, char** argv) {
   Request request;
-  CLI::App app(
+  insitu::ProgramOptions program(
       "Writes a site's control points and marks for another program, so that anyone can check the "
       "adjustment: tables and script of DBAT, or gcp_list.txt of OpenDroneMap. Results for COLMAP: "
       "insitu-reconstruct --colmap-model.",
       "insitu-export-survey");
-  insitu::AddSite(&app, &request.site);
-  app.add_option("--format", request.format, "dbat or odm")
-      ->required()
-      ->check(CLI::IsMember({"dbat", "odm"}));
-  app.add_option("--out", request.out, "folder to write to")->required();
-  app.add_option("--crs", request.crs, "coordinate system of the survey, for odm: EPSG:2056");
-  app.footer("Example:\n  insitu-export-survey sites/mill --format dbat --out /tmp/mill_dbat");
-  return insitu::RunProgram(app, argc, argv, [&] {
+  program.Site(&request.site);
+  program.Value("--format", &request.format, "dbat or odm",
+                {.is_required = true, .one_of = {"dbat", "odm"}});
+  program.Value("--out", &request.out, "folder to write to", {.is_required = true});
+  program.Value("--crs", &request.crs, "coordinate system of the survey, for odm: EPSG:2056");
+  program.Footer("Example:\n  insitu-export-survey sites/mill --format dbat --out /tmp/mill_dbat");
+  return insitu::RunProgram(program, argc, argv, [&] {
     const insitu::SurveyExport done = Export(request);
     for (const auto& path : done.written) std::cout << "written: " << path.string() << "\n";
     for (const std::string& line : done.report) std::cout << line << "\n";

@@ -64,37 +64,34 @@ void ConvertModel(ConvertCommand command) {
 }
 
 int RunConvert(int argc, char** argv) {
-  CLI::App app(
+  ProgramOptions program(
       "Reads the planned building: the models in building/ (DXF, IFC, OBJ, glTF, COLLADA, "
       "PLY,\n"
       "STL), placement.json, materials.json and lights.json.\n"
       "Writes work/building.json and work/building.bin. Of a model alone, without a site, what -o "
       "says.",
       "insitu-convert");
-  app.footer(
+  program.Footer(
       "Examples:\n"
       "  insitu-convert my_site --preview\n"
       "  insitu-convert my_site --list > my_site/building/materials.json\n"
       "  insitu-convert house.ifc --preview");
   ConvertCommand command;
-  app.add_option("SITE", command.input, "site folder, or a model's file")
-      ->required()
-      ->check(CLI::ExistingPath);
-  app.add_option("-o,--output", command.output, "write a model alone as FILE.json and FILE.bin");
-  app.add_option("--model", command.options.models, "read this model instead of those in building/")
-      ->check(CLI::ExistingFile)
-      ->take_all();
-  app.add_option("--chord-tolerance", command.options.import.dxf.chord_tolerance,
-                 "how far a facet may be from its arc [m]")
-      ->check(CLI::PositiveNumber)
-      ->capture_default_str();
-  app.add_option("--report", command.report, "write what was read and left out as JSON");
-  app.add_flag("--preview", command.preview,
+  program.Value("SITE", &command.input, "site folder, or a model's file",
+                {.is_required = true, .check = OptionCheck::kPath});
+  program.Value("-o,--output", &command.output, "write a model alone as FILE.json and FILE.bin");
+  program.Value("--model", &command.options.models, "read this model instead of those in building/",
+                {.takes_all = true, .check = OptionCheck::kFile});
+  program.Value("--chord-tolerance", &command.options.import.dxf.chord_tolerance,
+                "how far a facet may be from its arc [m]",
+                {.shows_default = true, .check = OptionCheck::kPositive});
+  program.Value("--report", &command.report, "write what was read and left out as JSON");
+  program.Flag("--preview", &command.preview,
                "write work/building_preview.png and .html, of a model MODEL_preview.png and .html: "
                "the building to be turned");
-  app.add_flag("--list", command.list,
+  program.Flag("--list", &command.list,
                "print a materials.json with every name found, and write nothing");
-  return RunProgram(app, argc, argv, [&] {
+  return RunProgram(program, argc, argv, [&] {
     if (std::filesystem::is_directory(command.input)) {
       ConvertSite(command);
     } else {

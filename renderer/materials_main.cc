@@ -13,12 +13,12 @@ namespace insitu {
 namespace {
 
 int RunMaterials(int argc, char** argv) {
-  CLI::App app(
+  ProgramOptions program(
       "The material library: lists its materials and lamps, which building/materials.json,\n"
       "lights.json and survey/samples.json name. An entry is a readable file; those of the\n"
       "folders SITE/library and ~/.local/share/insitu/library go before the installed ones.",
       "insitu-materials");
-  app.footer(
+  program.Footer(
       "Examples:\n"
       "  insitu-materials\n"
       "  insitu-materials my_site --page my_site/work/materials\n"
@@ -26,17 +26,16 @@ int RunMaterials(int argc, char** argv) {
   SitePaths site;
   std::filesystem::path stem;
   std::vector<std::filesystem::path> models;
-  app.add_option("SITE", site.root, "a site, whose entries and whose light are shown too")
-      ->check(CLI::ExistingDirectory);
-  app.add_option("--page", stem,
-                 "write FILE.html and FILE.png: every material on a sphere and a wall under D65\n"
-                 "and, with SITE, under its sun and sky (of insitu light)");
-  app.add_option("--list", models,
-                 "print a materials.json with the entries that the names in this model may mean;\n"
-                 "none counts before you write \"use\" in the place of \"proposed\"")
-      ->check(CLI::ExistingFile)
-      ->take_all();
-  return RunProgram(app, argc, argv, [&] {
+  program.Value("SITE", &site.root, "a site, whose entries and whose light are shown too",
+                {.check = OptionCheck::kFolder});
+  program.Value("--page", &stem,
+                "write FILE.html and FILE.png: every material on a sphere and a wall under D65\n"
+                "and, with SITE, under its sun and sky (of insitu light)");
+  program.Value("--list", &models,
+                "print a materials.json with the entries that the names in this model may mean;\n"
+                "none counts before you write \"use\" in the place of \"proposed\"",
+                {.takes_all = true, .check = OptionCheck::kFile});
+  return RunProgram(program, argc, argv, [&] {
     const bool has_site = !site.root.empty();
     const MaterialLibrary library(LibraryFolders(has_site ? std::optional(site) : std::nullopt));
     if (!models.empty()) {

@@ -25,32 +25,28 @@ struct MontageCommand {
   std::optional<int> bounces;
 };
 
-void AddOptions(CLI::App* app, MontageCommand* command) {
-  app->add_option("SITE", command->request.site.root, "site folder")
-      ->required()
-      ->check(CLI::ExistingDirectory);
-  app->add_flag("--no-building", command->no_building, "render the empty site");
-  app->add_option("--frame", command->frame, "pixel grid of the montages: photo or pinhole")
-      ->check(CLI::IsMember({"photo", "pinhole"}));
-  app->add_flag("--tie-points", command->request.with_tie_points,
+void AddOptions(ProgramOptions* program, MontageCommand* command) {
+  program->Site(&command->request.site);
+  program->Flag("--no-building", &command->no_building, "render the empty site");
+  program->Value("--frame", &command->frame, "pixel grid of the montages: photo or pinhole",
+                 {.one_of = {"photo", "pinhole"}});
+  program->Flag("--tie-points", &command->request.with_tie_points,
                 "search tie points also where every photograph shows enough control");
-  app->add_flag("--self-calibrate", command->self_calibrate, "adjust the lens with the site");
-  app->add_flag("--hard-planes", command->hard_planes, "hold walls flat");
-  app->add_option("--bounces", command->bounces,
-                  "bounces of light among surfaces; 0: sun and sky alone; without: all")
-      ->check(CLI::NonNegativeNumber);
-  app->add_flag("--paper", command->is_paper,
-                "the paper's uniform ambient light instead of light among surfaces")
-      ->excludes("--bounces");
-  app->add_option("--from", command->from, "leave the stages before this one as they are");
-  app->add_option("--to", command->to, "leave the stages after this one as they are");
-  app->add_option("--jobs", command->options.jobs, "stages at a time")
-      ->check(CLI::PositiveNumber)
-      ->capture_default_str();
-  app->add_flag("--explain", command->options.explains, "say why a stage runs");
-  app->add_flag("--despite-fail", command->options.is_despite_fail,
+  program->Flag("--self-calibrate", &command->self_calibrate, "adjust the lens with the site");
+  program->Flag("--hard-planes", &command->hard_planes, "hold walls flat");
+  program->Value("--bounces", &command->bounces,
+                 "bounces of light among surfaces; 0: sun and sky alone; without: all",
+                 {.check = OptionCheck::kNonNegative});
+  program->Flag("--paper", &command->is_paper,
+                "the paper's uniform ambient light instead of light among surfaces", "--bounces");
+  program->Value("--from", &command->from, "leave the stages before this one as they are");
+  program->Value("--to", &command->to, "leave the stages after this one as they are");
+  program->Value("--jobs", &command->options.jobs, "stages at a time",
+                 {.shows_default = true, .check = OptionCheck::kPositive});
+  program->Flag("--explain", &command->options.explains, "say why a stage runs");
+  program->Flag("--despite-fail", &command->options.is_despite_fail,
                 "go on though a verdict is fail");
-  app->footer(
+  program->Footer(
       "--STAGE.OPTION [VALUE] hands an option to a stage: --reconstruct.plane-sigma 0.01;\n"
       "insitu STAGE --help tells them. Stages run whose inputs, options or program changed since\n"
       "their results were made. What a stage prints is in work/stages/STAGE.log.\n"
@@ -91,23 +87,23 @@ void Montage(MontageCommand* command, const std::string& line, int* status) {
 }
 
 int RunMontage(int argc, char** argv) {
-  CLI::App app(
+  ProgramOptions program(
       "From survey to picture: runs the stages of a site whose results do not hold any "
       "more, and leaves the montages in SITE/montages.",
       "insitu-montage");
   MontageCommand command;
   command.options.programs = OwnFolder();
   command.options.jobs = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
-  AddOptions(&app, &command);
+  AddOptions(&program, &command);
   std::vector<std::string> arguments(argv, argv + argc);
-  int status = StatusOf(app.get_name(), [&] {
+  int status = StatusOf(program.name(), [&] {
     command.request.options = TakeStageOptions(command.options.programs, &arguments);
   });
   if (status != 0) return status;
   std::vector<char*> rest;
   for (std::string& argument : arguments) rest.push_back(argument.data());
-  const int own = RunProgram(app, static_cast<int>(rest.size()), rest.data(),
-                             [&] { Montage(&command, CommandLine(app), &status); });
+  const int own = RunProgram(program, static_cast<int>(rest.size()), rest.data(),
+                             [&] { Montage(&command, program.CommandLine(), &status); });
   return own != 0 ? own : status;
 }
 

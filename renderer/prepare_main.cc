@@ -28,7 +28,7 @@ void Prepare(const SitePaths& site, const std::string& colleague, const PrepareO
 }
 
 int RunPrepare(int argc, char** argv) {
-  CLI::App app(
+  ProgramOptions program(
       "The measuring page: control points, marks, polygons, sun, light, measured on the "
       "photographs in "
       "a browser, with the adjustment live. SITE may hold nothing but photographs.\nExample:\n  "
@@ -39,15 +39,15 @@ int RunPrepare(int argc, char** argv) {
   PrepareOptions options;
   std::string colleague;
   bool no_browser = false;
-  AddSite(&app, &site);
-  app.add_option("--port", options.port,
-                 "of 127.0.0.1; 0: the site's last one, else any that is free")
-      ->check(CLI::Range(0, 65535));
-  app.add_flag("--no-browser", no_browser, "only print the address");
-  app.add_option("--merge", colleague,
-                 "take in what a colleague measured in a copy of the site; differences are told")
-      ->check(CLI::ExistingDirectory);
-  return RunProgram(app, argc, argv, [&] {
+  program.Site(&site);
+  program.Value("--port", &options.port,
+                "of 127.0.0.1; 0: the site's last one, else any that is free",
+                {.range = {{0, 65535}}});
+  program.Flag("--no-browser", &no_browser, "only print the address");
+  program.Value("--merge", &colleague,
+                "take in what a colleague measured in a copy of the site; differences are told",
+                {.check = OptionCheck::kFolder});
+  return RunProgram(program, argc, argv, [&] {
     options.opens_browser = !no_browser;
     Prepare(site, colleague, options);
   });

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <unistd.h>
 
-#include <algorithm>
 #include <cstdio>
 #include <iostream>
 #include <map>
@@ -40,27 +39,8 @@ void PrintReport(FILE* out, const RenderSiteReport& report) {
 
 const std::map<std::string, Frame> kFrames = {{"photo", Frame::kPhoto},
                                               {"pinhole", Frame::kPinhole}};
-
-// "--frame photo|pinhole", as --help shows it.
-void AddFrame(CLI::App* app, Frame* frame) {
-  const auto is_default = [&](const auto& named) { return named.second == *frame; };
-  app->add_option_function<std::string>(
-         "--frame", [frame](const std::string& name) { *frame = kFrames.at(name); },
-         "pixel grid: the photograph's, or that of its input image")
-      ->check(CLI::IsMember(kFrames).description(""))
-      ->option_text("photo|pinhole [" + std::ranges::find_if(kFrames, is_default)->first + "]");
-}
-
-// "--sharpness measured|ideal"
-void AddSharpness(CLI::App* app, Sharpness* sharpness) {
-  static const std::map<std::string, Sharpness> kSharpness = {{"measured", Sharpness::kMeasured},
-                                                              {"ideal", Sharpness::kIdeal}};
-  app->add_option_function<std::string>(
-         "--sharpness", [=](const std::string& name) { *sharpness = kSharpness.at(name); },
-         "edges as sharp as insitu-light measured those of the photograph, or as a pixel's square")
-      ->check(CLI::IsMember(kSharpness).description(""))
-      ->option_text("measured|ideal [measured]");
-}
+const std::map<std::string, Sharpness> kSharpness = {{"measured", Sharpness::kMeasured},
+                                                     {"ideal", Sharpness::kIdeal}};
 
 void PrintQuality(FILE* out, const RenderSiteReport& report, const RenderSiteOptions& options) {
   if (const auto& spread = report.point_spread) {
@@ -79,50 +59,82 @@ void PrintQuality(FILE* out, const RenderSiteReport& report, const RenderSiteOpt
 
 constexpr int kStopped = 3;  // exit status
 
-// What decides on the pixels.
-void AddRenderOptions(CLI::App* app, RenderSiteOptions* options) {
-  app->add_option("--most-rays", options->render.most_rays, "rays a pixel at most")
-      ->check(CLI::IsMember({4, 8, 12, 16}))
-      ->capture_default_str();
-  app->add_flag("--uniform-ambient", options->uniform_ambient,
-                "the paper's ambient light, alike everywhere, instead of light among surfaces");
-  app->add_flag("!--no-shadow-search", options->find_shadows,
-                "take what no polygon shades as lit by the sun, whatever the photograph shows");
-  app->add_option("--reach", options->render.reach,
-                  "change in 8-bit codes up to which the photograph's pixel stays")
-      ->check(CLI::NonNegativeNumber)
-      ->capture_default_str();
-  AddSharpness(app, &options->sharpness);
-  app->add_flag("--grain", options->with_grain, "computed pixels get the photograph's grain");
-  app->add_option("--bounces", options->bounces,
-                  "bounces of light among surfaces; 0: sun and sky alone; without: all")
-      ->check(CLI::NonNegativeNumber);
-}
-
-struct Output {
-  bool streams = false, base64 = false, timing = false;
+struct RenderCommand {
+  SitePaths site;
+  RenderSiteOptions options;
+  std::string frame = "photo", sharpness = "measured";
+  bool no_building = false, streams = false, base64 = false, timing = false;
 };
 
-void RenderAndReport(const SitePaths& site, RenderSiteOptions* options, const Output& output) {
-  const auto profile = output.timing ? std::make_unique<Profile>() : nullptr;
-  FILE* const out = output.streams || output.base64 ? stderr : stdout;
+void AddPhotoOptions(ProgramOptions* program, RenderCommand* command) {
+  program->Value("--photo", &command->options.photos, "only this photograph (may be repeated)");
+  program->Value("--frame", &command->frame,
+                 "pixel grid: the photograph's, or that of its input image",
+                 {.one_of = {"photo", "pinhole"}, .text = "photo|pinhole [photo]"});
+  program->Flag("--no-building", &command->no_building, "render the empty site");
+}
+
+// What decides on the pixels.
+void AddRenderOptions(ProgramOptions* program, RenderCommand* command) {
+  RenderSiteOptions& options = command->options;
+  program->Value("--most-rays", &options.render.most_rays, "rays a pixel at most",
+                 {.shows_default = true, .one_of = {"4", "8", "12", "16"}});
+  program->Flag("--uniform-ambient", &options.uniform_ambient,
+                "the paper's ambient light, alike everywhere, instead of light among surfaces");
+  program->Flag("!--no-shadow-search", &options.find_shadows,
+                "take what no polygon shades as lit by the sun, whatever the photograph shows");
+  program->Value("--reach", &options.render.reach,
+                 "change in 8-bit codes up to which the photograph's pixel stays",
+                 {.shows_default = true, .check = OptionCheck::kNonNegative});
+  program->Value(
+      "--sharpness", &command->sharpness,
+      "edges as sharp as insitu-light measured those of the photograph, or as a pixel's square",
+      {.one_of = {"measured", "ideal"}, .text = "measured|ideal [measured]"});
+  program->Flag("--grain", &options.with_grain, "computed pixels get the photograph's grain");
+  program->Value("--bounces", &options.bounces,
+                 "bounces of light among surfaces; 0: sun and sky alone; without: all",
+                 {.check = OptionCheck::kNonNegative});
+}
+
+void AddRunOptions(ProgramOptions* program, RenderCommand* command) {
+  program->Value("--threads", &command->options.render.threads, "threads; 0: all cores",
+                 {.shows_default = true, .check = OptionCheck::kNonNegative});
+  program->Flag(
+      "--stream", &command->streams,
+      "the picture on standard output as it comes, for insitu view -; reports on standard "
+      "error");
+  program->Flag("--stream-base64", &command->base64, "the same in a third of the bytes");
+  program->Flag("--timing", &command->timing, "print the shares of CPU time");
+}
+
+void RenderAndReport(const RenderCommand& command) {
+  RenderSiteOptions options = command.options;
+  options.frame = kFrames.at(command.frame);
+  options.sharpness = kSharpness.at(command.sharpness);
+  options.with_building = !command.no_building;
+  NoteStopSignals();
+  options.stops = IsStopSignalled;
+  const auto profile = command.timing ? std::make_unique<Profile>() : nullptr;
+  const bool streams = command.streams || command.base64;
+  FILE* const out = streams ? stderr : stdout;
   std::optional<RenderStream> stream;
-  if (output.streams || output.base64) {
-    stream.emplace(STDOUT_FILENO, output.base64 ? StreamCoding::kBase64 : StreamCoding::kDecimal);
-    options->watcher = &*stream;
+  if (streams) {
+    stream.emplace(STDOUT_FILENO, command.base64 ? StreamCoding::kBase64 : StreamCoding::kDecimal);
+    options.watcher = &*stream;
   }
-  std::fputs(WarningLines(UnreadDrawings(site)).c_str(), out);
-  for (const RenderSiteReport& report : RenderSite(site, *options)) {
+  std::fputs(WarningLines(UnreadDrawings(command.site)).c_str(), out);
+  for (const RenderSiteReport& report : RenderSite(command.site, options)) {
     PrintReport(out, report);
-    if (!report.is_within_building) PrintQuality(out, report, *options);
+    if (!report.is_within_building) PrintQuality(out, report, options);
     std::fputs(WarningLines(report.remarks).c_str(), out);
   }
   if (profile) std::fputs(profile->Report().c_str(), out);
 }
 
 int RunRender(int argc, char** argv) {
-  CLI::App app("Renders the planned building into the photographs of its site.", "insitu-render");
-  app.footer(
+  ProgramOptions program("Renders the planned building into the photographs of its site.",
+                         "insitu-render");
+  program.Footer(
       "Example: insitu-render path/to/site --photo IMG_2102\n"
       "Reads work/environment.json, work/building.json, work/input_images/ and what\n"
       "stands in front, survey/foreground/<photo>.png (white: in front), and where something\n"
@@ -132,29 +144,15 @@ int RunRender(int argc, char** argv) {
       "the sun that the photograph shows to arrive (red) and its standard deviation (green).\n"
       "Ctrl-C ends it with status 3 when the tiles at work are done; whatever ends it, the same\n"
       "command goes on where it was and comes to the same bytes.");
-  SitePaths site;
-  RenderSiteOptions options;
-  Output output;
-  bool no_building = false, stopped = false;
-  AddSite(&app, &site);
-  app.add_option("--photo", options.photos, "only this photograph (may be repeated)");
-  AddFrame(&app, &options.frame);
-  app.add_flag("--no-building", no_building, "render the empty site");
-  AddRenderOptions(&app, &options);
-  app.add_option("--threads", options.render.threads, "threads; 0: all cores")
-      ->check(CLI::NonNegativeNumber)
-      ->capture_default_str();
-  app.add_flag("--stream", output.streams,
-               "the picture on standard output as it comes, for insitu view -; reports on standard "
-               "error");
-  app.add_flag("--stream-base64", output.base64, "the same in a third of the bytes");
-  app.add_flag("--timing", output.timing, "print the shares of CPU time");
-  const int status = RunProgram(app, argc, argv, [&] {
-    options.with_building = !no_building;
-    NoteStopSignals();
-    options.stops = IsStopSignalled;
+  RenderCommand command;
+  program.Site(&command.site);
+  AddPhotoOptions(&program, &command);
+  AddRenderOptions(&program, &command);
+  AddRunOptions(&program, &command);
+  bool stopped = false;
+  const int status = RunProgram(program, argc, argv, [&] {
     try {
-      RenderAndReport(site, &options, output);
+      RenderAndReport(command);
     } catch (const RenderStopped& told) {
       std::cerr << told.what() << "\n";
       stopped = true;

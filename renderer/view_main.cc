@@ -17,15 +17,15 @@ void TellAddress(const std::string& url) {
   std::cout << "viewing page: " << url << "\nCtrl-C ends it\n" << std::flush;
 }
 
-void AddPageOptions(CLI::App* app, ViewOptions* options, bool* no_browser) {
-  app->add_option("--port", options->port, "of 127.0.0.1; 0: any that is free")
-      ->check(CLI::Range(0, 65535));
-  app->add_flag("--no-browser", *no_browser, "only print the address");
+void AddPageOptions(ProgramOptions* program, ViewOptions* options, bool* no_browser) {
+  program->Value("--port", &options->port, "of 127.0.0.1; 0: any that is free",
+                 {.range = {{0, 65535}}});
+  program->Flag("--no-browser", no_browser, "only print the address");
 }
 
 // `insitu-view -`
 int RunStream(int argc, char** argv) {
-  CLI::App app(
+  ProgramOptions program(
       "The picture that insitu render --stream writes, as it comes out of a pipe: in the browser, "
       "or "
       "in the terminal.\nExample:\n  ssh "
@@ -33,16 +33,15 @@ int RunStream(int argc, char** argv) {
       "insitu-view -");
   StreamViewOptions options;
   std::string dash;
-  app.add_option("SITE", dash, "- is standard input")->required();
-  app.add_flag("--text", options.is_text, "a coarse picture in the terminal");
-  app.add_option("--columns", options.columns, "of the terminal")
-      ->check(CLI::Range(1, 1000))
-      ->capture_default_str();
-  app.add_option("--snapshot", options.snapshot, "the newest picture as a file, FILE.ppm");
+  program.Value("SITE", &dash, "- is standard input", {.is_required = true});
+  program.Flag("--text", &options.is_text, "a coarse picture in the terminal");
+  program.Value("--columns", &options.columns, "of the terminal",
+                {.shows_default = true, .range = {{1, 1000}}});
+  program.Value("--snapshot", &options.snapshot, "the newest picture as a file, FILE.ppm");
   ViewOptions page;
   bool no_browser = false;
-  AddPageOptions(&app, &page, &no_browser);
-  return RunProgram(app, argc, argv, [&] {
+  AddPageOptions(&program, &page, &no_browser);
+  return RunProgram(program, argc, argv, [&] {
     if (!options.is_text && options.snapshot.empty()) {
       page.opens_browser = !no_browser;
       const auto make = [](std::function<void(std::string)> send) {
@@ -60,7 +59,7 @@ bool IsOfStream(int argc, char** argv) {
 }
 
 int RunView(int argc, char** argv) {
-  CLI::App app(
+  ProgramOptions program(
       "The viewing page: photographs and montages of a site side by side in a browser, before and "
       "after, pixel by pixel, with the outline's uncertainty; renders as their tiles come.\n"
       "Example:\n  insitu view sites/gallery\nA picture out of a pipe: insitu view - --help",
@@ -68,9 +67,9 @@ int RunView(int argc, char** argv) {
   SitePaths site;
   ViewOptions options;
   bool no_browser = false;
-  AddSite(&app, &site);
-  AddPageOptions(&app, &options, &no_browser);
-  return RunProgram(app, argc, argv, [&] {
+  program.Site(&site);
+  AddPageOptions(&program, &options, &no_browser);
+  return RunProgram(program, argc, argv, [&] {
     options.opens_browser = !no_browser;
     ServeView(site, options, TellAddress);
   });

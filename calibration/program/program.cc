@@ -8,10 +8,9 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
-#include <filesystem>
 #include <iostream>
 #include <mutex>
-#include <string_view>
+#include <optional>
 
 #include "calibration/files/error.h"
 
@@ -21,35 +20,11 @@ namespace {
 constexpr int kBadInput = 2;
 constexpr int kFailure = 1;
 
-void ListOptions(const CLI::App& app) {
-  for (const CLI::Option* option : app.get_options()) {
-    if (option->get_positional() || option->get_lnames().empty()) continue;
-    const bool is_flag = option->get_expected_max() == 0;
-    std::cout << "--" << option->get_lnames().front() << (is_flag ? "" : " VALUE") << "\n";
-  }
-}
-
 }  // namespace
 
-void AddSite(CLI::App* app, SitePaths* site) {
-  app->add_option("SITE", site->root, "site folder")->required()->check(CLI::ExistingDirectory);
-}
-
-int RunProgram(CLI::App& app, int argc, char** argv, const std::function<void()>& run) {
-  app.set_version_flag("--version", app.get_name() + " " INSITU_VERSION);
-  if (argc == 2 && std::string_view(argv[1]) == kListOptions) {
-    ListOptions(app);
-    return 0;
-  }
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::Success& help_or_version) {
-    return app.exit(help_or_version);
-  } catch (const CLI::ParseError& error) {
-    std::cerr << app.get_name() << ": " << error.what() << " (see --help)\n";
-    return kBadInput;
-  }
-  return StatusOf(app.get_name(), run);
+int RunProgram(ProgramOptions& program, int argc, char** argv, const std::function<void()>& run) {
+  if (const std::optional<int> status = program.Parse(argc, argv)) return *status;
+  return StatusOf(program.name(), run);
 }
 
 int StatusOf(const std::string& program, const std::function<void()>& run) {
@@ -70,23 +45,6 @@ std::string DurationText(double seconds) {
   if (whole < 100) return std::to_string(whole) + " s";
   if (whole < 6000) return std::to_string((whole + 30) / 60) + " min";
   return std::to_string((whole + 1800) / 3600) + " h";
-}
-
-std::string CommandLine(const CLI::App& app) {
-  std::string positional, options;
-  for (const CLI::Option* option : app.get_options()) {
-    if (option->get_positional()) {
-      positional += " " + option->get_name();
-      continue;
-    }
-    if (option->count() == 0) continue;
-    options += " " + option->get_name();
-    if (option->get_expected_max() == 0) continue;  // a flag
-    for (const std::string& value : option->results()) {
-      options += " " + std::filesystem::path(value).filename().string();
-    }
-  }
-  return app.get_name() + positional + options;
 }
 
 struct Progress::State {

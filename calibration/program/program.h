@@ -2,32 +2,20 @@
 // What every insitu program does alike: --help with an example, --version, exit status, progress.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <functional>
 #include <memory>
 #include <string>
 
-#include "calibration/program/site.h"
+#include "calibration/program/program_options.h"
 
 namespace insitu {
 
-// The argument SITE, which every program on a site takes first: a folder that is there.
-void AddSite(CLI::App* app, SitePaths* site);
-
-// Parses the command line with `app` and calls `run`. Status 0; 2 for bad input (InputError, wrong
+// Parses the command line and calls `run`. Status 0; 2 for bad input (InputError, wrong
 // options), 1 for any other failure, with one line on stderr.
-int RunProgram(CLI::App& app, int argc, char** argv, const std::function<void()>& run);
+int RunProgram(ProgramOptions& program, int argc, char** argv, const std::function<void()>& run);
 
 // The same for what a program does before its command line is parsed.
 int StatusOf(const std::string& program, const std::function<void()>& run);
-
-// Each option of a program on a line, "--frame VALUE" or "--no-building", is what this option
-// prints, for programs that hand options on.
-inline constexpr char kListOptions[] = "--list-options";
-
-// The command as given, to be repeated elsewhere: the program's name, its positional arguments by
-// their names, then the options that were set, of paths the last part only.
-std::string CommandLine(const CLI::App& app);
 
 // "12 s", "3 min", "2 h".
 std::string DurationText(double seconds);

@@ -19,17 +19,17 @@ struct Outcome {
 };
 
 Outcome RunNothing(std::vector<std::string> arguments, const std::function<void()>& run) {
-  CLI::App app("does nothing", "insitu-nothing");
+  ProgramOptions program("does nothing", "insitu-nothing");
   std::string site;
-  app.add_option("SITE", site)->required();
-  app.footer("Example: insitu-nothing gallery");
+  program.Value("SITE", &site, "", {.is_required = true});
+  program.Footer("Example: insitu-nothing gallery");
   arguments.insert(arguments.begin(), "insitu-nothing");
   std::vector<char*> argv;
   for (std::string& argument : arguments) argv.push_back(argument.data());
   testing::internal::CaptureStdout();
   testing::internal::CaptureStderr();
   Outcome outcome;
-  outcome.status = RunProgram(app, static_cast<int>(argv.size()), argv.data(), run);
+  outcome.status = RunProgram(program, static_cast<int>(argv.size()), argv.data(), run);
   outcome.out = testing::internal::GetCapturedStdout();
   outcome.err = testing::internal::GetCapturedStderr();
   return outcome;
@@ -54,20 +54,6 @@ TEST(Program, BadInputIsTwoAndItsMessageAsItIs) {
   const Outcome outcome = RunNothing({"site"}, [] { throw InputError("a.csv", 7, "bad"); });
   EXPECT_EQ(outcome.status, 2);
   EXPECT_EQ(outcome.err, "a.csv:7: bad\n");
-}
-
-TEST(Program, SiteIsAFolderThatIsThere) {
-  const auto parsed = [](const std::string& argument) {
-    CLI::App app("does nothing", "insitu-nothing");
-    SitePaths site;
-    AddSite(&app, &site);
-    app.parse(argument, false);
-    return site.root;
-  };
-  const std::filesystem::path folder = testing::TempDir();
-  EXPECT_EQ(parsed(folder.string()), folder);
-  EXPECT_THROW(parsed((folder / "no_such_site").string()), CLI::ValidationError);
-  EXPECT_THROW(parsed(""), CLI::RequiredError);
 }
 
 TEST(Program, WrongOptionsAreTwo) {
@@ -113,23 +99,6 @@ TEST(DurationText, IsInTheUnitThatFits) {
   EXPECT_EQ(DurationText(99), "99 s");
   EXPECT_EQ(DurationText(150), "3 min");
   EXPECT_EQ(DurationText(7200), "2 h");
-}
-
-TEST(CommandLine, SaysWhatWasAskedForWithoutFolders) {
-  CLI::App app("does nothing", "insitu-nothing");
-  std::string site, start;
-  double sigma = 1, unused = 2;
-  bool is_hard = false;
-  app.add_option("SITE", site)->required();
-  app.add_option("--sigma", sigma);
-  app.add_option("--unused", unused);
-  app.add_option("--start", start);
-  app.add_flag("--hard", is_hard);
-  std::vector<std::string> arguments = {
-      "/home/me/start.json", "--start", "--hard", "0.5", "--sigma",
-      "/home/me/site"};  // CLI11 takes them reversed
-  app.parse(arguments);
-  EXPECT_EQ(CommandLine(app), "insitu-nothing SITE --sigma 0.5 --start start.json --hard");
 }
 
 }  // namespace
