@@ -217,8 +217,8 @@ DatumWorth FindDatumWorth(const Network& network, const NetworkColumns& columns,
                           const std::vector<ObservationRow>& rows, const Jacobian& jacobian) {
   const Eigen::MatrixXd held =
       HeldMotions(network, rows, jacobian, SimilarityMotions(network, columns), false);
-  const Eigen::Matrix<double, kMotions, kMotions> normal = held.transpose() * held;
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, kMotions, kMotions>> eigen(normal);
+  const Eigen::MatrixXd normal = held.transpose() * held;
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(normal);
   const double least = kNothing * std::max(eigen.eigenvalues()[kMotions - 1], 1e-300);
   // Of one of the seven, or nullopt where a motion that nothing holds takes part in it.
   const auto variance = [&](int motion) -> std::optional<double> {

@@ -67,8 +67,8 @@ check 'berlin: the same bytes again' same_again
 check 'berlin: a report without survey' prints '^sigma0 (0\.9|1\.0)' reconstruct
 check 'berlin: the report tells of COLMAP'\''s version' \
   prints '"COLMAP" : "[0-9.]+"' cat "$site/work/reconstruction/report.json"
-check 'berlin: a word on scale and datum' prints 'no control: position, orientation and scale' \
-  reconstruct
+check 'berlin: a word on its datum, the places that its photographs state' \
+  prints 'no control: the satellite positions of 3 of 3 photos are observed, in ' reconstruct
 check 'berlin: COLMAP adjusts our model to the same' colmap_agrees
 check 'berlin: our COLMAP model comes back' prints '^3 of 3 photos placed' \
   tie_points --model "$site/work/tie_points/model"
