@@ -27,7 +27,7 @@ constexpr int kLongestSide = 800;  // [px]
 constexpr double kMostExposure = 16;
 constexpr double kGreyLevel = 0.25;  // of pixels that nothing is known of, in linear light
 constexpr size_t kMostKept = 12;     // photographs made smaller, 8 MB each at most
-constexpr int kLeastPriority = 19;
+constexpr int kNiceness = 5;  // behind the adjustment, but not starved by a render beside it
 constexpr int kRelitQuality = 90;
 const Eigen::Vector3d kLuminanceOfRgb(0.2126, 0.7152, 0.0722);  // Rec. 709
 
@@ -180,7 +180,7 @@ struct RelitPhotos::Parts {
   }
 
   void Work(const std::stop_token& stop) {
-    setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), kLeastPriority);  // of this thread
+    setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), kNiceness);  // of this thread
     std::unique_lock lock(mutex);
     while (asked.wait(lock, stop, [&] { return !wanted.empty(); })) {
       const int photo = wanted.front();

@@ -51,7 +51,9 @@ in_browser 'a read-only file' not_saved
 if mkdir -- "$temporary/disk" && mount -t tmpfs -o size=80m tmpfs "$temporary/disk" 2>/dev/null; then
   trap 'umount -l "$temporary/disk" 2>/dev/null; rm -rf -- "$temporary"' EXIT
   mkdir -- "$temporary/disk/site"
-  cp -r -- "$DEMO_SITE"/{photos,calibration,survey,work,site.json} "$temporary/disk/site"
+  cp -r -- "$DEMO_SITE"/{photos,calibration,survey,site.json} "$temporary/disk/site"
+  mkdir -- "$temporary/disk/site/work"
+  cp -r -- "$DEMO_SITE/work/calibration" "$temporary/disk/site/work" # what renders keep is as large as the disk
   check_figures 'a full disk' node "$tests/prepare/not_saved.mjs" "$temporary/disk/site" \
     "$temporary/disk/filled"
 else

@@ -2,7 +2,8 @@
 // What the page has to say: a line below, banners above, conflicts to decide.
 
 import {button, byId, node, table} from "../words/dom.js";
-import {edit, kKeys, state} from "../site/state.js";
+import {kKeys} from "../site/rows.js";
+import {edit, state} from "../site/state.js";
 import {emit, on} from "../site/signals.js";
 import {failures, keptCount, sendNow, storeFault, unconfirmed} from "../site/outbox.js";
 import {said, t} from "../words/words.js";

@@ -4,7 +4,8 @@
 import {button, dialog, node} from "../words/dom.js";
 import {settle} from "./marking.js";
 import {say} from "../around/notices.js";
-import {edit, indexed, isReadOnly, isSame, mark, nameFault, rows} from "../site/state.js";
+import {isSame} from "../site/rows.js";
+import {edit, indexed, isReadOnly, mark, nameFault, rows} from "../site/state.js";
 import {activePane, choosePoint, ui} from "../site/ui.js";
 import {t} from "../words/words.js";
 

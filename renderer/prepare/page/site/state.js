@@ -5,64 +5,12 @@
 import {connectLive, getJson} from "./api.js";
 import {firstSite} from "../photo/first_look.js";
 import {enqueue, newId, openOutbox, unconfirmed} from "./outbox.js";
+import {isSame, kKeys, keyOf} from "./rows.js";
 import {emit} from "./signals.js";
 import {said} from "../words/words.js";
 
-/** @typedef {Record<string, any>} Row */
+/** @typedef {import("./rows.js").Row} Row */
 /** @typedef {{name: string, width: number, height: number, levels: number, camera: string, fault?: string}} Photo */
-
-/** The fields by which a row is known; none: the whole row; empty: the table's only row. */
-export const kKeys = {
-  control_points: ["name"],
-  observations: ["photo", "point"],
-  edges: ["photo", "from", "to", "x", "y"],
-  camera_positions: ["photo"],
-  polygons: ["name"],
-  sun: ["shadow", "object"],
-  zenith: ["bottom", "top"],
-  constraints: null,
-  horizon: ["photo", "x", "y"],
-  haze: ["photo", "x", "y"],
-  daylight: ["photo", "x", "y"],
-  light: [],
-  materials: ["name"],
-  drafts: ["id"],
-  site: [],
-  film: [],
-  film_marks: ["mark"],
-  fiducials: ["photo", "mark"]
-};
-
-/**
- * A row's meaning as a text: fields in order, no state being "on".
- * @param {any} value
- * @returns {string}
- */
-function meaning(value) {
-  if (Array.isArray(value)) return `[${value.map(meaning).join()}]`;
-  if (value === null || typeof value !== "object") return JSON.stringify(value ?? null);
-  return `{${Object.keys(value)
-    .sort()
-    .filter(
-      key => value[key] !== undefined && value[key] !== "" && !(key === "state" && value[key] === "on")
-    )
-    .map(key => `${key}:${meaning(value[key])}`)
-    .join()}}`;
-}
-/**
- * @param {Row|null|undefined} a
- * @param {Row|null|undefined} b
- */
-export const isSame = (a, b) => meaning(a ?? null) === meaning(b ?? null);
-
-/**
- * @param {string} table
- * @param {Row} row
- */
-export function keyOf(table, row) {
-  const fields = kKeys[table];
-  return fields ? fields.map(field => String(row[field])).join("\n") : meaning(row);
-}
 
 /** @type {Record<string, Map<string, Row>>} */
 let confirmed = {};
