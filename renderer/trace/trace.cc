@@ -154,17 +154,21 @@ Spectrum SunBefore(const MontageScene& scene, const SurfacePoint& surface,
   return scene.natural.light.sun_radiance * SplitSunlight(scene, surface, light, true).natural;
 }
 
-// Case D on a secondary ray: true colour of a natural surface, from the photograph that shows it.
+// Case D on a secondary ray: true colour of a natural surface, from the photographs that show it.
 Spectrum SiteColor(const MontageScene& scene, const SceneHit& hit, const Eigen::Vector3d& to_viewer,
                    LightDirections light, World world, int depth) {
   light.sun_share = 1;  // that of the surface that the camera ray met
   const SpectralMaterial& material = scene.material_of_polygon[hit.index];
   const std::optional<SmoothLight> around = LightAround(scene, hit);
-  Spectrum diffuse;
-  if (const auto seen = LookUpColor(scene.Photographed(), hit.index, hit.surface)) {
-    diffuse = (seen->true_color -
-               MirroredBefore(scene, hit.surface, material, seen->to_camera, light, depth))
-                  .max(0);
+  Spectrum diffuse = Spectrum::Zero();
+  const auto seen = LookUpColors(scene.Photographed(), hit.index, hit.surface);
+  for (const PhotographedColor& color : seen) {
+    const Spectrum mirrored =
+        MirroredBefore(scene, hit.surface, material, color.to_camera, light, depth);
+    diffuse += color.weight * (color.true_color - mirrored).max(0);
+  }
+  if (!seen.empty()) {
+    // As they show it.
   } else if (around) {
     diffuse = ReflectedRadiance(1, scene.interreflected->interreflection.MeanBrdf(hit.index),
                                 around->before + SunBefore(scene, hit.surface, light));
