@@ -18,6 +18,12 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 
+// What goes on by a mirror or a pane that hands on so much.
+LightDirections Part(LightDirections light, const MontageScene& scene, const Spectrum& share) {
+  light.share *= std::min(1.0, share.head(scene.natural.spectra.bins().count).mean());
+  return light;
+}
+
 double CosineTo(const SurfacePoint& surface, const Eigen::Vector3d& to_viewer) {
   return std::min(1.0, surface.normal.dot(to_viewer));
 }
@@ -44,8 +50,8 @@ Spectrum Mirrored(const MontageScene& scene, const SurfacePoint& surface,
                   const LightDirections& light, World world, int depth) {
   const Spectrum share = MirrorReflectance(material, CosineTo(surface, to_viewer));
   if ((share <= 0).all()) return Spectrum::Zero();
-  return share * MirrorImage(scene, surface, material.specular->roughness, to_viewer, light, world,
-                             depth, kSurveyClearance);
+  return share * MirrorImage(scene, surface, material.specular->roughness, to_viewer,
+                             Part(light, scene, share), world, depth, kSurveyClearance);
 }
 
 // What of a natural surface's radiance towards a camera is mirrored, before the building stands. A
@@ -167,12 +173,12 @@ Spectrum SiteColor(const MontageScene& scene, const SceneHit& hit, const Eigen::
         MirroredBefore(scene, hit.surface, material, color.to_camera, light, depth);
     diffuse += color.weight * (color.true_color - mirrored).max(0);
   }
-  if (!seen.empty()) {
-    // As they show it.
-  } else if (around) {
+  const bool is_unseen = seen.empty();
+  if (is_unseen && light.unseen && world == World::kWithBuilding) *light.unseen += light.share;
+  if (is_unseen && around) {
     diffuse = ReflectedRadiance(1, scene.interreflected->interreflection.MeanBrdf(hit.index),
                                 around->before + SunBefore(scene, hit.surface, light));
-  } else {
+  } else if (is_unseen) {
     const SplitLight split = SplitDaylight(scene, hit.surface, light, true);
     diffuse = ReflectedRadiance(1, scene.mean_brdf_of_polygon[hit.index],
                                 TotalIrradiance(scene.natural.light, split.natural));
@@ -204,8 +210,11 @@ Spectrum FaceColor(const MontageScene& scene, const SceneHit& hit, const Ray& ra
     return BuildingColor(scene, hit.surface, material, -ray.direction, light, depth,
                          LightAround(scene, hit));
   }
+  // A pane mirrors it, at two faces; a body lets most of it through.
+  const Spectrum mirrors = 2 * MirrorReflectance(material, CosineTo(hit.surface, -ray.direction));
+  const LightDirections further = material.glass->is_solid ? light : Part(light, scene, mirrors);
   const auto trace = [&](const Ray& out) {
-    return TraceSecondary(scene, out, light, World::kWithBuilding, depth + 1);
+    return TraceSecondary(scene, out, further, World::kWithBuilding, depth + 1);
   };
   const Spectrum glass = GlassColor(scene, hit, ray, light, depth, straight_on, trace);
   if (material.glass->weight >= 1) return glass;
@@ -246,9 +255,10 @@ Spectrum BuildingColor(const MontageScene& scene, const SurfacePoint& surface,
   const Spectrum again = (1 - single) * mirror;
   const Spectrum L =
       (1 - mirror) * (1 + again) * ReflectedRadiance(material.diffuse_weight, material.brdf, E);
-  return L + mirror * (1 + again / single) *
-                 MirrorImage(scene, surface, material.specular->roughness, to_viewer, light,
-                             World::kWithBuilding, depth, kBuildingClearance);
+  const Spectrum share = mirror * (1 + again / single);
+  return L + share * MirrorImage(scene, surface, material.specular->roughness, to_viewer,
+                                 Part(light, scene, share), World::kWithBuilding, depth,
+                                 kBuildingClearance);
 }
 
 Spectrum DiffuseChange(const MontageScene& scene, const SurfacePoint& surface,
