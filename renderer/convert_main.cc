@@ -60,7 +60,7 @@ void ConvertModel(ConvertCommand command) {
   stem.replace_extension();
   stem += "_preview";
   Write(command, site, conversion, stem);
-  if (kept) WriteArtificialEnvironment(command.output, conversion.environment);
+  if (kept) WriteArtificialEnvironmentFile(command.output, conversion.environment);
 }
 
 int RunConvert(int argc, char** argv) {

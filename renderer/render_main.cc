@@ -29,6 +29,12 @@ void PrintReport(FILE* out, const RenderSiteReport& report) {
       out, "%s: building %.1f %%, changed %.1f %% of the pixels, %.2f rays a pixel, %.1f s\n",
       report.photo.c_str(), 100 * report.result.building_pixels / pixels,
       100 * report.result.changed_pixels / pixels, report.result.mean_rays, report.seconds);
+  if (report.result.unseen_pixels > 0) {
+    std::fprintf(out,
+                 "  mirrors and glass show in %ld pixels what no photograph does, by their shares "
+                 "%.0f pixels in all: %s.unseen.exr\n",
+                 report.result.unseen_pixels, report.result.unseen_area, report.photo.c_str());
+  }
   if (!report.uncertainty) return;
   std::fprintf(
       out, "  its %d corners stand to %.2f px (%.1f mm), %.2f px (%.1f mm) at worst, one sigma\n",
@@ -141,7 +147,9 @@ int RunRender(int argc, char** argv) {
       "keeps the sun away, survey/shadows/<photo>.png (black), which is found if it is not there;\n"
       "writes montages/<photo>.exr, .png and .jpg, and .layers.exr: the shares of the\n"
       "photograph (red), computed (green) and in front (blue); and .shadows.exr: the share of\n"
-      "the sun that the photograph shows to arrive (red) and its standard deviation (green).\n"
+      "the sun that the photograph shows to arrive (red) and its standard deviation (green);\n"
+      "and .unseen.exr: how much of each pixel is of surfaces, mirrored or behind glass, that no\n"
+      "photograph shows (red), if any is.\n"
       "Ctrl-C ends it with status 3 when the tiles at work are done; whatever ends it, the same\n"
       "command goes on where it was and comes to the same bytes.");
   RenderCommand command;

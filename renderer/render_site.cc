@@ -241,6 +241,7 @@ class SiteRender {
     report.remarks = WriteMontage(site_, photograph, options_.frame, std::move(view.photo),
                                   report.result, statement_);
     WriteSunShares(site_, photograph, shares);
+    WriteUnseen(site_, photograph, report.result);
     RemarkClipped(report.result, &report.remarks);
     WriteRenderRecord(site_, photo, options_);
     return report;

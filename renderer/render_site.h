@@ -65,7 +65,9 @@ class RenderStopped : public std::runtime_error {
 // survey/ only the hash; writes montages/<photo>.exr, .png and .jpg, .tif of a TIFF
 // (montage_files.h); in <photo>.layers.exr which share of each pixel is the
 // photograph's (red), computed (green), in front by the matte (blue); in <photo>.shadows.exr which
-// share of the sun it shows to arrive (red), and its standard deviation (green); and how well the
+// share of the sun it shows to arrive (red), and its standard deviation (green); in
+// <photo>.unseen.exr, if anything is, how much of each pixel is of surfaces, mirrored or behind
+// glass, that no photograph shows (red); and how well the
 // building's outline and sharp corners are known in <photo>.uncertainty.csv. Keeps the textures in
 // linear light in work/textures/, light among surfaces for later renders of the same site and
 // building in work/render/light.cache, and finished tiles in work/render/<photo>.partial until all

@@ -37,6 +37,14 @@ MontageStatement StatementOf(MontageStatement statement, const std::filesystem::
   return statement;
 }
 
+// As the photograph's montage is turned.
+void WriteUpright(const std::filesystem::path& file, const Raster& picture,
+                  const std::filesystem::path& photograph) {
+  const CodedPhotograph upright =
+      Upright(CodesOf(picture, Encoding::kLinear, {}), ReadOrientation(photograph));
+  WriteWhole(file, [&](const std::filesystem::path& temporary) { WriteCodes(temporary, upright); });
+}
+
 }  // namespace
 
 MontageStatement StatementOf(const SitePaths& site, bool with_building) {
@@ -52,11 +60,8 @@ std::vector<std::string> WriteMontage(const SitePaths& site,
                                       Photograph photo, const RenderResult& result,
                                       const MontageStatement& statement) {
   const PhaseScope phase(Phase::kFiles);
-  // As the EXR beside it is turned.
-  const CodedPhotograph layers =
-      Upright(CodesOf(result.layers, Encoding::kLinear, {}), ReadOrientation(photograph));
-  WriteWhole(site.montages() / (photograph.stem().string() + ".layers.exr"),
-             [&](const std::filesystem::path& temporary) { WriteCodes(temporary, layers); });
+  WriteUpright(site.montages() / (photograph.stem().string() + ".layers.exr"), result.layers,
+               photograph);
   return WriteMontageFiles(site.montages() / photograph.stem(),
                            {result.linear, std::move(photo), photograph, frame == Frame::kPhoto,
                             StatementOf(statement, photograph, result)});
@@ -75,13 +80,25 @@ void WriteSunShares(const SitePaths& site, const std::filesystem::path& photogra
     picture.data[3 * i] = shares->share.data[i];
     picture.data[3 * i + 1] = shares->sigma.data[i];
   }
-  const CodedPhotograph upright =
-      Upright(CodesOf(picture, Encoding::kLinear, {}), ReadOrientation(photograph));
-  WriteWhole(file, [&](const std::filesystem::path& temporary) { WriteCodes(temporary, upright); });
+  WriteUpright(file, picture, photograph);
+}
+
+void WriteUnseen(const SitePaths& site, const std::filesystem::path& photograph,
+                 const RenderResult& result) {
+  const std::filesystem::path file = site.montages() / (photograph.stem().string() + ".unseen.exr");
+  if (result.unseen_pixels == 0) {
+    std::filesystem::remove(file);
+    return;
+  }
+  Raster picture(result.unseen.width, result.unseen.height);
+  for (size_t i = 0; i < result.unseen.data.size(); ++i)
+    picture.data[3 * i] = result.unseen.data[i];
+  WriteUpright(file, picture, photograph);
 }
 
 void RemoveMontage(const SitePaths& site, const std::string& photo) {
-  for (const char* ending : {".exr", ".png", ".jpg", ".tif", ".layers.exr", ".shadows.exr"}) {
+  for (const char* ending :
+       {".exr", ".png", ".jpg", ".tif", ".layers.exr", ".shadows.exr", ".unseen.exr"}) {
     std::filesystem::remove(site.montages() / (photo + ending));
   }
 }

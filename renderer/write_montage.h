@@ -30,6 +30,12 @@ std::vector<std::string> WriteMontage(const SitePaths& site,
 void WriteSunShares(const SitePaths& site, const std::filesystem::path& photograph,
                     const std::optional<SunShares>& shares);
 
+// montages/<photo>.unseen.exr, upright too: how much of each pixel is of surfaces, mirrored or
+// behind glass, that no photograph shows (red). If there is none, what an earlier run has left
+// goes.
+void WriteUnseen(const SitePaths& site, const std::filesystem::path& photograph,
+                 const RenderResult& result);
+
 // What an earlier run has left.
 void RemoveMontage(const SitePaths& site, const std::string& photo);
 

@@ -47,14 +47,23 @@ struct PhotographedSite {
   const SpectralBasis& spectra;
 };
 
+// What one photograph shows of a place.
 struct PhotographedColor {
   Spectrum true_color;        // L_0 >= 0, haze removed by [Durisch92, Eq. (8)]
-  Eigen::Vector3d to_camera;  // unit, towards the photograph it was seen from
+  Eigen::Vector3d to_camera;  // unit, towards the photograph
+  double weight = 1;          // those of a place are 1 in all
 };
 
-// Looks up a point of a polygon in the photo of its image attribute or, where that does not show
-// it (out of frame, hidden, other side), in the first other photo that does. nullopt: none does.
-std::optional<PhotographedColor> LookUpColor(const PhotographedSite& site, int polygon,
-                                             const SurfacePoint& surface);
+// A point of a polygon as the photo of its image attribute shows it. Towards the edge of that one's
+// frame, and where it does not show the point (out of frame, hidden, other side), as up to three
+// others do, those that resolve it best, by the pixels on its area: so that what moves from one
+// photo to another does so without a seam, but for the outline of what hides it from one. Empty:
+// none shows it.
+std::vector<PhotographedColor> LookUpColors(const PhotographedSite& site, int polygon,
+                                            const SurfacePoint& surface);
+
+// Their mean; nullopt: none shows it.
+std::optional<Spectrum> LookUpColor(const PhotographedSite& site, int polygon,
+                                    const SurfacePoint& surface);
 
 }  // namespace insitu

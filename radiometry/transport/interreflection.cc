@@ -8,6 +8,7 @@
 #include <map>
 #include <numbers>
 #include <string>
+#include <utility>
 
 #include "calibration/files/error.h"
 #include "radiometry/transport/cosine_directions.h"
@@ -17,30 +18,10 @@ namespace insitu {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-// The building's faces win over polygons that survey noise leaves just before them.
-constexpr double kCoincidence = 0.01;  // [m]
-constexpr double kSettled = 1e-3;      // relative change of light that is none
+constexpr double kSettled = 1e-3;  // relative change of light that is none
 constexpr int kMostSweeps = 64;
-constexpr double kMostAlbedo =
-    0.97;  // of a piece: more is an error of the photograph or of the light
-
-Eigen::AlignedBox3d BoxOf(const TriangleMesh& mesh) {
-  Eigen::AlignedBox3d box;
-  for (const Eigen::Vector3f& vertex : mesh.vertices) box.extend(vertex.cast<double>());
-  // Embree's robust mode may report hits this far outside.
-  if (box.isEmpty()) return box;
-  return {box.min() - Eigen::Vector3d::Constant(1e-3), box.max() + Eigen::Vector3d::Constant(1e-3)};
-}
-
-bool MayMeet(const Eigen::AlignedBox3d& box, const Eigen::Vector3d& origin,
-             const Eigen::Vector3d& direction) {
-  if (box.isEmpty()) return false;
-  const Eigen::Array3d inverse = direction.array().inverse();
-  const Eigen::Array3d a = (box.min() - origin).array() * inverse;
-  const Eigen::Array3d b = (box.max() - origin).array() * inverse;
-  const double far = a.max(b).minCoeff();
-  return far >= 0 && a.min(b).maxCoeff() <= far;
-}
+// Of a piece: more is an error of the photograph or of the light.
+constexpr double kMostAlbedo = 0.97;
 
 // Total light and what it falls on, for a mean reflection.
 struct MeanBrdfSum {
@@ -91,39 +72,31 @@ void InterreflectionOptions::Check() const {
 }
 
 Interreflection::Interreflection(const TransportScene& scene, const Daylight& light,
-                                 const PatchGrid& grid, const InterreflectionOptions& options)
+                                 Patches patches, const InterreflectionOptions& options)
     : scene_(scene),
       options_(options),
       patch_directions_(options.patch_directions),
       point_directions_(options.point_directions),
-      planned_box_(BoxOf(scene.planned.mesh)),
-      clear_box_(scene.planned.clear ? BoxOf(scene.planned.clear->mesh) : Eigen::AlignedBox3d()),
-      zenith_(light.zenith_direction),
-      sky_pieces_(light.Sky(), light.sky_shape.IsUniform(), light.zenith_direction),
-      ground_(GroundOf(scene.site.scene, grid)),
-      patches_(grid) {
+      surroundings_(scene, light, std::move(patches)) {
   options_.Check();
-  patches_ = MakePatches(scene.site, scene.natural, scene.planned, ground_, light, patches_.grid());
+}
+
+Interreflection::Interreflection(const TransportScene& scene, const Daylight& light,
+                                 const PatchGrid& grid, const InterreflectionOptions& options)
+    : Interreflection(scene, light,
+                      MakePatches(scene.site, scene.natural, scene.planned,
+                                  GroundOf(scene.site.scene, grid), light, grid),
+                      options) {
   GatherMeetings();
 }
 
 Interreflection::Interreflection(const TransportScene& scene, const Daylight& light,
                                  const PatchGrid& grid, const SolvedLight& solved,
                                  const InterreflectionOptions& options)
-    : scene_(scene),
-      options_(options),
-      patch_directions_(options.patch_directions),
-      point_directions_(options.point_directions),
-      planned_box_(BoxOf(scene.planned.mesh)),
-      clear_box_(scene.planned.clear ? BoxOf(scene.planned.clear->mesh) : Eigen::AlignedBox3d()),
-      zenith_(light.zenith_direction),
-      sky_pieces_(light.Sky(), light.sky_shape.IsUniform(), light.zenith_direction),
-      ground_(GroundOf(scene.site.scene, grid)),
-      patches_(PatchesOf(scene.site.scene, solved, grid)),
-      sky_(solved.sky),
-      beyond_(solved.beyond),
-      brdf_of_polygon_(solved.brdf_of_polygon) {
-  options_.Check();
+    : Interreflection(scene, light, PatchesOf(scene.site.scene, solved, grid), options) {
+  sky_ = solved.sky;
+  beyond_ = solved.beyond;
+  brdf_of_polygon_ = solved.brdf_of_polygon;
   for (const SolvedPiece& piece : solved.pieces) {
     before_.push_back(piece.before);
     change_.push_back(piece.change);
@@ -134,114 +107,26 @@ Interreflection::Interreflection(const TransportScene& scene, const Daylight& li
 SolvedLight Interreflection::Solution() const {
   SolvedLight solved{sky_, beyond_, brdf_of_polygon_, {}};
   for (size_t i = 0; i < before_.size(); ++i) {
-    const Patch& patch = patches_.all()[i];
+    const Patch& patch = Pieces()[i];
     solved.pieces.push_back({patch.point, patch.polygon, patch.is_beyond, patch.is_seen, before_[i],
                              change_[i], irradiance_[i]});
   }
   return solved;
 }
 
-void Interreflection::MeetSite(const Ray& ray, const std::optional<RayHit>& hit,
-                               Meeting* meeting) const {
-  meeting->before = kBeyond;
-  if (hit) {
-    const int polygon = scene_.site.polygon_of_triangle[hit->triangle];
-    meeting->is_back = scene_.site.scene.polygons[polygon].normal.dot(ray.direction) > 0;
-    meeting->distance = hit->distance;
-    meeting->before =
-        patches_.OfPolygon(polygon, meeting->is_back, ray.origin + hit->distance * ray.direction);
-  } else if (ray.direction.dot(zenith_) > 0) {
-    meeting->before = kSky - sky_pieces_.Of(ray.direction);
-  } else if (ground_) {
-    meeting->before = GroundBeyond(ray);
-  }
-  meeting->after = meeting->before;
-}
-
-void Interreflection::MeetPlanned(const Ray& ray, const RayHit& hit, Meeting* meeting) const {
-  const Eigen::Vector3d& normal = scene_.planned.normals[hit.triangle];
-  meeting->is_back = normal.dot(ray.direction) > 0;
-  meeting->distance = hit.distance;
-  meeting->material = scene_.planned.material_of_triangle[hit.triangle];
-  meeting->after = patches_.OfPlanned(meeting->is_back ? Eigen::Vector3d(-normal) : normal,
-                                      ray.origin + hit.distance * ray.direction);
-}
-
-std::vector<Interreflection::Meeting> Interreflection::Meet(
-    const SurfacePoint& surface, const CosineDirections& directions) const {
-  const Eigen::Vector3d origin = surface.position + kSurveyClearance * surface.normal;
-  const std::vector<Eigen::Vector3d> all = directions.About(surface.normal);
-  std::vector<Meeting> meetings(all.size());
-  std::array<double, kPacketSize> far;
-  for (size_t first = 0; first < all.size(); first += kPacketSize) {
-    const size_t size = std::min<size_t>(kPacketSize, all.size() - first);
-    const std::span<const Eigen::Vector3d> packet(&all[first], size);
-    far.fill(std::numeric_limits<double>::infinity());
-    const auto on_site = scene_.site.rays.NearestOfPacket(origin, packet, {far.data(), size});
-    bool may_meet = false;
-    for (size_t i = 0; i < size; ++i) {
-      MeetSite({origin, packet[i]}, on_site[i], &meetings[first + i]);
-      if (on_site[i]) far[i] = on_site[i]->distance + kCoincidence;
-      may_meet = may_meet || MayMeet(planned_box_, origin, packet[i]);
-    }
-    if (may_meet) {
-      const auto on_planned =
-          scene_.planned.rays.NearestOfPacket(origin, packet, {far.data(), size});
-      for (size_t i = 0; i < size; ++i) {
-        if (on_planned[i]) MeetPlanned({origin, packet[i]}, *on_planned[i], &meetings[first + i]);
-      }
-    }
-    for (size_t i = 0; i < size; ++i) {
-      if (MayMeet(clear_box_, origin, packet[i])) {
-        MeetGlass({origin, packet[i]}, &meetings[first + i]);
-      }
-    }
-  }
-  return meetings;
-}
-
-// A ray that goes through more panes than are counted loses nothing in the others; kinds of glass
-// beyond the fifteenth count as the fifteenth.
-void Interreflection::MeetGlass(const Ray& ray, Meeting* meeting) const {
-  constexpr int kBits = 4, kMostPanes = 16 / kBits, kMostKinds = (1 << kBits) - 1;
-  const ClearFaces& clear = *scene_.planned.clear;
-  Ray rest = ray;
-  if (meeting->distance > 0) rest.far = meeting->distance;
-  for (int i = 0; i < kMostPanes; ++i) {
-    const auto hit = clear.rays.Nearest(rest);
-    if (!hit) return;
-    const int kind = std::min(clear.kind_of_triangle[hit->triangle], kMostKinds - 1);
-    meeting->panes = static_cast<uint16_t>(meeting->panes << kBits | (kind + 1));
-    rest.near = hit->distance + kSurveyClearance;
-  }
-}
-
-Spectrum Interreflection::Through(const Meeting& meeting) const {
-  Spectrum share = Spectrum::Ones();
-  for (unsigned panes = meeting.panes; panes != 0; panes >>= 4) {
-    share *= scene_.planned.clear->mean_transmittance[(panes & 15) - 1];
-  }
-  return share;
-}
-
-int Interreflection::GroundBeyond(const Ray& ray) const {
-  const auto place = ground_->Meet(scene_.site.scene, ray);
-  const int face = static_cast<int>(scene_.site.scene.polygons.size());
-  return place ? patches_.OfPolygon(face, false, *place) : kBeyond;
-}
-
 void Interreflection::GatherMeetings() {
-  const std::vector<Patch>& all = patches_.all();
+  const std::vector<Patch>& all = Pieces();
   meetings_.resize(all.size());
-  tbb::parallel_for(size_t{0}, all.size(),
-                    [&](size_t i) { meetings_[i] = Meet(all[i].point, patch_directions_); });
+  tbb::parallel_for(size_t{0}, all.size(), [&](size_t i) {
+    meetings_[i] = surroundings_.Meet(all[i].point, patch_directions_);
+  });
   SumSeen();
 }
 
 Spectrum Interreflection::RadianceBefore(int patch) const {
-  if (IsSky(patch)) return sky_ * sky_pieces_.At(kSky - patch);
-  if (patch == kDark) return Spectrum::Zero();
-  return patch == kBeyond ? beyond_ : before_[patch];
+  if (Meeting::IsSky(patch)) return sky_ * surroundings_.RelativeSky(patch);
+  if (patch == Meeting::kDark) return Spectrum::Zero();
+  return patch == Meeting::kBeyond ? beyond_ : before_[patch];
 }
 
 Spectrum Interreflection::RadianceAfter(const Meeting& meeting) const {
@@ -253,7 +138,7 @@ Spectrum Interreflection::RadianceAfter(const Meeting& meeting) const {
   } else {
     radiance = before_[meeting.after] + change_[meeting.after];
   }
-  if (meeting.panes != 0) radiance *= Through(meeting);
+  if (meeting.panes != 0) radiance *= surroundings_.Through(meeting);
   return radiance;
 }
 
@@ -267,7 +152,7 @@ Spectrum Interreflection::ChangeAlong(const Meeting& meeting) const {
 void Interreflection::Solve(const Daylight& light) {
   sky_ = light.sky_radiance;
   beyond_.setZero();
-  const size_t n = patches_.all().size();
+  const size_t n = Pieces().size();
   before_.assign(n, Spectrum::Zero());
   brdf_.assign(n, Spectrum::Zero());
   change_.assign(n, Spectrum::Zero());
@@ -275,7 +160,7 @@ void Interreflection::Solve(const Daylight& light) {
   brdf_of_polygon_.assign(scene_.site.scene.polygons.size(), Spectrum::Zero());
   if (n == 0) return;
   SolveBefore(light);
-  if (!planned_box_.isEmpty() || !clear_box_.isEmpty() || scene_.lamps) SolveAfter(light);
+  if (surroundings_.IsPlanned() || scene_.lamps) SolveAfter(light);
 }
 
 // From all pieces that a photograph shows, by material; where it shows none of it, of the site.
@@ -283,7 +168,7 @@ void Interreflection::SetBrdfs(const std::vector<Spectrum>& irradiance) {
   std::map<std::string, MeanBrdfSum> of_material;
   MeanBrdfSum of_site;
   for (size_t i = 0; i < irradiance.size(); ++i) {
-    const Patch& patch = patches_.all()[i];
+    const Patch& patch = Pieces()[i];
     if (!patch.is_seen) continue;
     brdf_[i] = MeanBrdfSum{patch.photographed, irradiance[i]}.Value();
     if (patch.is_beyond) continue;  // a photograph may show anything there
@@ -302,7 +187,7 @@ void Interreflection::SetBeyond() {
   beyond_.setZero();
   double area = 0;
   for (size_t i = 0; i < before_.size(); ++i) {
-    const Patch& patch = patches_.all()[i];
+    const Patch& patch = Pieces()[i];
     if (!patch.is_seen) continue;
     beyond_ += patch.area * before_[i];
     area += patch.area;
@@ -312,20 +197,20 @@ void Interreflection::SetBeyond() {
 
 // What does not change from sweep to sweep is summed once, whatever the daylight.
 void Interreflection::SumSeen() {
-  const size_t n = patches_.all().size();
+  const size_t n = Pieces().size();
   seen_.assign(n, SeenFromPiece());
   tbb::parallel_for(size_t{0}, n, [&](size_t i) {
-    if (patches_.all()[i].polygon < 0) return;
+    if (Pieces()[i].polygon < 0) return;
     SeenFromPiece& seen = seen_[i];
     for (const Meeting& meeting : meetings_[i]) {
-      if (IsSky(meeting.before)) {
-        seen.sky += sky_pieces_.At(kSky - meeting.before);
-      } else if (meeting.before == kBeyond) {
+      if (Meeting::IsSky(meeting.before)) {
+        seen.sky += surroundings_.RelativeSky(meeting.before);
+      } else if (meeting.before == Meeting::kBeyond) {
         ++seen.beyond;
-      } else if (meeting.before != kDark && IsUnseen(meeting.before)) {
+      } else if (meeting.before != Meeting::kDark && IsUnseen(meeting.before)) {
         seen.unseen.push_back(meeting.before);
-      } else if (meeting.before != kDark) {
-        seen.photographed += patches_.all()[meeting.before].photographed;
+      } else if (meeting.before != Meeting::kDark) {
+        seen.photographed += Pieces()[meeting.before].photographed;
       }
     }
   });
@@ -340,7 +225,7 @@ Spectrum Interreflection::GatheredBefore(size_t piece) const {
 }
 
 void Interreflection::SolveBefore(const Daylight& light) {
-  const std::vector<Patch>& all = patches_.all();
+  const std::vector<Patch>& all = Pieces();
   for (size_t i = 0; i < all.size(); ++i) before_[i] = all[i].photographed;
   SetBeyond();
   std::vector<Spectrum> irradiance(all.size(), Spectrum::Zero());
@@ -367,7 +252,7 @@ void Interreflection::SolveBefore(const Daylight& light) {
 
 // True if the planned faces' light still changes.
 bool Interreflection::SweepPlanned(const Daylight& light) {
-  const std::vector<Patch>& all = patches_.all();
+  const std::vector<Patch>& all = Pieces();
   const double weight = kPi / options_.patch_directions;
   std::vector<Spectrum> next(all.size(), Spectrum::Zero());
   tbb::parallel_for(size_t{0}, all.size(), [&](size_t i) {
@@ -387,7 +272,7 @@ bool Interreflection::SweepPlanned(const Daylight& light) {
 }
 
 void Interreflection::SweepNatural(const Daylight& light) {
-  const std::vector<Patch>& all = patches_.all();
+  const std::vector<Patch>& all = Pieces();
   const double weight = kPi / options_.patch_directions;
   std::vector<Spectrum> next(all.size(), Spectrum::Zero());
   tbb::parallel_for(size_t{0}, all.size(), [&](size_t i) {
@@ -414,13 +299,13 @@ GatheredLight Interreflection::At(const SurfacePoint& surface) const {
   GatheredLight light;
   int skies = 0, unseen = 0, backs = 0;
   Spectrum relative_sky = Spectrum::Zero();
-  for (const Meeting& meeting : Meet(surface, point_directions_)) {
+  for (const Meeting& meeting : surroundings_.Meet(surface, point_directions_)) {
     if (meeting.distance > 0) light.nearness += 1 / meeting.distance;
     backs += meeting.is_back;
     unseen += IsUnseen(meeting.before);
-    if (IsSky(meeting.before)) {
+    if (Meeting::IsSky(meeting.before)) {
       ++skies;
-      relative_sky += sky_pieces_.At(kSky - meeting.before);
+      relative_sky += surroundings_.RelativeSky(meeting.before);
     } else {
       light.surroundings_before += RadianceBefore(meeting.before);
     }
@@ -440,8 +325,8 @@ GatheredLight Interreflection::At(const SurfacePoint& surface) const {
 
 bool Interreflection::IsUnseen(int patch) const {
   if (IsDirect()) return false;
-  if (patch >= 0) return !patches_.all()[patch].is_seen;
-  return patch == kBeyond;
+  if (patch >= 0) return !Pieces()[patch].is_seen;
+  return patch == Meeting::kBeyond;
 }
 
 }  // namespace insitu

@@ -10,15 +10,13 @@
 // of what it lights. Stands where the paper has one ambient light for all, [Durisch92, Eq. (4)].
 #pragma once
 
-#include <functional>
 #include <optional>
 #include <vector>
 
 #include "radiometry/light/daylight.h"
-#include "radiometry/light/photographed_color.h"
 #include "radiometry/transport/cosine_directions.h"
-#include "radiometry/transport/patches.h"
 #include "radiometry/transport/solved_light.h"
+#include "radiometry/transport/surroundings.h"
 
 namespace insitu {
 
@@ -28,14 +26,6 @@ struct InterreflectionOptions {
   int point_directions = 512;       // gathered at a point that is asked for
 
   void Check() const;  // throws CheckError that names the field that is wrong
-};
-
-struct TransportScene {
-  PhotographedSite site;
-  const TriangleMesh& natural;  // the triangles of its polygons
-  PlannedFaces planned;         // an empty mesh: nothing is planned
-  // Irradiance of lamps that are planned, what stands between taken into account; may be empty.
-  std::function<Spectrum(const SurfacePoint&)> lamps;
 };
 
 // Irradiance at a point, the sun's own and the lamps' own left out.
@@ -74,20 +64,12 @@ class Interreflection {
   // Diffuse reflection of a polygon where no photograph shows it [1/sr].
   const Spectrum& MeanBrdf(int polygon) const { return brdf_of_polygon_[polygon]; }
 
-  int patches() const { return static_cast<int>(patches_.all().size()); }
+  int patches() const { return static_cast<int>(surroundings_.patches().all().size()); }
 
  private:
-  // What a ray from a surface meets: a piece, no object below the horizon or above it, from where
-  // the sky's pieces are counted down, or, where only the sky counts, something that sends nothing.
-  static constexpr int kDark = -1, kBeyond = -2, kSky = -3;
-  static bool IsSky(int met) { return met <= kSky; }
-  struct Meeting {
-    int before = kDark, after = kDark;
-    int material = -1;    // of the planned face met after; -1: none is met
-    double distance = 0;  // after [m]; 0: none
-    bool is_back = false;
-    uint16_t panes = 0;  // the kinds of glass before it, four bits each, counted from 1
-  };
+  // What both public ones begin with.
+  Interreflection(const TransportScene& scene, const Daylight& light, Patches patches,
+                  const InterreflectionOptions& options);
 
   // What is met from a piece before: the sums of photographed radiances and of the sky's, how often
   // ground beyond, and which pieces no photograph shows.
@@ -97,13 +79,7 @@ class Interreflection {
     std::vector<int> unseen;
   };
 
-  // Of all directions in turn.
-  std::vector<Meeting> Meet(const SurfacePoint& surface, const CosineDirections& directions) const;
-  void MeetGlass(const Ray& ray, Meeting* meeting) const;
-  Spectrum Through(const Meeting& meeting) const;  // what its panes let through
-  void MeetSite(const Ray& ray, const std::optional<RayHit>& hit, Meeting* meeting) const;
-  void MeetPlanned(const Ray& ray, const RayHit& hit, Meeting* meeting) const;
-  int GroundBeyond(const Ray& ray) const;
+  const std::vector<Patch>& Pieces() const { return surroundings_.patches().all(); }
   void GatherMeetings();
   void SumSeen();
   Spectrum GatheredBefore(size_t piece) const;
@@ -122,11 +98,7 @@ class Interreflection {
   const TransportScene& scene_;
   InterreflectionOptions options_;
   CosineDirections patch_directions_, point_directions_;
-  Eigen::AlignedBox3d planned_box_, clear_box_;
-  Eigen::Vector3d zenith_;
-  SkyPieces sky_pieces_;
-  std::optional<GroundPlane> ground_;
-  Patches patches_;
+  Surroundings surroundings_;
   std::vector<std::vector<Meeting>> meetings_;  // of each piece
   std::vector<SeenFromPiece> seen_;             // of each natural piece
 

@@ -77,7 +77,7 @@ class PatchMaker {
     patches_.all()[index].is_beyond = face != polygon;
     if (!AddPoint(index, point, area)) return;
     if (const auto color = LookUpColor(site_, polygon, point)) {
-      patches_.all()[index].photographed += color->true_color;
+      patches_.all()[index].photographed += *color;
       ++sums_[index].seen;
     }
   }

@@ -252,8 +252,8 @@ void CheckIndices(const std::filesystem::path& path, const ArtificialEnvironment
 
 }  // namespace
 
-void WriteArtificialEnvironment(const std::filesystem::path& file,
-                                const ArtificialEnvironment& environment) {
+void WriteArtificialEnvironmentFile(const std::filesystem::path& file,
+                                    const ArtificialEnvironment& environment) {
   INSITU_CHECK(environment.material_of_triangle.size() == environment.triangles.size());
   const std::string bytes = MeshBytes(environment);
   Json::Value json;
@@ -269,7 +269,7 @@ void WriteArtificialEnvironment(const std::filesystem::path& file,
 }
 
 void WriteArtificialEnvironment(const SitePaths& site, const ArtificialEnvironment& environment) {
-  WriteArtificialEnvironment(site.artificial(), environment);
+  WriteArtificialEnvironmentFile(site.artificial(), environment);
 }
 
 ArtificialEnvironment ReadArtificialEnvironment(const SitePaths& site) {

@@ -77,8 +77,8 @@ struct ArtificialEnvironment {
 // files do not belong together.
 void WriteArtificialEnvironment(const SitePaths& site, const ArtificialEnvironment& environment);
 // The same as any FILE.json and FILE.bin.
-void WriteArtificialEnvironment(const std::filesystem::path& file,
-                                const ArtificialEnvironment& environment);
+void WriteArtificialEnvironmentFile(const std::filesystem::path& file,
+                                    const ArtificialEnvironment& environment);
 ArtificialEnvironment ReadArtificialEnvironment(const SitePaths& site);
 
 // Of the three corners of a triangle, in repeats of the image, v up: projected in metres where its

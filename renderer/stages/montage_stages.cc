@@ -138,8 +138,8 @@ Paths RenderInputs(const MontageRequest& request) {
 Paths Montages(const MontageRequest& request) {
   Paths montages;
   for (const fs::path& photo : ListPhotographs(request.site)) {
-    for (const char* ending :
-         {".exr", ".png", ".jpg", ".layers.exr", ".shadows.exr", ".uncertainty.csv"}) {
+    for (const char* ending : {".exr", ".png", ".jpg", ".layers.exr", ".shadows.exr", ".unseen.exr",
+                               ".uncertainty.csv"}) {
       montages.push_back(request.site.montages() / (photo.stem().string() + ending));
     }
   }

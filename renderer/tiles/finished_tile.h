@@ -25,6 +25,7 @@ struct TileCounts {
   int64_t changed = 0;   // other pixels that differ from the photograph
   // Of these, pixels that are clipped in the photograph.
   int64_t clipped_darkened = 0, clipped_lifted = 0;
+  int64_t unseen = 0;  // pixels with some share that no photograph shows
   int64_t rays = 0;
 };
 
@@ -34,6 +35,9 @@ struct FinishedTile {
   TileCounts counts;
   std::vector<uint8_t> is_computed;  // 0 or 1 for each pixel, row by row
   std::vector<float> rgb;            // of the computed ones, in the same order
+  // Of these, how much of each is of surfaces, mirrored or behind glass, that no photograph shows
+  // [1/255].
+  std::vector<uint8_t> unseen;
 };
 
 }  // namespace insitu

@@ -16,13 +16,13 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little);  // as the file is
 
-constexpr char kFirstWord[] = "insitu-partial-1";
+constexpr char kFirstWord[] = "insitu-partial-2";
 constexpr size_t kFrameBytes = 2 * sizeof(uint32_t);  // length before, check sum after
 
 using CountMember = int64_t TileCounts::*;
-constexpr CountMember kCounts[] = {&TileCounts::building, &TileCounts::changed,
+constexpr CountMember kCounts[] = {&TileCounts::building,         &TileCounts::changed,
                                    &TileCounts::clipped_darkened, &TileCounts::clipped_lifted,
-                                   &TileCounts::rays};
+                                   &TileCounts::unseen,           &TileCounts::rays};
 constexpr size_t kFixedBytes = sizeof(int32_t) + std::size(kCounts) * sizeof(int64_t);
 
 template <typename Value>
@@ -73,9 +73,13 @@ std::optional<FinishedTile> ReadContent(std::string_view content, const PartialH
     computed += tile.is_computed.back();
   }
   content.remove_prefix(mask_bytes);
-  if (content.size() != 3 * computed * sizeof(float)) return std::nullopt;
+  if (content.size() != computed * (3 * sizeof(float) + 1)) return std::nullopt;
   tile.rgb.resize(3 * computed);
-  if (computed > 0) std::memcpy(tile.rgb.data(), content.data(), content.size());
+  tile.unseen.resize(computed);
+  if (computed == 0) return tile;
+  const size_t rgb_bytes = tile.rgb.size() * sizeof(float);
+  std::memcpy(tile.rgb.data(), content.data(), rgb_bytes);
+  std::memcpy(tile.unseen.data(), content.data() + rgb_bytes, computed);
   return tile;
 }
 
@@ -110,6 +114,7 @@ std::string TileRecord(const FinishedTile& tile) {
   }
   content += mask;
   content.append(reinterpret_cast<const char*>(tile.rgb.data()), tile.rgb.size() * sizeof(float));
+  content.append(tile.unseen.begin(), tile.unseen.end());
   std::string record;
   Append(&record, static_cast<uint32_t>(content.size()));
   record += content;

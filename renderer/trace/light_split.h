@@ -24,6 +24,10 @@ struct LightDirections {
   // Of the sun that no polygon keeps from the surface that a camera ray meets, what the photograph
   // shows to arrive, 0..1.
   double sun_share = 1;
+  // Of what the camera ray brings, about how much this ray's radiance counts, 0..1; that is added
+  // to `unseen` where no photograph shows what it meets. nullptr: nobody asks.
+  double share = 1;
+  double* unseen = nullptr;
 };
 
 // `disc` and `facet` are uniform in [0, 1)^2; `ray` counts the rays of a pixel.

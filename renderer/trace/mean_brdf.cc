@@ -50,7 +50,7 @@ MeanBrdf MeanOver(const MontageScene& scene, const std::vector<SurfacePoint>& po
     if (!seen) continue;
     const SplitLight light = SplitDaylight(scene, point, all, true);
     const Spectrum E = TotalIrradiance(scene.natural.light, light.natural);
-    mean.Add({DiffuseBrdf(seen->true_color, 1, E), 1});
+    mean.Add({DiffuseBrdf(*seen, 1, E), 1});
   }
   return mean;
 }

@@ -56,6 +56,7 @@ Eigen::Vector3d Behind(const ViewWork& view, int x, int y) {
 // The rays of one pixel, gathered.
 struct PixelSum {
   int rays = 0, building_rays = 0;
+  double unseen = 0;                                   // sum of the rays' shares
   Eigen::Vector3d building = Eigen::Vector3d::Zero();  // sum of the building's radiances
   Eigen::Vector3d change = Eigen::Vector3d::Zero();    // sum of the site's changes
   ColorStatistics statistics;
@@ -90,8 +91,11 @@ void AddRay(const ViewWork& view, const PixelSampler& sampler, int x, int y,
   primary.light = ChooseLightDirections(view.scene, sampler.OnDisc(sum.rays), sum.rays,
                                         sampler.OnFacet(sum.rays), sampler.Seed(sum.rays));
   if (view.options.sun_share) primary.light.sun_share = *view.options.sun_share->At(x, y);
+  double unseen = 0;
+  primary.light.unseen = &unseen;
   const RayOutcome outcome = TracePrimary(view.scene, primary);
   ++sum.rays;
+  sum.unseen += std::min(1.0, unseen);
   if (outcome.hits_building) {
     ++sum.building_rays;
     sum.building += outcome.rgb;
@@ -203,6 +207,9 @@ FinishedTile RenderTile(const ViewWork& view, int index) {
       if (sum.building_rays == 0) CountClipped(view, *computed, x, y, &finished.counts);
       finished.is_computed.back() = 1;
       for (const double value : *computed) finished.rgb.push_back(static_cast<float>(value));
+      const double unseen = sum.unseen / sum.rays * (1 - FrontShare(view, x, y));
+      finished.unseen.push_back(static_cast<uint8_t>(std::lround(255 * unseen)));
+      finished.counts.unseen += finished.unseen.back() > 0;
     }
   }
   return finished;
@@ -239,6 +246,7 @@ class Assembly {
   Assembly(const ViewWork& view, RenderResult& result) : view_(view), result_(result) {
     result_.linear = view.photo;
     result_.layers = Raster(view.photo.width, view.photo.height);
+    result_.unseen = Raster(view.photo.width, view.photo.height, 1);
     for (int y = 0; y < view.photo.height; ++y) {
       for (int x = 0; x < view.photo.width; ++x) {
         SetLayers(FrontShare(view_, x, y), false, result_.layers.At(x, y));
@@ -254,8 +262,12 @@ class Assembly {
         if (!finished.is_computed.at(pixel++)) continue;
         for (int c = 0; c < 3; ++c) result_.linear.At(x, y)[c] = finished.rgb.at(sample++);
         SetLayers(FrontShare(view_, x, y), true, result_.layers.At(x, y));
+        const uint8_t unseen = finished.unseen.at(sample / 3 - 1);
+        *result_.unseen.At(x, y) = unseen / 255.0F;
+        unseen_sum_ += unseen;
       }
     }
+    unseen_ += finished.counts.unseen;
     building_ += finished.counts.building;
     changed_ += finished.counts.changed;
     clipped_darkened_ += finished.counts.clipped_darkened;
@@ -270,6 +282,8 @@ class Assembly {
     result_.changed_pixels = changed_;
     result_.clipped_darkened = clipped_darkened_;
     result_.clipped_lifted = clipped_lifted_;
+    result_.unseen_pixels = unseen_;
+    result_.unseen_area = static_cast<double>(unseen_sum_) / 255;
     result_.mean_rays = static_cast<double>(rays_) / (static_cast<double>(width) * height);
     result_.tiles_left = TileCount(width, height) - tiles_;
   }
@@ -279,6 +293,7 @@ class Assembly {
   RenderResult& result_;
   std::atomic<long> building_ = 0, changed_ = 0, rays_ = 0;
   std::atomic<long> clipped_darkened_ = 0, clipped_lifted_ = 0;
+  std::atomic<long> unseen_ = 0, unseen_sum_ = 0;
   std::atomic<int> tiles_ = 0;
 };
 

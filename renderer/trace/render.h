@@ -39,12 +39,17 @@ struct RenderOptions {
 struct RenderResult {
   Raster linear;
   Raster layers;  // shares of each pixel: of the photograph, computed, and in front by the matte
+  // One channel: how much of each pixel is of surfaces, mirrored or behind glass, that no
+  // photograph shows, so that their colour is a guess.
+  Raster unseen;
   long building_pixels = 0;  // some ray hits the building
   long changed_pixels = 0;   // other pixels that differ from the photograph
   // Of these, clipped ones: drawn from a reflectance that is a lower bound.
   long clipped_darkened = 0, clipped_lifted = 0;
-  double mean_rays = 0;  // a pixel
-  int tiles_left = 0;    // not rendered, since it was stopped: they hold the photograph
+  long unseen_pixels = 0;  // some share of which is `unseen`
+  double unseen_area = 0;  // those shares' sum [px]
+  double mean_rays = 0;    // a pixel
+  int tiles_left = 0;      // not rendered, since it was stopped: they hold the photograph
 };
 
 // How a render is followed, stopped and taken up again.

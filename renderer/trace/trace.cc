@@ -18,6 +18,12 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 
+// What goes on by a mirror or a pane that hands on so much.
+LightDirections Part(LightDirections light, const MontageScene& scene, const Spectrum& share) {
+  light.share *= std::min(1.0, share.head(scene.natural.spectra.bins().count).mean());
+  return light;
+}
+
 double CosineTo(const SurfacePoint& surface, const Eigen::Vector3d& to_viewer) {
   return std::min(1.0, surface.normal.dot(to_viewer));
 }
@@ -44,8 +50,8 @@ Spectrum Mirrored(const MontageScene& scene, const SurfacePoint& surface,
                   const LightDirections& light, World world, int depth) {
   const Spectrum share = MirrorReflectance(material, CosineTo(surface, to_viewer));
   if ((share <= 0).all()) return Spectrum::Zero();
-  return share * MirrorImage(scene, surface, material.specular->roughness, to_viewer, light, world,
-                             depth, kSurveyClearance);
+  return share * MirrorImage(scene, surface, material.specular->roughness, to_viewer,
+                             Part(light, scene, share), world, depth, kSurveyClearance);
 }
 
 // What of a natural surface's radiance towards a camera is mirrored, before the building stands. A
@@ -154,21 +160,25 @@ Spectrum SunBefore(const MontageScene& scene, const SurfacePoint& surface,
   return scene.natural.light.sun_radiance * SplitSunlight(scene, surface, light, true).natural;
 }
 
-// Case D on a secondary ray: true colour of a natural surface, from the photograph that shows it.
+// Case D on a secondary ray: true colour of a natural surface, from the photographs that show it.
 Spectrum SiteColor(const MontageScene& scene, const SceneHit& hit, const Eigen::Vector3d& to_viewer,
                    LightDirections light, World world, int depth) {
   light.sun_share = 1;  // that of the surface that the camera ray met
   const SpectralMaterial& material = scene.material_of_polygon[hit.index];
   const std::optional<SmoothLight> around = LightAround(scene, hit);
-  Spectrum diffuse;
-  if (const auto seen = LookUpColor(scene.Photographed(), hit.index, hit.surface)) {
-    diffuse = (seen->true_color -
-               MirroredBefore(scene, hit.surface, material, seen->to_camera, light, depth))
-                  .max(0);
-  } else if (around) {
+  Spectrum diffuse = Spectrum::Zero();
+  const auto seen = LookUpColors(scene.Photographed(), hit.index, hit.surface);
+  for (const PhotographedColor& color : seen) {
+    const Spectrum mirrored =
+        MirroredBefore(scene, hit.surface, material, color.to_camera, light, depth);
+    diffuse += color.weight * (color.true_color - mirrored).max(0);
+  }
+  const bool is_unseen = seen.empty();
+  if (is_unseen && light.unseen && world == World::kWithBuilding) *light.unseen += light.share;
+  if (is_unseen && around) {
     diffuse = ReflectedRadiance(1, scene.interreflected->interreflection.MeanBrdf(hit.index),
                                 around->before + SunBefore(scene, hit.surface, light));
-  } else {
+  } else if (is_unseen) {
     const SplitLight split = SplitDaylight(scene, hit.surface, light, true);
     diffuse = ReflectedRadiance(1, scene.mean_brdf_of_polygon[hit.index],
                                 TotalIrradiance(scene.natural.light, split.natural));
@@ -200,8 +210,11 @@ Spectrum FaceColor(const MontageScene& scene, const SceneHit& hit, const Ray& ra
     return BuildingColor(scene, hit.surface, material, -ray.direction, light, depth,
                          LightAround(scene, hit));
   }
+  // A pane mirrors it, at two faces; a body lets most of it through.
+  const Spectrum mirrors = 2 * MirrorReflectance(material, CosineTo(hit.surface, -ray.direction));
+  const LightDirections further = material.glass->is_solid ? light : Part(light, scene, mirrors);
   const auto trace = [&](const Ray& out) {
-    return TraceSecondary(scene, out, light, World::kWithBuilding, depth + 1);
+    return TraceSecondary(scene, out, further, World::kWithBuilding, depth + 1);
   };
   const Spectrum glass = GlassColor(scene, hit, ray, light, depth, straight_on, trace);
   if (material.glass->weight >= 1) return glass;
@@ -242,9 +255,10 @@ Spectrum BuildingColor(const MontageScene& scene, const SurfacePoint& surface,
   const Spectrum again = (1 - single) * mirror;
   const Spectrum L =
       (1 - mirror) * (1 + again) * ReflectedRadiance(material.diffuse_weight, material.brdf, E);
-  return L + mirror * (1 + again / single) *
-                 MirrorImage(scene, surface, material.specular->roughness, to_viewer, light,
-                             World::kWithBuilding, depth, kBuildingClearance);
+  const Spectrum share = mirror * (1 + again / single);
+  return L + share * MirrorImage(scene, surface, material.specular->roughness, to_viewer,
+                                 Part(light, scene, share), World::kWithBuilding, depth,
+                                 kBuildingClearance);
 }
 
 Spectrum DiffuseChange(const MontageScene& scene, const SurfacePoint& surface,

@@ -93,6 +93,31 @@ TEST_F(RenderSiteTest, ThePinholesFrameShowsTheInputImage) {
   EXPECT_NE(in_photo.linear.data, expected.linear.data);
 }
 
+// The south face mirrors the lawn up to behind the camera, which shows it from 5.4 m south on.
+TEST_F(RenderSiteTest, MarksWhatMirrorsShowOfWhatNoPhotographDoes) {
+  const std::filesystem::path file = site_.montages() / "photo.unseen.exr";
+  SurfaceMaterial material;
+  const auto render = [&] {
+    WriteArtificialEnvironment(site_, Box(small_, {-2, 0, 0}, {2, 4, 6}, material));
+    return RenderSite(site_, {})[0].result;
+  };
+  material.specular = Specular{1};
+  const RenderResult mirror = render();
+  EXPECT_NEAR(*mirror.unseen.At(31, 26), 0, 0.01);  // 0.5 m up: the lawn 2 m south
+  EXPECT_NEAR(*mirror.unseen.At(31, 17), 1, 0.01);  // 2 m up: the lawn 20 m south
+  EXPECT_NEAR(*mirror.unseen.At(31, 5), 0, 0.01);   // 4 m up: the sky
+  EXPECT_EQ(*mirror.unseen.At(5, 40), 0);           // the photograph
+  EXPECT_GT(mirror.unseen_area, 0.2 * mirror.building_pixels);
+  EXPECT_LT(mirror.unseen_area, 0.5 * mirror.building_pixels);
+  EXPECT_GE(mirror.unseen_pixels, mirror.unseen_area);
+  EXPECT_FLOAT_EQ(ReadPhotograph(file).linear.Rgb(31, 17)[0], *mirror.unseen.At(31, 17));
+  material.specular = Specular{1, 1.5};  // mirrors 4 %
+  EXPECT_NEAR(render().unseen_area / mirror.unseen_area, 0.04, 0.005);
+  material.specular.reset();
+  EXPECT_EQ(render().unseen_pixels, 0);
+  EXPECT_FALSE(std::filesystem::exists(file));
+}
+
 TEST_F(RenderSiteTest, IsAsSharpAsThePhotographUnlessIdealIsAskedFor) {
   small_.natural.qualities = {{PointSpread{0.8, 0.8, 0.05, 12}, std::nullopt}};
   RenderSiteOptions options;

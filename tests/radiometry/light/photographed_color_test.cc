@@ -39,8 +39,14 @@ class PhotographedColorTest : public testing::Test {
                               {rotation, -(rotation * (scene_.origin + from))}});
   }
 
+  void AddPaintedCamera(const Eigen::Vector3d& from, int width, int height) {
+    AddCamera(from, width, height);
+    Paint(RayScene(MeshOfPolygons(scene_).mesh), scene_.cameras.size() - 1);
+  }
+
   static Eigen::Vector3d ColorAt(const Eigen::Vector3d& local, size_t photo) {
-    return {0.4 + 0.01 * local.x(), 0.4 + 0.01 * local.y(), 0.2 + 0.3 * static_cast<double>(photo)};
+    return {0.4 + 0.01 * local.x(), 0.4 + 0.01 * local.y(),
+            0.2 + 0.15 * static_cast<double>(photo)};
   }
 
   void Paint(const RayScene& rays, size_t index) {
@@ -70,7 +76,7 @@ class PhotographedColorTest : public testing::Test {
                                    images, air_, spectra_};
     const auto color = LookUpColor(site, 0, {{x, y, 0}, {0, 0, up}});
     if (!color) return std::nullopt;
-    return spectra_.RgbFromSpectrum(color->true_color);
+    return spectra_.RgbFromSpectrum(*color);
   }
 
   void ExpectColor(double x, double y, size_t photo) const {
@@ -87,9 +93,9 @@ class PhotographedColorTest : public testing::Test {
 
 TEST_F(PhotographedColorTest, IsThatOfThePlaceInThePhotographOfTheAttribute) {
   ExpectColor(-12, 4, 0);
-  ExpectColor(0, -5.5, 0);  // which both show
+  ExpectColor(-1, -3.5, 0);  // which both show
   scene_.polygons[0].photo = 1;
-  ExpectColor(0, -5.5, 1);
+  ExpectColor(-1, -3.5, 1);
   ExpectColor(7, -9, 1);
 }
 
@@ -104,6 +110,37 @@ TEST_F(PhotographedColorTest, WhatStandsBeforeItHidesIt) {
   scene_.polygons[0].photo = 1;
   ExpectColor(0, 0, 0);  // which the first one shows
   EXPECT_FALSE(LookUp(1.2, 0));
+}
+
+// Cameras that look straight down have as many pixels on a square metre everywhere: (f / height)^2.
+TEST_F(PhotographedColorTest, WithoutAnAttributeThoseCountThatResolveItBest) {
+  scene_.polygons[0].photo = std::nullopt;
+  const Eigen::Vector2d place(-1, -3.5);
+  const auto blue = [&] { return (*LookUp(place.x(), place.y()))[2]; };
+  const double low = std::pow(150 / 10.0, 2), high = std::pow(150 / 14.0, 2);
+  EXPECT_NEAR(blue(), (0.2 * high + 0.35 * low) / (high + low), 0.002);
+  // The fourth tells from where on others count, a fifth nothing.
+  AddPaintedCamera({0, 0, 30}, 300, 300);
+  AddPaintedCamera({0, 0, 20}, 300, 300);
+  const double higher = std::pow(150 / 20.0, 2), least = std::pow(150 / 30.0, 2);
+  const double expected = (0.2 * (high - least) + 0.35 * (low - least) + 0.65 * (higher - least)) /
+                          (high + low + higher - 3 * least);
+  EXPECT_NEAR(blue(), expected, 0.002);
+  AddPaintedCamera({0, 0, 40}, 300, 300);
+  EXPECT_NEAR(blue(), expected, 0.002);
+}
+
+TEST_F(PhotographedColorTest, ThereIsNoSeamAtTheEdgeOfAFrame) {
+  const auto blue = [&](double x) { return (*LookUp(x, -3.5))[2]; };
+  constexpr double kStep = 0.02;  // [m], a fifth of a pixel of the first one, which ends at x = 0.3
+  double last = blue(-1);
+  EXPECT_NEAR(last, 0.2, 0.002);
+  for (double x = -1 + kStep; x < 0.8; x += kStep) {
+    const double here = blue(x);
+    EXPECT_LT(std::abs(here - last), 0.01) << x;
+    last = here;
+  }
+  EXPECT_NEAR(last, 0.35, 0.002);
 }
 
 TEST_F(PhotographedColorTest, TheOtherSideIsSeenByNone) { EXPECT_FALSE(LookUp(-4, 3, -1)); }

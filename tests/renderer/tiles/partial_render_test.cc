@@ -22,20 +22,22 @@ const PartialHeader kHeader{70, 40, "photo", "0123abcd"};  // 3 x 2 tiles
 FinishedTile TileOf(int index) {
   FinishedTile tile;
   tile.index = index;
-  tile.counts = {5, index, 2, 1, 1000000000000};
+  tile.counts = {5, index, 2, 1, 3, 1000000000000};
   std::mt19937 random(index);
   const int pixels = TileAt(kHeader.width, kHeader.height, index).pixels();
   for (int i = 0; i < pixels; ++i) {
     tile.is_computed.push_back(random() % 3 == 0);
     if (!tile.is_computed.back()) continue;
     for (int c = 0; c < 3; ++c) tile.rgb.push_back(static_cast<float>(random()) * 1e-10f);
+    tile.unseen.push_back(static_cast<uint8_t>(random()));
   }
   return tile;
 }
 
 bool IsSame(const FinishedTile& a, const FinishedTile& b) {
   return a.index == b.index && a.is_computed == b.is_computed && a.rgb == b.rgb &&
-         a.counts.building == b.counts.building && a.counts.changed == b.counts.changed &&
+         a.unseen == b.unseen && a.counts.building == b.counts.building &&
+         a.counts.changed == b.counts.changed && a.counts.unseen == b.counts.unseen &&
          a.counts.rays == b.counts.rays;
 }
 

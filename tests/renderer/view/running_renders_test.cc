@@ -20,6 +20,7 @@ FinishedTile GreenTile(int index) {
   const int pixels = TileAt(kWidth, kHeight, index).pixels();
   tile.is_computed.assign(pixels, 1);
   for (int i = 0; i < pixels; ++i) tile.rgb.insert(tile.rgb.end(), {0, 1, 0});
+  tile.unseen.assign(pixels, 0);
   return tile;
 }
 
