@@ -11,7 +11,11 @@ name=$(photo_names "$site" | head -n 1)
 partial=$site/work/render/$name.partial
 
 render() { "$INSITU_BIN/insitu-render" "$site" --photo "$name"; }
-anew() { rm -rf -- "$site/montages" "$site/work/render"; }
+# The light that the first render keeps stays: what is begun anew are pictures.
+anew() {
+  rm -rf -- "$site/montages"
+  rm -f -- "$site"/work/render/*.partial
+}
 
 # Begun in the background, then signalled as soon as some tiles are kept: $1 signal, $2 bytes.
 render_until() {
