@@ -24,6 +24,7 @@ std::vector<Command> OtherCommands() {
           {"prepare", "the measuring page: everything in survey/, measured on the photographs"},
           {"new", "a site's folder from photographs, with files that explain themselves"},
           {"materials", "the library of materials and lamps: its list, swatches, proposals"},
+          {"spectra", "the spectra that stand behind colours, in a page"},
           {"view", "the viewing page: before and after, pixel by pixel; renders as they run"},
           {"import-survey", "control points and marks of other programs for a site"},
           {"export-survey", "those of a site for other programs"},

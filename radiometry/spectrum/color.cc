@@ -106,6 +106,23 @@ RgbPrimaries Rec709() { return {{0.64, 0.33}, {0.30, 0.60}, {0.15, 0.06}, {0.312
 
 RgbPrimaries Ntsc1953() { return {{0.67, 0.33}, {0.21, 0.71}, {0.14, 0.08}, {0.310, 0.316}}; }
 
+RgbPrimaries DisplayP3() {
+  return {{0.680, 0.320}, {0.265, 0.690}, {0.150, 0.060}, {0.3127, 0.3290}};
+}
+
+RgbPrimaries Rec2020() {
+  return {{0.708, 0.292}, {0.170, 0.797}, {0.131, 0.046}, {0.3127, 0.3290}};
+}
+
+std::vector<SpectralColor> SpectrumLocus() {
+  std::vector<SpectralColor> locus;
+  for (int row = 0; row < ObserverTable().rows(); ++row) {
+    const Eigen::Vector3d xyz = Chromaticity(ObserverTable().row(row).transpose());
+    locus.push_back({kFirstWavelength + row * kStep, xyz.head<2>()});
+  }
+  return locus;
+}
+
 Eigen::Matrix3d RgbFromXyz(const RgbPrimaries& primaries) {
   Eigen::Matrix3d chromaticities;
   chromaticities << Xyz(primaries.red), Xyz(primaries.green), Xyz(primaries.blue);

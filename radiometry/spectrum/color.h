@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <vector>
 
 #include "radiometry/spectrum/spectrum.h"
 
@@ -25,12 +26,21 @@ Eigen::Vector3d Tristimulus(const Spectrum& stimulus, const SpectralBins& bins);
 // Chromaticity x, y, z (sum 1) of tristimulus values with a positive sum. [Durisch92, Eq. (12)]
 Eigen::Vector3d Chromaticity(const Eigen::Vector3d& tristimulus);
 
+// The spectrum locus: chromaticities of pure spectral colours, in steps of 5 nm.
+struct SpectralColor {
+  double wavelength = 0;  // [nm]
+  Eigen::Vector2d chromaticity;
+};
+std::vector<SpectralColor> SpectrumLocus();
+
 // Chromaticities (x, y) of the primaries and of the white point.
 struct RgbPrimaries {
   Eigen::Vector2d red, green, blue, white;
 };
-RgbPrimaries Rec709();    // white D65
-RgbPrimaries Ntsc1953();  // white C, the standard NTSC monitor of [Durisch92, App. A]
+RgbPrimaries Rec709();     // white D65
+RgbPrimaries Ntsc1953();   // white C, the standard NTSC monitor of [Durisch92, App. A]
+RgbPrimaries DisplayP3();  // white D65 [SMPTE EG 432-1]
+RgbPrimaries Rec2020();    // white D65 [ITU-R BT.2020]
 
 // The matrix M of [Durisch92, Eq. (13)]: RGB = M XYZ, white (1, 1, 1) at Y = 1.
 // Throws std::invalid_argument for primaries on one line.

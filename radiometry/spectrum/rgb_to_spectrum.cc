@@ -35,6 +35,21 @@ void ForEachPairOfTransitions(const SpectralBins& bins, Visit visit) {
   }
 }
 
+}  // namespace
+
+Spectrum DomainIndicator(int first_bin, int end_bin) {
+  INSITU_CHECK(0 <= first_bin && first_bin <= end_bin && end_bin <= kMaxBins);
+  Spectrum indicator = Spectrum::Zero();
+  indicator.segment(first_bin, end_bin - first_bin) = 1;
+  return indicator;
+}
+
+Spectrum Evaluate(const PiecewiseBasis& basis, const SpectralBins& bins) {
+  return basis.weights[0] * DomainIndicator(0, basis.second) +
+         basis.weights[1] * DomainIndicator(basis.second, basis.third) +
+         basis.weights[2] * DomainIndicator(basis.third, bins.count);
+}
+
 std::optional<PiecewiseBasis> FindExactBasis(const Eigen::Vector3d& tristimulus,
                                              const SpectralBins& bins) {
   std::optional<PiecewiseBasis> best;
@@ -48,7 +63,6 @@ std::optional<PiecewiseBasis> FindExactBasis(const Eigen::Vector3d& tristimulus,
   return best;
 }
 
-// The box 0 s 0 or s 0 s of the same Y that comes nearest.
 PiecewiseBasis FindNearestBox(const Eigen::Vector3d& tristimulus, const SpectralBins& bins) {
   PiecewiseBasis best;
   double smallest = std::numeric_limits<double>::infinity();
@@ -64,21 +78,6 @@ PiecewiseBasis FindNearestBox(const Eigen::Vector3d& tristimulus, const Spectral
     }
   });
   return best;
-}
-
-}  // namespace
-
-Spectrum DomainIndicator(int first_bin, int end_bin) {
-  INSITU_CHECK(0 <= first_bin && first_bin <= end_bin && end_bin <= kMaxBins);
-  Spectrum indicator = Spectrum::Zero();
-  indicator.segment(first_bin, end_bin - first_bin) = 1;
-  return indicator;
-}
-
-Spectrum Evaluate(const PiecewiseBasis& basis, const SpectralBins& bins) {
-  return basis.weights[0] * DomainIndicator(0, basis.second) +
-         basis.weights[1] * DomainIndicator(basis.second, basis.third) +
-         basis.weights[2] * DomainIndicator(basis.third, bins.count);
 }
 
 PiecewiseBasis FindBasis(const Eigen::Vector3d& tristimulus, const SpectralBins& bins) {

@@ -20,7 +20,14 @@ struct PiecewiseBasis {
 Spectrum DomainIndicator(int first_bin, int end_bin);                      // Eq. (19)
 Spectrum Evaluate(const PiecewiseBasis& basis, const SpectralBins& bins);  // Eq. (18)
 
-// The search of [Durisch92, App. A] for a basis function of given tristimulus values.
+// The two branches of the search of [Durisch92, App. A] for a basis function of given tristimulus
+// values: of the non-negative solutions that with the lowest peak, nullopt where there is none; and
+// the box 0 s 0 or s 0 s of the same Y that comes nearest.
+std::optional<PiecewiseBasis> FindExactBasis(const Eigen::Vector3d& tristimulus,
+                                             const SpectralBins& bins);
+PiecewiseBasis FindNearestBox(const Eigen::Vector3d& tristimulus, const SpectralBins& bins);
+
+// The first, or where it has none the second.
 PiecewiseBasis FindBasis(const Eigen::Vector3d& tristimulus, const SpectralBins& bins);
 
 // RGB <-> spectrum for one RGB space, built on the renderer's own bins, so that

@@ -90,6 +90,26 @@ TEST(RgbFromXyz, Eq13_EqualsThePublishedMatrices) {
   EXPECT_LT((RgbFromXyz(Ntsc1953()) - ntsc).cwiseAbs().maxCoeff(), 2e-3);
 }
 
+TEST(RgbFromXyz, P3AndRec2020EqualThePublishedMatrices) {
+  Eigen::Matrix3d p3, rec2020;  // SMPTE EG 432-1, ITU-R BT.2020
+  p3 << 2.4935, -0.9314, -0.4027, -0.8295, 1.7627, 0.0236, 0.0358, -0.0762, 0.9569;
+  rec2020 << 1.7167, -0.3557, -0.2534, -0.6667, 1.6165, 0.0158, 0.0176, -0.0428, 0.9421;
+  EXPECT_LT((RgbFromXyz(DisplayP3()) - p3).cwiseAbs().maxCoeff(), 2e-4);
+  EXPECT_LT((RgbFromXyz(Rec2020()) - rec2020).cwiseAbs().maxCoeff(), 2e-4);
+}
+
+// CIE 015: chromaticities of monochromatic stimuli.
+TEST(SpectrumLocus, PureColours) {
+  const std::vector<SpectralColor> locus = SpectrumLocus();
+  ASSERT_EQ(locus.size(), 81U);
+  EXPECT_EQ(locus.front().wavelength, 380);
+  EXPECT_EQ(locus.back().wavelength, 780);
+  const auto at = [&](int nm) { return locus[(nm - 380) / 5].chromaticity; };
+  EXPECT_LT((at(520) - Eigen::Vector2d(0.07430, 0.83380)).norm(), 2e-4);
+  EXPECT_LT((at(600) - Eigen::Vector2d(0.62704, 0.37249)).norm(), 2e-4);
+  EXPECT_LT((at(700) - Eigen::Vector2d(0.73469, 0.26531)).norm(), 2e-4);
+}
+
 TEST(RgbFromXyz, RefusesPrimariesOnOneLine) {
   const RgbPrimaries line{{0.2, 0.2}, {0.3, 0.3}, {0.4, 0.4}, {0.3127, 0.3290}};
   EXPECT_THROW(RgbFromXyz(line), std::invalid_argument);
