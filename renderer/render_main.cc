@@ -7,12 +7,14 @@
 #include <memory>
 #include <optional>
 
+#include "calibration/files/error.h"
 #include "calibration/foreground_matte.h"
 #include "calibration/program/program.h"
 #include "calibration/program/warnings.h"
 #include "renderer/render_site.h"
 #include "renderer/tiles/stop_signals.h"
 #include "renderer/tiles/stream_writer.h"
+#include "renderer/tiles/tev_stream.h"
 #include "renderer/trace/profile.h"
 
 namespace insitu {
@@ -68,7 +70,7 @@ constexpr int kStopped = 3;  // exit status
 struct RenderCommand {
   SitePaths site;
   RenderSiteOptions options;
-  std::string frame = "photo", sharpness = "measured";
+  std::string frame = "photo", sharpness = "measured", tev;
   bool no_building = false, streams = false, base64 = false, timing = false;
 };
 
@@ -110,6 +112,8 @@ void AddRunOptions(ProgramOptions* program, RenderCommand* command) {
       "the picture on standard output as it comes, for insitu view -; reports on standard "
       "error");
   program->Flag("--stream-base64", &command->base64, "the same in a third of the bytes");
+  program->Value("--tev", &command->tev,
+                 "HOST:PORT, the picture in the viewer tev as it comes, linear");
   program->Flag("--timing", &command->timing, "print the shares of CPU time");
 }
 
@@ -123,11 +127,18 @@ void RenderAndReport(const RenderCommand& command) {
   const auto profile = command.timing ? std::make_unique<Profile>() : nullptr;
   const bool streams = command.streams || command.base64;
   FILE* const out = streams ? stderr : stdout;
+  std::optional<TevConnection> tev;
   std::optional<RenderStream> stream;
   if (streams) {
-    stream.emplace(STDOUT_FILENO, command.base64 ? StreamCoding::kBase64 : StreamCoding::kDecimal);
-    options.watcher = &*stream;
+    stream.emplace(STDOUT_FILENO,
+                   TextFormat(command.base64 ? StreamCoding::kBase64 : StreamCoding::kDecimal));
   }
+  if (!command.tev.empty()) {
+    if (streams) throw InputError("--tev", "is not had together with --stream");
+    tev.emplace(command.tev);
+    stream.emplace(tev->socket(), TevFormat());
+  }
+  if (stream) options.watcher = &*stream;
   std::fputs(WarningLines(UnreadDrawings(command.site)).c_str(), out);
   for (const RenderSiteReport& report : RenderSite(command.site, options)) {
     PrintReport(out, report);

@@ -21,9 +21,28 @@ constexpr size_t kMostAtOnce = size_t{64} << 10;  // [bytes]
 
 }  // namespace
 
-RenderStream::RenderStream(int file, StreamCoding coding) : file_(file), coding_(coding) {
+StreamFormat TextFormat(StreamCoding coding) {
+  return {
+      .begin = StreamBegin,
+      .image =
+          [](const std::string& name, const Raster& photo) {
+            return ImageStatement(name, photo.width, photo.height) +
+                   PhotoStatement(Reduced(photo, kMostPhoto));
+          },
+      .tile =
+          [coding](const std::string&, const Raster& photo, const FinishedTile& tile) {
+            return TileStatement(photo.width, photo.height, tile.index, TileCodes(tile, photo),
+                                 coding);
+          },
+      .progress = ProgressStatement,
+      .end = EndStatement,
+  };
+}
+
+RenderStream::RenderStream(int file, StreamFormat format)
+    : file_(file), format_(std::move(format)) {
   signal(SIGPIPE, SIG_IGN);
-  head_ = StreamBegin();
+  head_ = format_.begin();
   thread_ = std::thread([this] { Run(); });
 }
 
@@ -37,12 +56,12 @@ RenderStream::~RenderStream() {
 }
 
 void RenderStream::Begin(const std::string& name, const Raster& photo) {
-  const std::string photo_text = PhotoStatement(Reduced(photo, kMostPhoto));
+  if (is_closed_) return;
+  const std::string image = format_.image(name, photo);
   const std::lock_guard lock(mutex_);
   // Of the picture before, what was not sent is sent before this one.
-  head_ += std::exchange(tail_, {}) + ImageStatement(name, photo.width, photo.height) + photo_text;
-  width_ = photo.width;
-  height_ = photo.height;
+  head_ += std::exchange(tail_, {}) + image;
+  name_ = name;
   photo_ = &photo;
   done_ = 0;
   news_.notify_all();
@@ -50,19 +69,20 @@ void RenderStream::Begin(const std::string& name, const Raster& photo) {
 
 void RenderStream::Take(const FinishedTile& tile) {
   if (is_closed_) return;
-  std::vector<uint8_t> codes = TileCodes(tile, *photo_);
   const std::lock_guard lock(mutex_);
-  tiles_[tile.index] = std::move(codes);
+  tiles_[tile.index] = tile;
   ++done_;
   news_.notify_all();
 }
 
 void RenderStream::End(bool is_whole) {
   const std::lock_guard lock(mutex_);
-  for (const auto& [index, codes] : std::exchange(tiles_, {})) {
-    tail_ += TileStatement(width_, height_, index, codes, coding_);
+  if (!photo_) return;
+  for (const auto& [index, tile] : std::exchange(tiles_, {})) {
+    tail_ += format_.tile(name_, *photo_, tile);
   }
-  tail_ += ProgressStatement(done_, TileCount(width_, height_)) + EndStatement(is_whole);
+  tail_ +=
+      format_.progress(done_, TileCount(photo_->width, photo_->height)) + format_.end(is_whole);
   photo_ = nullptr;
   news_.notify_all();
 }
@@ -76,12 +96,12 @@ std::string RenderStream::NextText(std::unique_lock<std::mutex>* lock) {
   std::string text = std::exchange(head_, {});
   while (!tiles_.empty() && text.size() < kMostAtOnce) {
     const auto first = tiles_.begin();
-    text += TileStatement(width_, height_, first->first, first->second, coding_);
+    text += format_.tile(name_, *photo_, first->second);
     tiles_.erase(first);
   }
   if (!tiles_.empty()) return text;
   text += std::exchange(tail_, {});
-  if (photo_) text += ProgressStatement(done_, TileCount(width_, height_));
+  if (photo_) text += format_.progress(done_, TileCount(photo_->width, photo_->height));
   return text;
 }
 

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A render as a stream of text into a pipe, for whoever reads at the other end.
+// A render as a stream into a pipe or socket, for whoever reads at the other end.
 #pragma once
 
 #include <atomic>
 #include <condition_variable>
+#include <functional>
 #include <map>
 #include <mutex>
 #include <string>
@@ -14,13 +15,26 @@
 
 namespace insitu {
 
+// How a render is said: each returns bytes, which may be none. `photo` is the whole picture.
+struct StreamFormat {
+  std::function<std::string()> begin;
+  std::function<std::string(const std::string& name, const Raster& photo)> image;
+  std::function<std::string(const std::string& name, const Raster& photo, const FinishedTile& tile)>
+      tile;
+  std::function<std::string(int done, int total)> progress;  // also as a sign of life
+  std::function<std::string(bool is_whole)> end;
+};
+
+// As tile_stream.h says.
+StreamFormat TextFormat(StreamCoding coding);
+
 // A reader that is slow gets the newest state when it reads again, one that has gone nothing more;
 // the render waits for neither. At its end it is waited for while it reads.
 class RenderStream : public RenderWatcher {
  public:
   // `file`: a descriptor of a pipe, socket or file, which stays open. SIGPIPE is ignored from now
   // on.
-  RenderStream(int file, StreamCoding coding);
+  RenderStream(int file, StreamFormat format);
   ~RenderStream() override;
 
   void Begin(const std::string& name, const Raster& photo) override;
@@ -37,16 +51,17 @@ class RenderStream : public RenderWatcher {
   bool IsEnded();
 
   const int file_;
-  const StreamCoding coding_;
+  const StreamFormat format_;
   std::atomic<bool> is_closed_ = false;
   std::atomic<int64_t> bytes_ = 0;
   std::mutex mutex_;  // of what follows
   std::condition_variable news_;
-  std::string head_;  // statements that come before any tile
+  std::string head_;  // what comes before any tile
   std::string tail_;  // and after all
-  int width_ = 0, height_ = 0, done_ = 0;
+  std::string name_;
   const Raster* photo_ = nullptr;
-  std::map<int, std::vector<uint8_t>> tiles_;  // codes of those that are not sent
+  int done_ = 0;
+  std::map<int, FinishedTile> tiles_;  // that are not sent
   bool is_ended_ = false;
   std::thread thread_;
 };

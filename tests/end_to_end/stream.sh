@@ -51,6 +51,33 @@ a_stream_that_is_cut() {
   [[ $status -eq 2 && $text == *'▀'*'ended after '*' tiles of '"$name"': what is missing is hatched'* ]]
 }
 check 'a stream that is cut is told, what came of it shown' a_stream_that_is_cut
+# A viewer that speaks as tev does holds the montage in the end: as bright as the EXR.
+in_tev() {
+  /usr/bin/python3 "$tests/tev_viewer.py" "$temporary/port" "$temporary/viewed.json" &
+  local viewer=$!
+  while [[ ! -s $temporary/port ]]; do sleep 0.05; done
+  rm -rf -- "$site/montages"
+  "$INSITU_BIN/insitu-render" "$site" --photo "$name" --tev "127.0.0.1:$(<"$temporary/port")" >/dev/null || return 1
+  wait "$viewer" || return 1
+  [[ $(sums) == "$expected" ]] || return 1
+  oiiotool --stats "$site/montages/$name.exr" | grep 'Stats Avg' >"$temporary/stats"
+  /usr/bin/python3 - "$temporary/viewed.json" "$temporary/stats" "$name" <<'PYTHON'
+import json, sys
+viewed = json.load(open(sys.argv[1]))
+average = [float(word) for word in open(sys.argv[2]).read().split()[2:5]]
+assert viewed['name'] == sys.argv[3], viewed['name']
+worst = max(abs(a - b) for a, b in zip(viewed['average'], average))
+print(f"{viewed['updates']} updates, averages differ by {worst:.1e}")
+sys.exit(bool(worst > 1e-5 or viewed['updates'] < 100))
+PYTHON
+}
+check 'tev sees the montage' in_tev
+without_tev() {
+  local status=0
+  "$INSITU_BIN/insitu-render" "$site" --photo "$name" --tev "127.0.0.1:$(<"$temporary/port")" 2>"$temporary/log" >/dev/null || status=$?
+  [[ $status -eq 2 ]] && grep '^--tev: .*Connection refused; start tev there first' "$temporary/log"
+}
+check 'without tev it is told' without_tev
 no_stream() {
   local status=0
   "$INSITU_BIN/insitu-view" - --text <"$site/site.json" 2>"$temporary/log" || status=$?

@@ -58,7 +58,7 @@ TEST_F(StreamWriterTest, AReaderGetsEveryTileOfEveryPicture) {
   std::string text;
   std::thread reader([&] { text = ReadAll(); });
   {
-    RenderStream writer(ends_[1], StreamCoding::kBase64);
+    RenderStream writer(ends_[1], TextFormat(StreamCoding::kBase64));
     for (const char* name : {"first", "second"}) {
       writer.Begin(name, photo_);
       for (int i = 0; i < 100; ++i) writer.Take(WhiteTile(i));
@@ -83,7 +83,7 @@ TEST_F(StreamWriterTest, AReaderGetsEveryTileOfEveryPicture) {
 // 1.2 MB do not fit into the pipe.
 TEST_F(StreamWriterTest, AReaderThatDoesNotReadCostsTheRenderNothing) {
   std::optional<RenderStream> writer;
-  writer.emplace(ends_[1], StreamCoding::kDecimal);
+  writer.emplace(ends_[1], TextFormat(StreamCoding::kDecimal));
   writer->Begin("photo", photo_);
   const auto begin = Clock::now();
   for (int round = 0; round < 3; ++round) {
@@ -99,7 +99,7 @@ TEST_F(StreamWriterTest, AReaderThatDoesNotReadCostsTheRenderNothing) {
 TEST_F(StreamWriterTest, AReaderThatHasGoneEndsTheStreamAlone) {
   close(ends_[0]);
   ends_[0] = -1;
-  RenderStream writer(ends_[1], StreamCoding::kDecimal);
+  RenderStream writer(ends_[1], TextFormat(StreamCoding::kDecimal));
   writer.Begin("photo", photo_);
   for (int i = 0; i < 100; ++i) writer.Take(WhiteTile(i));
   for (int i = 0; i < 500 && !writer.is_closed(); ++i) {
@@ -114,7 +114,7 @@ TEST_F(StreamWriterTest, TellsThatItLivesWhenNothingComes) {
   std::string text;
   std::thread reader([&] { text = ReadAll(); });
   {
-    RenderStream writer(ends_[1], StreamCoding::kDecimal);
+    RenderStream writer(ends_[1], TextFormat(StreamCoding::kDecimal));
     writer.Begin("photo", photo_);
     std::this_thread::sleep_for(std::chrono::milliseconds(2500));
     writer.End(false);
