@@ -41,8 +41,10 @@ class Solution:
         observations = self.inputs["observations_board"]
         weights = observations[..., 2]
         board = self.all_residuals[: 2 * weights.size].reshape(*weights.shape, 2)
-        self.inlier = (weights > 0) & self.mine[:, np.newaxis, np.newaxis]
-        self.outliers = int(np.sum((weights <= 0) & self.mine[:, np.newaxis, np.newaxis]))
+        # Points that were not found stand at (-1, -1): they are no outliers.
+        self.found = (observations[..., 0] >= 0) & self.mine[:, np.newaxis, np.newaxis]
+        self.inlier = (weights > 0) & self.found
+        self.outliers = int(np.sum((weights <= 0) & self.found))
         self.weighted = board[self.inlier]
         self.residuals = np.full(board.shape, np.nan)
         self.residuals[self.inlier] = board[self.inlier] / weights[self.inlier][:, np.newaxis]
@@ -120,9 +122,9 @@ def boards(model, solution, corners):
         inlier = solution.inlier[i]
         lengths = np.linalg.norm(solution.residuals[i][inlier], axis=-1)
         result.append({
-            "photo": photos.get(tuple(solution.pixels[i, 0, 0]), f"board {frame + 1}"),
+            "photo": photos.get(tuple(solution.pixels[i][solution.found[i]][0]), f"board {frame + 1}"),
             "corners": int(inlier.sum()),
-            "outliers": int(inlier.size - inlier.sum()),
+            "outliers": int(solution.found[i].sum() - inlier.sum()),
             "rms_px": rms(lengths),
             "worst_px": round(float(np.max(lengths, initial=0)), 6),
             "tilt_deg": round(float(np.degrees(np.arccos(min(abs(normal[2]), 1)))), 3),

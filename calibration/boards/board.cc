@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "calibration/boards/board.h"
 
+#include <algorithm>
 #include <cmath>
 #include <map>
-#include <set>
 #include <sstream>
+#include <vector>
 
 #include "calibration/files/error.h"
 #include "calibration/files/whole_file.h"
@@ -30,8 +31,6 @@ struct BoardLine {
 };
 
 std::map<std::string, BoardLine> ReadBoardLines(const fs::path& path) {
-  static const std::set<std::string> kKeys = {"type", "interior_corners_x", "interior_corners_y",
-                                              "square_m", "note"};
   std::istringstream stream(ReadWhole(path));
   std::map<std::string, BoardLine> lines;
   int number = 0;
@@ -42,17 +41,65 @@ std::map<std::string, BoardLine> ReadBoardLines(const fs::path& path) {
     if (!(words >> key) || key.starts_with('#')) continue;
     std::getline(words >> std::ws, value);
     value.erase(value.find_last_not_of(" \t\r") + 1);
-    if (!kKeys.contains(key)) {
-      throw InputError(path, number,
-                       "\"" + key +
-                           "\" is unknown, expected type, interior_corners_x, "
-                           "interior_corners_y, square_m or note");
-    }
     if (!lines.emplace(key, BoardLine{number, value}).second) {
       throw InputError(path, number, key + " stands twice, expected it once");
     }
   }
   return lines;
+}
+
+// The keys of each type, besides type and note.
+const std::map<std::string, std::vector<std::string>>& KeysOfTypes() {
+  static const std::map<std::string, std::vector<std::string>> keys = {
+      {"chessboard", {"interior_corners_x", "interior_corners_y", "square_m"}},
+      {"charuco", {"squares_x", "squares_y", "square_m", "marker_m", "dictionary"}},
+      {"circles", {"circles_x", "circles_y", "spacing_m"}},
+      {"asymmetric_circles", {"circles_x", "circles_y", "spacing_m"}}};
+  return keys;
+}
+
+void CheckKeys(const fs::path& path, const std::map<std::string, BoardLine>& lines) {
+  if (!lines.contains("type")) throw InputError(path, "type is missing");
+  const BoardLine& type = lines.at("type");
+  const auto keys = KeysOfTypes().find(type.value);
+  if (keys == KeysOfTypes().end()) {
+    throw InputError(path, type.line,
+                     "\"" + type.value +
+                         "\" as type, expected chessboard, charuco, circles or asymmetric_circles");
+  }
+  for (const auto& [key, line] : lines) {
+    if (key == "type" || key == "note" || std::ranges::count(keys->second, key) > 0) continue;
+    std::string expected = "type";
+    for (const std::string& known : keys->second) expected += ", " + known;
+    throw InputError(path, line.line,
+                     "\"" + key + "\" is unknown, expected " + expected + " or note");
+  }
+  for (const std::string& key : keys->second) {
+    if (!lines.contains(key)) throw InputError(path, key + " is missing");
+  }
+}
+
+// Numbers of board.txt, each refused by its line.
+struct BoardNumbers {
+  const fs::path& path;
+  const std::map<std::string, BoardLine>& lines;
+
+  template <typename Number>
+  Number Of(const std::string& key) const {
+    return PositiveNumber<Number>(path, lines.at(key).line, key, lines.at(key).value);
+  }
+};
+
+void ReadCharuco(const BoardNumbers& numbers, Board* board) {
+  board->points_x = numbers.Of<int>("squares_x") - 1;
+  board->points_y = numbers.Of<int>("squares_y") - 1;
+  board->spacing_m = numbers.Of<double>("square_m");
+  board->marker_m = numbers.Of<double>("marker_m");
+  board->dictionary = numbers.lines.at("dictionary").value;
+  if (board->marker_m >= board->spacing_m) {
+    throw InputError(numbers.path, numbers.lines.at("marker_m").line,
+                     "marker_m is not smaller than square_m: a marker stands within its square");
+  }
 }
 
 }  // namespace
@@ -65,21 +112,28 @@ Board ReadBoard(const fs::path& path) {
                      "\"square_m 0.03\", as the board has them");
   }
   const std::map<std::string, BoardLine> lines = ReadBoardLines(path);
-  for (const char* key : {"type", "interior_corners_x", "interior_corners_y", "square_m"}) {
-    if (!lines.contains(key)) throw InputError(path, std::string(key) + " is missing");
-  }
-  const BoardLine& type = lines.at("type");
-  if (type.value != "chessboard") {
-    throw InputError(path, type.line, "\"" + type.value + "\" as type, expected chessboard");
-  }
-  const auto number = [&]<typename Number>(const std::string& key, Number& value) {
-    value = PositiveNumber<Number>(path, lines.at(key).line, key, lines.at(key).value);
-  };
+  CheckKeys(path, lines);
+  const BoardNumbers numbers{path, lines};
+  const std::string& type = lines.at("type").value;
   Board board;
   board.path = path;
-  number("interior_corners_x", board.interior_corners_x);
-  number("interior_corners_y", board.interior_corners_y);
-  number("square_m", board.square_m);
+  if (type == "charuco") {
+    board.pattern = BoardPattern::kCharuco;
+    ReadCharuco(numbers, &board);
+  } else if (type == "chessboard") {
+    board.points_x = numbers.Of<int>("interior_corners_x");
+    board.points_y = numbers.Of<int>("interior_corners_y");
+    board.spacing_m = numbers.Of<double>("square_m");
+  } else {
+    const bool is_asymmetric = type == "asymmetric_circles";
+    board.pattern = is_asymmetric ? BoardPattern::kAsymmetricCircles : BoardPattern::kCircles;
+    board.points_x = numbers.Of<int>("circles_x") * (is_asymmetric ? 2 : 1);
+    board.points_y = numbers.Of<int>("circles_y");
+    board.spacing_m = numbers.Of<double>("spacing_m") / (is_asymmetric ? 2 : 1);
+  }
+  if (std::min(board.points_x, board.points_y) < 2) {
+    throw InputError(path, "the board has fewer than 2 x 2 points to be found");
+  }
   return board;
 }
 

@@ -1,19 +1,35 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The chessboard that a camera is calibrated with.
+// The board that a camera is calibrated with: a flat grid of points that can be found.
 #pragma once
 
 #include <filesystem>
+#include <string>
 
 namespace insitu {
 
-// board.txt: one "key value" a line (type, interior_corners_x, interior_corners_y, square_m, note).
-// Interior corners are those where four squares meet: one less than squares, each way. Which count
-// stands first does not matter, a board may be turned.
+enum class BoardPattern { kChessboard, kCharuco, kCircles, kAsymmetricCircles };
+
+// board.txt: one "key value" a line; `type`, `note`, and by type:
+//   chessboard: interior_corners_x, interior_corners_y, square_m. Interior corners are those where
+//   four
+//     squares meet: one less than squares, each way. Which count stands first does not matter.
+//   charuco: squares_x, squares_y, square_m, marker_m, dictionary (OpenCV's, as DICT_5X5_100),
+//   drawn as
+//     OpenCV 4.6 and later do: a marker's square in the second place of the first row.
+//   circles: circles_x, circles_y, spacing_m between centres.
+//   asymmetric_circles: circles_x in a row, circles_y rows, each second one half a spacing_m aside,
+//   and
+//     rows half a spacing_m apart.
 struct Board {
-  int interior_corners_x = 0;
-  int interior_corners_y = 0;
-  double square_m = 0;
+  // The grid of points; of asymmetric circles twice as many columns as circles, every second one
+  // empty.
+  int points_x = 0;
+  int points_y = 0;
+  double spacing_m = 0;        // of this grid
   std::filesystem::path path;  // where this was read, for messages
+  BoardPattern pattern = BoardPattern::kChessboard;
+  double marker_m = 0;  // of charuco
+  std::string dictionary = {};
 };
 Board ReadBoard(const std::filesystem::path& path);  // throws InputError
 

@@ -11,6 +11,7 @@
 
 #include "calibration/boards/board_corners.h"
 #include "calibration/boards/board_scripts.h"
+#include "calibration/boards/find_board.h"
 #include "calibration/files/error.h"
 #include "calibration/files/whole_file.h"
 #include "calibration/files/wording.h"
@@ -79,13 +80,20 @@ void NamePhotos(const std::vector<fs::path>& photos, LensAssessment* lens) {
 
 // Most often board.txt counts squares instead of the corners between them.
 std::string AdviceOnCounts(const std::vector<fs::path>& photos, const Board& board) {
-  const Board fewer{board.interior_corners_x - 1, board.interior_corners_y - 1, board.square_m, ""};
-  if (std::min(fewer.interior_corners_x, fewer.interior_corners_y) < 3) return "";
+  if (board.pattern == BoardPattern::kCharuco) {
+    return "; each photo must show several markers, sharp, and board.txt must name the dictionary "
+           "and "
+           "the counts with which the board was drawn";
+  }
+  if (board.pattern != BoardPattern::kChessboard) {
+    return "; each photo must show all circles, sharp, and board.txt must count them";
+  }
+  const Board fewer{board.points_x - 1, board.points_y - 1, board.spacing_m, ""};
+  if (std::min(fewer.points_x, fewer.points_y) < 3) return "";
   for (size_t i = 0; i < std::min<size_t>(photos.size(), 3); ++i) {
-    if (!FindChessboard(ReadPhotograph(photos[i]).linear, fewer)) continue;
+    if (!FindBoard(ReadPhotograph(photos[i]).linear, fewer)) continue;
     return "; " + photos[i].filename().string() + " shows a board of " +
-           std::to_string(fewer.interior_corners_x) + "x" +
-           std::to_string(fewer.interior_corners_y) +
+           std::to_string(fewer.points_x) + "x" + std::to_string(fewer.points_y) +
            " interior corners: board.txt must count interior corners, not squares";
   }
   return "; each photo must show the whole board with its white border, sharp, and board.txt must "
@@ -142,18 +150,17 @@ fs::path Solver::Solve(const std::string& lens_model, const fs::path& corners,
                        const std::string& name) const {
   const fs::path made = folder / "made", log = folder / (name + ".log");
   fs::create_directory(made);
-  RunExternal(
-      {.command = {kPython, "-c", kRunSeeded, "mrcal-calibrate-cameras", "--corners-cache",
-                   corners.filename().string(), "--lensmodel", lens_model, "--focal",
-                   Formatted("%.17g", focal_px), "--object-spacing",
-                   Formatted("%.17g", board.square_m), "--object-width-n",
-                   std::to_string(board.interior_corners_x), "--object-height-n",
-                   std::to_string(board.interior_corners_y), "--outdir", "made", "photos/*"},
-       .package = "python3-mrcal",
-       .folder = folder,
-       .output = log,
-       .log = log,
-       .while_running = while_running});
+  RunExternal({.command = {kPython, "-c", kRunSeeded, "mrcal-calibrate-cameras", "--corners-cache",
+                           corners.filename().string(), "--lensmodel", lens_model, "--focal",
+                           Formatted("%.17g", focal_px), "--object-spacing",
+                           Formatted("%.17g", board.spacing_m), "--object-width-n",
+                           std::to_string(board.points_x), "--object-height-n",
+                           std::to_string(board.points_y), "--outdir", "made", "photos/*"},
+               .package = "python3-mrcal",
+               .folder = folder,
+               .output = log,
+               .log = log,
+               .while_running = while_running});
   const fs::path model = folder / (name + ".cameramodel");
   CopyModel(made / "camera-0.cameramodel", model);
   fs::remove_all(made);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Board calibration: photographs of a chessboard -> interior orientation, by mrcal's own programs.
+// Board calibration: photographs of a board -> interior orientation, by mrcal's own programs.
 #pragma once
 
 #include <filesystem>
@@ -35,7 +35,7 @@ struct BoardCalibration {
   std::string BriefReport() const;
 };
 
-// Calibrates from `board_photos` with mrgingham or OpenCV's finder (FindBoardCorners) and
+// Calibrates from `board_photos` with mrgingham or OpenCV's finders (FindBoardCorners) and
 // mrcal-calibrate-cameras. The model is written to `output_model`; corners, logs and the other
 // models stay in the folder boards/ beside it, where photos go by their number. Throws InputError:
 // fewer than three boards found, photos of unequal size or unreadable, mrcal's programs missing or

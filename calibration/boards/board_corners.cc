@@ -3,10 +3,10 @@
 
 #include <algorithm>
 #include <map>
-#include <opencv2/calib3d.hpp>
-#include <opencv2/imgproc.hpp>
+#include <optional>
 #include <sstream>
 
+#include "calibration/boards/find_board.h"
 #include "calibration/files/whole_file.h"
 #include "calibration/files/wording.h"
 #include "calibration/photo/photograph.h"
@@ -19,51 +19,14 @@ namespace {
 
 constexpr char kCorners[] = "corners.vnl";
 
-cv::Mat GreyCodes(const Raster& linear) {
-  cv::Mat grey(linear.height, linear.width, CV_8U);
-  for (int y = 0; y < linear.height; ++y) {
-    for (int x = 0; x < linear.width; ++x) {
-      const double light = std::clamp(linear.Rgb(x, y).mean(), 0.0, 1.0);
-      grey.at<uchar>(y, x) = cv::saturate_cast<uchar>(255 * SrgbFromLinear(light));
-    }
+// The lines of a photograph in the table that mrcal reads.
+std::string LinesOf(const std::string& photo, const std::optional<BoardPoints>& points) {
+  if (!points) return photo + " - -\n";
+  std::string lines;
+  for (const std::optional<Eigen::Vector2d>& point : *points) {
+    lines += photo + (point ? Formatted(" %.6f %.6f 0\n", point->x(), point->y()) : " - - -\n");
   }
-  return grey;
-}
-
-// The older finder sees some boards that the newer one does not, a little less sharply.
-bool FindByQuads(const cv::Mat& grey, const cv::Size& size, std::vector<cv::Point2f>* corners) {
-  if (!cv::findChessboardCorners(grey, size, *corners,
-                                 cv::CALIB_CB_ADAPTIVE_THRESH | cv::CALIB_CB_NORMALIZE_IMAGE)) {
-    return false;
-  }
-  double closest = 1e9;
-  for (size_t i = 1; i < corners->size(); ++i) {
-    closest = std::min(closest, cv::norm((*corners)[i] - (*corners)[i - 1]));
-  }
-  const int half_window = std::max(2, static_cast<int>(closest / 3));
-  cv::cornerSubPix(grey, *corners, {half_window, half_window}, {-1, -1},
-                   {cv::TermCriteria::EPS | cv::TermCriteria::COUNT, 50, 1e-4});
-  return true;
-}
-
-bool FindBySectors(const cv::Mat& grey, const cv::Size& size, std::vector<cv::Point2f>* corners) {
-  return cv::findChessboardCornersSB(grey, size, *corners, cv::CALIB_CB_ACCURACY) ||
-         cv::findChessboardCornersSB(grey, size, *corners,
-                                     cv::CALIB_CB_ACCURACY | cv::CALIB_CB_EXHAUSTIVE);
-}
-
-// A board cannot be seen from behind: each row is turned round if x to y turns the wrong way.
-void TurnRight(int columns, std::vector<cv::Point2f>* corners) {
-  const cv::Point2f x = (*corners)[columns - 1] - (*corners)[0];
-  const cv::Point2f y = (*corners)[corners->size() - columns] - (*corners)[0];
-  if (x.cross(y) > 0) return;
-  for (auto row = corners->begin(); row != corners->end(); row += columns) {
-    std::reverse(row, row + columns);
-  }
-}
-
-std::string Line(const std::string& photo, const Eigen::Vector2d& corner) {
-  return photo + Formatted(" %.6f %.6f 0\n", corner.x(), corner.y());
+  return lines;
 }
 
 std::vector<fs::path> PhotosIn(const fs::path& folder) {
@@ -75,17 +38,13 @@ std::vector<fs::path> PhotosIn(const fs::path& folder) {
   return photos;
 }
 
-void FindRectangularBoards(const Board& board, const fs::path& folder) {
+void FindByOpenCv(const Board& board, const fs::path& folder) {
   const std::vector<fs::path> photos = PhotosIn(folder);
   Progress progress("finding boards", static_cast<int>(photos.size()));
   std::string table = "# filename x y level\n";
   for (const fs::path& path : photos) {
-    const std::string photo = "photos/" + path.filename().string();
-    const auto corners = FindChessboard(ReadPhotograph(path).linear, board);
-    if (!corners) table += photo + " - -\n";
-    if (corners) {
-      for (const Eigen::Vector2d& corner : *corners) table += Line(photo, corner);
-    }
+    table += LinesOf("photos/" + path.filename().string(),
+                     FindBoard(ReadPhotograph(path).linear, board));
     progress.Step();
   }
   WriteWhole(folder / kCorners, table);
@@ -110,43 +69,39 @@ CornerTable ReadCornerTable(const fs::path& corners) {
   return table;
 }
 
+// A photograph without a board has one line, which names no place.
 bool IsFound(const std::string& photo, const std::string& lines) {
-  return lines.compare(photo.size(), 3, " - ") != 0;
+  return lines.find('\n') + 1 != lines.size() || lines.compare(photo.size(), 3, " - ") != 0;
 }
 
-// mrgingham's worker processes report in the order in which they finish.
-void SortByPhoto(const fs::path& corners) {
+// mrgingham's worker processes report in the order in which they finish. Where they found nothing
+// OpenCV looks once more.
+void CompleteAndSort(const Board& board, const fs::path& corners) {
   const CornerTable table = ReadCornerTable(corners);
   std::string sorted = table.head;
-  for (const auto& [photo, lines] : table.lines_of_photo) sorted += lines;
+  for (const auto& [photo, lines] : table.lines_of_photo) {
+    if (IsFound(photo, lines)) {
+      sorted += lines;
+    } else {
+      const fs::path path = corners.parent_path() / photo;
+      sorted += LinesOf(photo, FindBoard(ReadPhotograph(path).linear, board));
+    }
+  }
   WriteWhole(corners, sorted);
 }
 
 }  // namespace
 
-std::optional<std::vector<Eigen::Vector2d>> FindChessboard(const Raster& linear,
-                                                           const Board& board) {
-  const cv::Mat grey = GreyCodes(linear);
-  const cv::Size size(board.interior_corners_x, board.interior_corners_y);
-  std::vector<cv::Point2f> found;
-  if (!FindBySectors(grey, size, &found) && !FindByQuads(grey, size, &found)) return std::nullopt;
-  TurnRight(size.width, &found);
-  std::vector<Eigen::Vector2d> corners;
-  corners.reserve(found.size());
-  for (const cv::Point2f& corner : found) corners.emplace_back(corner.x, corner.y);
-  return corners;
-}
-
 fs::path FindBoardCorners(const Board& board, const fs::path& folder) {
-  if (board.interior_corners_x != board.interior_corners_y) {
-    FindRectangularBoards(board, folder);
+  if (board.pattern != BoardPattern::kChessboard || board.points_x != board.points_y) {
+    FindByOpenCv(board, folder);
     return folder / kCorners;
   }
   const std::vector<fs::path> photos = PhotosIn(folder);
   Progress progress("finding boards", static_cast<int>(photos.size()));
   size_t done = 0;
-  RunExternal({.command = {"mrgingham", "--jobs", "2", "--gridn",
-                           std::to_string(board.interior_corners_x), "photos/*"},
+  RunExternal({.command = {"mrgingham", "--jobs", "2", "--gridn", std::to_string(board.points_x),
+                           "photos/*"},
                .package = "mrgingham",
                .folder = folder,
                .output = folder / kCorners,
@@ -156,7 +111,7 @@ fs::path FindBoardCorners(const Board& board, const fs::path& folder) {
                  for (; done < found; ++done) progress.Step();
                  progress.Show();
                }});
-  SortByPhoto(folder / kCorners);
+  CompleteAndSort(board, folder / kCorners);
   return folder / kCorners;
 }
 

@@ -1,28 +1,20 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Finding the corners of a chessboard in photographs, in the table that mrcal's programs read.
+// The points of boards found in photographs, in the table that mrcal's programs read.
 #pragma once
 
-#include <Eigen/Core>
 #include <filesystem>
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "calibration/boards/board.h"
-#include "calibration/photo/raster.h"
 
 namespace insitu {
 
-// The interior corners of one photograph, row by row, board.interior_corners_x of them in a row, so
-// that x to y turns as the photograph's x to y does [px]; nullopt: not all of them are seen. By
-// OpenCV's sector based finder [Duda & Frese 2018], else by its older one. `linear` as
-// ReadPhotograph gives it.
-std::optional<std::vector<Eigen::Vector2d>> FindChessboard(const Raster& linear,
-                                                           const Board& board);
-
-// Finds the board in every file of folder/photos and writes folder/corners.vnl ("photo x y level"
-// or "photo - -", sorted by photo): mrgingham's corners of a square board, FindChessboard's of
-// another. Throws InputError: an unreadable photograph, mrgingham missing or failing.
+// Finds the board in every file of folder/photos and writes folder/corners.vnl, sorted by photo: a
+// line "photo x y level" a point, "photo - - -" of a point that is not seen, and the one line
+// "photo - -" where there is no board. A chessboard of as many corners each way is found by
+// mrgingham, else, and every other board, by FindBoard. Throws InputError: an unreadable
+// photograph, mrgingham missing or failing, what FindBoard refuses.
 std::filesystem::path FindBoardCorners(const Board& board, const std::filesystem::path& folder);
 
 // The photos, as the table names them, whose board was found.

@@ -129,6 +129,29 @@ TEST_F(Site, RectangularBoardsAndABroughtSolution) {
   EXPECT_LT((*ReadIntrinsicsCovariance(site_, "") - *covariance).norm(), 1e-9 * covariance->norm());
 }
 
+// Half of the first photograph is covered: a part of a ChArUco board counts too.
+TEST_F(Site, CharucoBoards) {
+  WriteBoardPhotos(site_.boards(), CharucoBoard());
+  const fs::path first = site_.boards() / "board_1.png";
+  Raster photo = ReadPhotograph(first).linear;
+  for (int y = 0; y < photo.height; ++y) {
+    for (int x = 0; x < photo.width / 2; ++x) photo.SetRgb(x, y, {0.2, 0.2, 0.2});
+  }
+  WritePng(first, photo, Encoding::kSrgb8);
+  folder_.Write("calibration/board.txt",
+                "type charuco\nsquares_x 8\nsquares_y 6\nsquare_m 0.11\nmarker_m 0.085\n"
+                "dictionary DICT_4X4_50\n");
+  const CameraCalibration made =
+      CalibrateSite(site_, {.lens_model = "LENSMODEL_OPENCV4", .focal_px = 500}).cameras.front();
+  EXPECT_EQ(made.boards->boards_found, 8);
+  ASSERT_EQ(made.lens->boards.size(), 8u);
+  EXPECT_EQ(made.lens->boards[0].photo, "board_1.png");
+  EXPECT_LT(made.lens->boards[0].corners, 21);
+  EXPECT_LT(made.lens->outliers, 5);
+  EXPECT_LT(made.lens->rms_px, 0.25);
+  EXPECT_NEAR(made.camera.focal_px(), 560, 0.01 * 560);
+}
+
 TEST_F(Site, SquaresCountedForCorners) {
   WriteBoardPhotos(site_.boards(), RectangularBoard());
   folder_.Write("calibration/board.txt",

@@ -33,13 +33,15 @@ class BoardFile : public testing::Test {
 
 TEST_F(BoardFile, ReadsItsKeys) {
   const Board board = ReadBoard(Write(kBoard));
-  EXPECT_EQ(board.interior_corners_x, 10);
-  EXPECT_EQ(board.interior_corners_y, 9);
-  EXPECT_EQ(board.square_m, 0.08);
+  EXPECT_EQ(board.points_x, 10);
+  EXPECT_EQ(board.points_y, 9);
+  EXPECT_EQ(board.spacing_m, 0.08);
 }
 
 TEST_F(BoardFile, FaultsNameTheLine) {
-  EXPECT_EQ(ErrorOf("chessboard", "circles"), ":1: \"circles\" as type, expected chessboard");
+  EXPECT_EQ(
+      ErrorOf("chessboard", "checkers"),
+      ":1: \"checkers\" as type, expected chessboard, charuco, circles or asymmetric_circles");
   EXPECT_EQ(ErrorOf("0.080", "-1"), ":6: \"-1\" as square_m, expected a positive number");
   EXPECT_EQ(ErrorOf("0.080", "nan"), ":6: \"nan\" as square_m, expected a positive number");
   EXPECT_EQ(ErrorOf("0.080", "8 cm"), ":6: \"8 cm\" as square_m, expected a positive number");
@@ -51,6 +53,39 @@ TEST_F(BoardFile, FaultsNameTheLine) {
             ":6: \"square_mm\" is unknown, expected type, interior_corners_x, interior_corners_y, "
             "square_m or note");
   EXPECT_EQ(ErrorOf("square_m 0.080\n", ""), ": square_m is missing");
+}
+
+TEST_F(BoardFile, EveryTypeHasItsKeys) {
+  const Board charuco = ReadBoard(
+      Write("type charuco\nsquares_x 8\nsquares_y 6\nsquare_m 0.04\nmarker_m 0.03\ndictionary "
+            "DICT_5X5_100\n"));
+  EXPECT_EQ(charuco.pattern, BoardPattern::kCharuco);
+  EXPECT_EQ(charuco.points_x, 7);
+  EXPECT_EQ(charuco.points_y, 5);
+  EXPECT_EQ(charuco.spacing_m, 0.04);
+  EXPECT_EQ(charuco.marker_m, 0.03);
+  EXPECT_EQ(charuco.dictionary, "DICT_5X5_100");
+  const Board circles =
+      ReadBoard(Write("type circles\ncircles_x 9\ncircles_y 6\nspacing_m 0.02\n"));
+  EXPECT_EQ(circles.pattern, BoardPattern::kCircles);
+  EXPECT_EQ(circles.points_x, 9);
+  EXPECT_EQ(circles.spacing_m, 0.02);
+  const Board asymmetric =
+      ReadBoard(Write("type asymmetric_circles\ncircles_x 4\ncircles_y 11\nspacing_m 0.04\n"));
+  EXPECT_EQ(asymmetric.pattern, BoardPattern::kAsymmetricCircles);
+  EXPECT_EQ(asymmetric.points_x, 8);
+  EXPECT_EQ(asymmetric.points_y, 11);
+  EXPECT_EQ(asymmetric.spacing_m, 0.02);
+  EXPECT_NE(InputErrorOf([&] {
+              ReadBoard(
+                  Write("type charuco\nsquares_x 8\nsquares_y 6\nsquare_m 0.04\nmarker_m "
+                        "0.04\ndictionary DICT_5X5_100\n"));
+            }).find(":5: marker_m is not smaller than square_m"),
+            std::string::npos);
+  EXPECT_NE(InputErrorOf([&] {
+              ReadBoard(Write("type circles\ncircles_x 9\ncircles_y 6\nsquare_m 0.02\n"));
+            }).find(":4: \"square_m\" is unknown, expected type, circles_x, circles_y, spacing_m"),
+            std::string::npos);
 }
 
 TEST_F(BoardFile, Missing) {

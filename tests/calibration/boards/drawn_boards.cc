@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tests/calibration/boards/drawn_boards.h"
 
+#include <algorithm>
 #include <cmath>
+#include <opencv2/aruco/charuco.hpp>
 #include <string>
 #include <vector>
 
@@ -33,14 +35,62 @@ Rigid3 CamFromBoard(const View& view) {
   return {turn, view.distance * BoardPhotosLens().Unproject({view.pixel_x, view.pixel_y})};
 }
 
+constexpr double kWhite = 0.8, kBlack = 0.05, kGround = 0.2;
+constexpr int kMarkerPixels = 60;  // of a square, of the drawn ChArUco board
+
+double ChessboardLight(const Board& board, double x, double y) {
+  const int columns = board.points_x + 1, rows = board.points_y + 1;  // squares
+  const double u = x / board.spacing_m + columns / 2.0, v = y / board.spacing_m + rows / 2.0;
+  if (std::min(u, v) < 0 || u >= columns || v >= rows) return kWhite;
+  return (static_cast<int>(u) + static_cast<int>(v)) % 2 == 0 ? kBlack : kWhite;
+}
+
+// As OpenCV draws it.
+double CharucoLight(const Board& board, double x, double y) {
+  static const cv::Mat drawn = [&] {
+    const auto charuco = cv::aruco::CharucoBoard::create(
+        board.points_x + 1, board.points_y + 1, static_cast<float>(board.spacing_m),
+        static_cast<float>(board.marker_m),
+        cv::aruco::getPredefinedDictionary(cv::aruco::DICT_4X4_50));
+    cv::Mat image;
+    charuco->draw({(board.points_x + 1) * kMarkerPixels, (board.points_y + 1) * kMarkerPixels},
+                  image);
+    return image;
+  }();
+  const double u = x / board.spacing_m + (board.points_x + 1) / 2.0;
+  const double v = y / board.spacing_m + (board.points_y + 1) / 2.0;
+  const int column = static_cast<int>(std::floor(u * kMarkerPixels));
+  const int row = static_cast<int>(std::floor(v * kMarkerPixels));
+  if (std::min(column, row) < 0 || column >= drawn.cols || row >= drawn.rows) return kWhite;
+  return drawn.at<uchar>(row, column) > 127 ? kWhite : kBlack;
+}
+
+double CirclesLight(const Board& board, double x, double y) {
+  const bool is_asymmetric = board.pattern == BoardPattern::kAsymmetricCircles;
+  const double radius = (is_asymmetric ? 0.45 : 0.3) * board.spacing_m;
+  for (size_t i = 0; i < static_cast<size_t>(board.points_x) * board.points_y; ++i) {
+    const size_t column = i % board.points_x, row = i / board.points_x;
+    if (is_asymmetric && column % 2 != row % 2) continue;
+    if ((PlaceOf(board, i) - Eigen::Vector2d(x, y)).norm() < radius) return kBlack;
+  }
+  return kWhite;
+}
+
 // Reflected light at a point of the board's plane [m]: white border two thirds of a square wide.
 double BoardLight(const Board& board, double x, double y) {
-  const int columns = board.interior_corners_x + 1, rows = board.interior_corners_y + 1;  // squares
-  const double u = x / kSquare + columns / 2.0, v = y / kSquare + rows / 2.0;
-  const double border = 2.0 / 3;
-  if (std::min(u, v) < -border || u > columns + border || v > rows + border) return 0.2;
-  if (std::min(u, v) < 0 || u >= columns || v >= rows) return 0.8;
-  return (static_cast<int>(u) + static_cast<int>(v)) % 2 == 0 ? 0.05 : 0.8;
+  const double border = (0.5 + 1.0 / 6) * board.spacing_m;
+  const double half_x = board.points_x / 2.0 * board.spacing_m + border;
+  const double half_y = board.points_y / 2.0 * board.spacing_m + border;
+  if (std::abs(x) > half_x + board.spacing_m / 2 || std::abs(y) > half_y + board.spacing_m / 2)
+    return kGround;
+  switch (board.pattern) {
+    case BoardPattern::kChessboard:
+      return ChessboardLight(board, x, y);
+    case BoardPattern::kCharuco:
+      return CharucoLight(board, x, y);
+    default:
+      return CirclesLight(board, x, y);
+  }
 }
 
 double LightOfPixel(const Board& board, const SightMap& sights, const Rigid3& board_from_cam, int x,
@@ -67,6 +117,23 @@ Camera BoardPhotosLens() {
 Board BoardPhotosBoard() { return {10, 10, kSquare, "board.txt"}; }
 
 Board RectangularBoard() { return {10, 7, kSquare, "board.txt"}; }
+
+Board CharucoBoard() {
+  return {7, 5, 0.11, "board.txt", BoardPattern::kCharuco, 0.085, "DICT_4X4_50"};
+}
+
+Board CirclesBoard() { return {9, 6, 0.09, "board.txt", BoardPattern::kCircles}; }
+
+Board AsymmetricCirclesBoard() {
+  return {8, 9, 0.07, "board.txt", BoardPattern::kAsymmetricCircles};
+}
+
+Eigen::Vector2d PlaceOf(const Board& board, size_t point) {
+  const auto column = static_cast<double>(point % board.points_x);
+  const auto row = static_cast<double>(point / board.points_x);
+  return board.spacing_m *
+         Eigen::Vector2d(column - (board.points_x - 1) / 2.0, row - (board.points_y - 1) / 2.0);
+}
 
 void WriteBoardPhotos(const std::filesystem::path& folder, const Board& board) {
   const Camera lens = BoardPhotosLens();
