@@ -19,11 +19,12 @@ XmlNode XmlNode::Load(const std::filesystem::path& path) {
   auto document = std::make_shared<Document>();
   document->path = path;
   if (document->xml.Parse(content.data(), content.size()) != tinyxml2::XML_SUCCESS) {
-    throw InputError(path, document->xml.ErrorLineNum(),
-                     std::string("is not valid XML (") + document->xml.ErrorName() + ")");
+    throw ErrorAt(
+        {path, document->xml.ErrorLineNum()},
+        Sentence("xmlInvalid", "is not valid XML ({why})", {{"why", document->xml.ErrorName()}}));
   }
   const tinyxml2::XMLElement* root = document->xml.RootElement();
-  if (!root) throw InputError(path, "is not XML: it has no element");
+  if (!root) throw ErrorAt({path}, Sentence("xmlNothing", "is not XML: it has no element"));
   return XmlNode(document, root);
 }
 
@@ -39,7 +40,9 @@ std::string XmlNode::Text() const {
 
 double XmlNode::Number() const {
   const auto value = ParseNumber(Text());
-  if (!value) throw Error("\"" + Text() + "\", expected a finite number");
+  if (!value) {
+    throw Error(Sentence("xmlNumber", "\"{text}\", expected a finite number", {{"text", Text()}}));
+  }
   return *value;
 }
 
@@ -49,10 +52,12 @@ std::vector<double> XmlNode::Numbers() const {
   std::vector<double> numbers;
   for (const std::string& word : SplitAtBlanks(text)) {
     const auto value = ParseNumber(word);
-    if (!value) throw Error("\"" + word + "\", expected finite numbers");
+    if (!value) {
+      throw Error(Sentence("xmlNumbers", "\"{text}\", expected finite numbers", {{"text", word}}));
+    }
     numbers.push_back(*value);
   }
-  if (numbers.empty()) throw Error("is empty, expected numbers");
+  if (numbers.empty()) throw Error(Sentence("xmlNoNumbers", "is empty, expected numbers"));
   return numbers;
 }
 
@@ -64,7 +69,7 @@ std::optional<XmlNode> XmlNode::Find(const std::string& name) const {
 
 XmlNode XmlNode::At(const std::string& name) const {
   const auto child = Find(name);
-  if (!child) throw Error("<" + name + "> is missing");
+  if (!child) throw Error(Sentence("xmlMissing", "<{name}> is missing", {{"name", name}}));
   return *child;
 }
 
@@ -96,19 +101,29 @@ std::optional<std::string> XmlNode::Attribute(const std::string& name) const {
 
 std::string XmlNode::RequiredAttribute(const std::string& name) const {
   const auto value = Attribute(name);
-  if (!value || value->empty()) throw Error("attribute \"" + name + "\" is missing");
+  if (!value || value->empty()) {
+    throw Error(Sentence("xmlNoAttribute", "attribute \"{name}\" is missing", {{"name", name}}));
+  }
   return *value;
 }
 
 double XmlNode::NumberAttribute(const std::string& name) const {
   const std::string text = RequiredAttribute(name);
   const auto value = ParseNumber(text);
-  if (!value) throw Error(name + "=\"" + text + "\", expected a finite number");
+  if (!value) {
+    throw Error(Sentence("xmlAttribute", "{name}=\"{text}\", expected a finite number",
+                         {{"name", name}, {"text", text}}));
+  }
   return *value;
 }
 
 InputError XmlNode::Error(const std::string& message) const {
   return InputError(path(), line(), std::string("<").append(Name()).append(">: ").append(message));
+}
+
+SaidError XmlNode::Error(const Sentence& message) const {
+  return ErrorAt(place(), Sentence("xmlElement", "<{element}>: {message}",
+                                   {{"element", Name()}, {"message", message.ToJson()}}));
 }
 
 const std::filesystem::path& XmlNode::path() const { return document_->path; }

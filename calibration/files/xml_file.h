@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "calibration/files/error.h"
+#include "calibration/files/error_at.h"
 
 namespace tinyxml2 {
 class XMLElement;
@@ -38,6 +38,7 @@ class XmlNode {
 
   // An error about this element, to be thrown.
   InputError Error(const std::string& message) const;
+  SaidError Error(const Sentence& message) const;
   const std::filesystem::path& path() const;
   int line() const;
   FilePlace place() const { return {path(), line()}; }

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "calibration/files/error.h"
+#include "calibration/files/error_at.h"
 #include "calibration/files/wording.h"
 #include "reconstruction/geometry/plane.h"
 #include "reconstruction/geometry/polygon_rings.h"
@@ -43,12 +43,18 @@ void RequirePlanar(const PolygonOutline& polygon, const std::vector<StartPoint>&
                        [&](const auto& a, const auto& b) { return distance(a) < distance(b); });
   const double limit = tolerance + kUncertainties * uncertainty;
   if (distance(*worst) <= limit) return;
-  throw InputError(polygon.place.path, polygon.place.line,
-                   "polygon '" + polygon.name + "' is far from planar: vertex '" +
-                       names[static_cast<size_t>(worst - positions.begin())] + "' is " +
-                       Metres(distance(*worst)) + " off the best plane, expected at most " +
-                       Metres(limit) + " (" + Metres(tolerance) + " and ten sigma of " +
-                       Metres(uncertainty) + ", its least certain vertex's)");
+  throw ErrorAt(
+      polygon.place,
+      Sentence("polygonBent",
+               "polygon '{polygon}' is far from planar: vertex '{vertex}' is {off} off the best "
+               "plane, expected at most {limit} ({tolerance} and ten sigma of {sigma}, its least "
+               "certain vertex's)",
+               {{"polygon", polygon.name},
+                {"vertex", names[static_cast<size_t>(worst - positions.begin())]},
+                {"off", Metres(distance(*worst))},
+                {"limit", Metres(limit)},
+                {"tolerance", Metres(tolerance)},
+                {"sigma", Metres(uncertainty)}}));
 }
 
 void RequireSimple(const PolygonOutline& polygon, const std::vector<StartPoint>& vertices) {
@@ -66,14 +72,18 @@ void RequireSimple(const PolygonOutline& polygon, const std::vector<StartPoint>&
     const auto fault = FaultOfRings(outline, holes, normal);
     if (!fault) return;
     if (fault->hole) {
-      throw InputError(polygon.place.path, polygon.place.line,
-                       "polygon '" + polygon.name + "': " + fault->text +
-                           ", expected holes within it, each with its vertices in order around");
+      throw ErrorAt(polygon.place,
+                    Sentence("polygonHoles",
+                             "polygon '{polygon}': {fault}, expected holes within it, each with "
+                             "its vertices in order around",
+                             {{"polygon", polygon.name}, {"fault", fault->what.ToJson()}}));
     }
   }
-  throw InputError(polygon.place.path, polygon.place.line,
-                   "the outline of polygon '" + polygon.name +
-                       "' crosses itself or has no area, expected vertices in order around it");
+  throw ErrorAt(polygon.place,
+                Sentence("polygonCrossed",
+                         "the outline of polygon '{polygon}' crosses itself or has no area, "
+                         "expected vertices in order around it",
+                         {{"polygon", polygon.name}}));
 }
 
 }  // namespace

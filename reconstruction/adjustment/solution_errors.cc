@@ -3,6 +3,7 @@
 
 #include <set>
 
+#include "calibration/files/error_at.h"
 #include "calibration/files/wording.h"
 #include "reconstruction/adjustment/adjusted_unknowns.h"
 
@@ -39,28 +40,54 @@ FilePlace PlaceOf(const Unknown& unknown, const SurveyNetwork& survey_network,
   return PlaceOfObservations(survey);
 }
 
-const char* Remedy(Unknown::Kind kind) {
+Sentence Remedy(Unknown::Kind kind) {
   switch (kind) {
     case Unknown::Kind::kCamera:
-      return "more photos from other sides, or a lens model of fewer parameters (insitu-calibrate "
-             "--lens-model LENSMODEL_OPENCV4)";
+      return Sentence("remedyCamera",
+                      "more photos from other sides, or a lens model of fewer parameters "
+                      "(insitu-calibrate --lens-model LENSMODEL_OPENCV4)");
     case Unknown::Kind::kPhoto:
-      return "more marks of well spread points on it, or its surveyed position";
+      return Sentence("remedyPhoto",
+                      "more marks of well spread points on it, or its surveyed position");
     case Unknown::Kind::kPoint:
-      return "a mark of it on one more photo, its surveyed coordinates, or a polygon whose plane "
-             "holds it";
+      return Sentence("remedyPoint",
+                      "a mark of it on one more photo, its surveyed coordinates, or a polygon "
+                      "whose plane holds it");
     case Unknown::Kind::kPlane:
-      return "three of its vertices determined by marks or survey, not on one line";
+      return Sentence("remedyPlane",
+                      "three of its vertices determined by marks or survey, not on one line");
     case Unknown::Kind::kDirection:
       break;
   }
-  return "more pairs of points in directions.json";
+  return Sentence("remedyDirection", "more pairs of points in directions.json");
+}
+
+Sentence NameOf(const Unknown& unknown, const Network& network) {
+  switch (unknown.kind) {
+    case Unknown::Kind::kCamera:
+      return Sentence("unknownCamera", "camera {name}",
+                      {{"name", network.cameras[unknown.index].name}});
+    case Unknown::Kind::kPhoto:
+      return Sentence("unknownPhoto", "photo {name}",
+                      {{"name", network.photos[unknown.index].name}});
+    case Unknown::Kind::kPoint:
+      return Sentence("unknownPoint", "point {name}",
+                      {{"name", network.points[unknown.index].name}});
+    case Unknown::Kind::kPlane:
+      return Sentence("unknownPlane", "the plane of polygon {name}",
+                      {{"name", network.planes[unknown.index].name}});
+    case Unknown::Kind::kDirection:
+      break;
+  }
+  return network.directions[unknown.index].name == "sun"
+             ? Sentence("unknownSun", "the direction to the sun")
+             : Sentence("unknownZenith", "the direction to the zenith");
 }
 
 }  // namespace
 
-InputError RankDefectError(const RankDefect& defect, const SurveyNetwork& survey_network,
-                           const Survey& survey) {
+SaidError RankDefectError(const RankDefect& defect, const SurveyNetwork& survey_network,
+                          const Survey& survey) {
   std::set<std::string> names;
   for (const RankDefect::Column& column : defect.columns) {
     names.insert(ColumnNames(survey_network.network, column.unknown)
@@ -68,31 +95,42 @@ InputError RankDefectError(const RankDefect& defect, const SurveyNetwork& survey
   }
   const Unknown& first = defect.columns.front().unknown;
   const FilePlace place = PlaceOf(first, survey_network, survey);
-  return InputError(
-      place.path, place.line,
-      Listing("the observations do not determine unknowns", {names.begin(), names.end()}) +
-          "; expected " + Remedy(first.kind));
+  const Sentence remedy = Remedy(first.kind);
+  return {InputError(
+              place.path, place.line,
+              Listing("the observations do not determine unknowns", {names.begin(), names.end()}) +
+                  "; expected " + remedy.text()),
+          place,
+          Sentence("notDetermined",
+                   "the observations do not determine {what} ({count} unknowns in all); expected "
+                   "{remedy}",
+                   {{"what", NameOf(first, survey_network.network).ToJson()},
+                    {"count", Json::UInt64(names.size())},
+                    {"remedy", remedy.ToJson()}})};
 }
 
-InputError NoSolutionError(const NoSolution& failure, const Network& network,
-                           const Survey& survey) {
+SaidError NoSolutionError(const NoSolution& failure, const Network& network, const Survey& survey) {
   const FilePlace place = PlaceOfObservations(survey);
   if (!failure.row || failure.row->kind != ObservationRow::Kind::kMark) {
-    return InputError(place.path, "the adjustment fails: " + std::string(failure.what()) +
-                                      ", expected marks that fit their points");
+    return ErrorAt({place.path}, Sentence("adjustmentFails",
+                                          "the adjustment fails: {why}, expected marks that fit "
+                                          "their points",
+                                          {{"why", failure.what()}}));
   }
   const MarkObservation& mark = network.marks[failure.row->index];
   const std::string &photo = network.photos[mark.photo].name,
                     &point = network.points[mark.point].name;
-  const std::string fault = "point '" + point + "' lies behind photo '" + photo +
-                            "' that shows it, expected another point or another place of the "
-                            "photo: is the mark under the right name?";
+  const Sentence fault("pointBehind",
+                       "point '{point}' lies behind photo '{photo}' that shows it, expected "
+                       "another point or another place of the photo: is the mark under the right "
+                       "name?",
+                       {{"point", point}, {"photo", photo}});
   for (const ImageObservation& row : survey.observations) {
     if (row.photo == photo && row.point == point) {
-      return InputError(row.place.path, row.place.line, fault);
+      return ErrorAt(row.place, fault);
     }
   }
-  return InputError(place.path, fault);
+  return ErrorAt({place.path}, fault);
 }
 
 }  // namespace insitu

@@ -3,7 +3,7 @@
 // concerned.
 #pragma once
 
-#include "calibration/files/error.h"
+#include "calibration/files/sentence.h"
 #include "reconstruction/adjustment/survey_network.h"
 #include "reconstruction/network/network_system.h"
 #include "reconstruction/survey/survey.h"
@@ -11,11 +11,11 @@
 namespace insitu {
 
 // Names the parameters that nothing determines, and what would.
-InputError RankDefectError(const RankDefect& defect, const SurveyNetwork& survey_network,
-                           const Survey& survey);
+SaidError RankDefectError(const RankDefect& defect, const SurveyNetwork& survey_network,
+                          const Survey& survey);
 
 // An observation that has no value at the start values: almost always a mark whose point would lie
 // behind the camera.
-InputError NoSolutionError(const NoSolution& failure, const Network& network, const Survey& survey);
+SaidError NoSolutionError(const NoSolution& failure, const Network& network, const Survey& survey);
 
 }  // namespace insitu

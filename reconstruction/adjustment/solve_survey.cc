@@ -9,7 +9,7 @@ namespace insitu {
 namespace {
 
 UnsolvableSurvey ErrorOf(const NoSolution& failure, const Network& network, const Survey& survey) {
-  const InputError error = NoSolutionError(failure, network, survey);
+  const SaidError error = NoSolutionError(failure, network, survey);
   if (!failure.row || failure.row->kind != ObservationRow::Kind::kMark) return {error, {}};
   const MarkObservation& mark = network.marks[failure.row->index];
   return {error, {network.points[mark.point].name}, network.photos[mark.photo].name};

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "calibration/files/error.h"
+#include "calibration/files/sentence.h"
 #include "calibration/lens/photo_lens.h"
 #include "reconstruction/adjustment/adjustment_options.h"
 #include "reconstruction/adjustment/start_values.h"
@@ -22,10 +22,10 @@ struct SolvedSurvey {
 };
 
 // A rank defect, a point behind its camera, with what is to be left out to go on.
-struct UnsolvableSurvey : InputError {
-  UnsolvableSurvey(const InputError& error, std::vector<std::string> points_in,
+struct UnsolvableSurvey : SaidError {
+  UnsolvableSurvey(const SaidError& error, std::vector<std::string> points_in,
                    std::string photo_in = "")
-      : InputError(error), points(std::move(points_in)), photo(std::move(photo_in)) {}
+      : SaidError(error), points(std::move(points_in)), photo(std::move(photo_in)) {}
 
   std::vector<std::string> points;  // the survey's points among what is not determined
   std::string photo;  // of the mark that has no value, which is of points[0]; or empty

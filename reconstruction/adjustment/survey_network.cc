@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <set>
 
+#include "calibration/files/error_at.h"
 #include "reconstruction/geometry/plane.h"
 
 namespace insitu {
@@ -163,10 +164,11 @@ class Builder {
     for (const DirectionPair& pair : pairs) sum += Step(pair);
     for (const DirectionPair& pair : pairs) {
       if (Step(pair).dot(sum) > 0) continue;
-      throw InputError(pair.place.path, pair.place.line,
-                       "the pair '" + pair.from + "' to '" + pair.to +
-                           "' points away from the other pairs, expected two distinct points in "
-                           "the order that the file's keys name");
+      throw ErrorAt(pair.place,
+                    Sentence("pairAway",
+                             "the pair '{from}' to '{to}' points away from the other pairs, "
+                             "expected two distinct points in the order that the file's keys name",
+                             {{"from", pair.from}, {"to", pair.to}}));
     }
     const int index = static_cast<int>(network_.directions.size());
     network_.directions.push_back({name, sum.normalized()});
@@ -250,9 +252,10 @@ class Builder {
   // Between points in one place there is no direction.
   void RequireApart(const std::string& from, const std::string& to, const FilePlace& place) const {
     if (Step({from, to, place}).norm() > kLeastLength) return;
-    throw InputError(
-        place.path, place.line,
-        "'" + from + "' and '" + to + "' lie in the same place, expected two distinct points");
+    throw ErrorAt(place, Sentence("pointsOneSpot",
+                                  "'{from}' and '{to}' lie in the same place, expected two "
+                                  "distinct points",
+                                  {{"from", from}, {"to", to}}));
   }
 
   std::vector<UnitReference> UnitsOf(const GeometricConstraint& constraint) const {

@@ -22,7 +22,7 @@ std::optional<Eigen::Vector3d> MetashapeSigma(const XmlNode& reference) {
   set("sy", 1, 1);
   set("sz", 2, 1);
   if (sigma && !(sigma->minCoeff() > 0)) {
-    throw reference.Error("expected a positive accuracy of every axis");
+    throw reference.Error(Sentence("xmlAccuracy", "expected a positive accuracy of every axis"));
   }
   return sigma;
 }
@@ -63,12 +63,16 @@ void ReadMetashapeMarks(const XmlNode& chunk, SurveyFile* file) {
   const auto frames = chunk.Find("frames");
   for (const XmlNode& marker : frames ? frames->Descendants("marker") : std::vector<XmlNode>()) {
     const auto label = markers.find(marker.RequiredAttribute("marker_id"));
-    if (label == markers.end()) throw marker.Error("a marker_id that no marker has");
+    if (label == markers.end()) {
+      throw marker.Error(Sentence("xmlNoMarker", "a marker_id that no marker has"));
+    }
     for (const XmlNode& location : marker.Children("location")) {
       const std::string pinned = location.Attribute("pinned").value_or("false");
       if (pinned != "true" && pinned != "1" && ++unpinned) continue;
       const auto camera = cameras.find(location.RequiredAttribute("camera_id"));
-      if (camera == cameras.end()) throw location.Error("a camera_id that no camera has");
+      if (camera == cameras.end()) {
+        throw location.Error(Sentence("xmlNoCamera", "a camera_id that no camera has"));
+      }
       const Eigen::Vector2d corner(location.NumberAttribute("x"), location.NumberAttribute("y"));
       file->marks.push_back({PhotoName(camera->second), label->second,
                              corner.array() - kFirstPixelCenter, std::nullopt, location.place()});
@@ -86,8 +90,9 @@ void ReadMetashapeMarks(const XmlNode& chunk, SurveyFile* file) {
 SurveyFile ReadMetashapeXml(const XmlNode& document) {
   if (!document.Find("chunk")) {
     throw document.Error(
-        "is neither a chunk of Metashape nor a script of DBAT, expected of Metashape the exported "
-        "markers, of DBAT the script, which names its other files");
+        Sentence("xmlNoChunk",
+                 "is neither a chunk of Metashape nor a script of DBAT, expected of Metashape the "
+                 "exported markers, of DBAT the script, which names its other files"));
   }
   SurveyFile file;
   file.format = "markers of Metashape (XML)";

@@ -14,8 +14,9 @@ std::string Unquoted(const std::string& text) {  // MMVII writes names in quotes
 std::vector<double> NumbersOf(const XmlNode& node, size_t count) {
   const std::vector<double> numbers = node.Numbers();
   if (numbers.size() != count) {
-    throw node.Error(std::to_string(numbers.size()) + " numbers, expected " +
-                     std::to_string(count));
+    throw node.Error(
+        Sentence("xmlCount", "{count} numbers, expected {expected}",
+                 {{"count", Json::UInt64(numbers.size())}, {"expected", Json::UInt64(count)}}));
   }
   return numbers;
 }
@@ -23,7 +24,9 @@ std::vector<double> NumbersOf(const XmlNode& node, size_t count) {
 // Its samples and converters write 1 for what nobody stated.
 std::optional<Eigen::Vector3d> StatedSigma(const Eigen::Vector3d& sigma, const XmlNode& node,
                                            int* unstated) {
-  if (!(sigma.minCoeff() > 0)) throw node.Error("expected positive uncertainties");
+  if (!(sigma.minCoeff() > 0)) {
+    throw node.Error(Sentence("xmlSigmas", "expected positive uncertainties"));
+  }
   if (sigma == Eigen::Vector3d::Ones() && ++*unstated) return std::nullopt;
   return sigma;
 }
@@ -78,7 +81,9 @@ void ReadMmviiMarks(const XmlNode& set, SurveyFile* file, int* unstated) {
     if (const auto variances = node.Find("Sigma2")) {
       const std::vector<double> v = NumbersOf(*variances, 3);
       const double sigma = std::sqrt((v[0] + v[2]) / 2);
-      if (!(sigma > 0)) throw variances->Error("expected positive variances");
+      if (!(sigma > 0)) {
+        throw variances->Error(Sentence("xmlVariances", "expected positive variances"));
+      }
       if (sigma == 1) {
         ++*unstated;
       } else {
@@ -109,7 +114,9 @@ SurveyFile ReadMicMacXml(const XmlNode& given) {
     if (const auto set = data.Find("SetGCP")) ReadMmviiPoints(*set, &file, &unstated);
     if (const auto set = data.Find("SetMesIm")) ReadMmviiMarks(*set, &file, &unstated);
   } else {
-    throw root.Error("is no survey that we know, expected XML of Metashape, MicMac, MMVII or DBAT");
+    throw root.Error(
+        Sentence("xmlUnknown",
+                 "is no survey that we know, expected XML of Metashape, MicMac, MMVII or DBAT"));
   }
   if (unstated) {
     file.remarks.push_back(Sentence(

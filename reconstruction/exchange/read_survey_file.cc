@@ -23,7 +23,7 @@ SurveyFile ReadText(const SurveyText& text, const SurveyReading& reading) {
   if (IsAicon(text)) return ReadAicon(text);
   if (IsMarkList(text)) return ReadMarkList(text);
   if (IsPointList(text)) return ReadPointList(text);
-  if (const auto fault = FaultOfHeader(text)) throw text.rows[0].Error(*fault);
+  if (const auto fault = FaultOfHeader(text)) throw ErrorAt(text.rows[0].place(), *fault);
   throw ErrorAt(
       text.rows[0].place(),
       Sentence(

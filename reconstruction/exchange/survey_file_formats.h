@@ -38,7 +38,7 @@ SurveyFile ReadPointList(const SurveyText& text);  // Pix4D, JAG3D, COLMAP: name
 bool IsHeaderTable(const SurveyText& text, const SurveyReading& reading);
 SurveyFile ReadHeaderTable(const SurveyText& text,  // Metashape's reference CSV, any with names
                            const SurveyReading& reading);
-std::optional<std::string> FaultOfHeader(
+std::optional<Sentence> FaultOfHeader(
     const SurveyText& text);  // what a header of no such table lacks
 
 // opensfm_survey.cc

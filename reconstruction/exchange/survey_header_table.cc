@@ -298,7 +298,7 @@ bool IsHeaderTable(const SurveyText& text, const SurveyReading& reading) {
   return header && DecideColumns(header->titles, {text.path, header->line}, reading);
 }
 
-std::optional<std::string> FaultOfHeader(const SurveyText& text) {
+std::optional<Sentence> FaultOfHeader(const SurveyText& text) {
   const auto header = FindTitles(text, {});
   return header ? MissingColumn(header->titles) : std::nullopt;
 }

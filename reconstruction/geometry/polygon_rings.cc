@@ -48,8 +48,11 @@ bool RingsMeet(const Points& one, const Points& other) {
 std::optional<RingFault> FaultOf(const Ring& ring, std::optional<size_t> hole,
                                  const Eigen::Vector3d& normal) {
   if (Triangulate(ring, normal)) return std::nullopt;
-  const std::string name = hole ? "hole " + std::to_string(*hole + 1) : "the outline";
-  return RingFault{hole, name + " crosses itself or has no area"};
+  if (!hole) {
+    return RingFault{hole, Sentence("ringOutline", "the outline crosses itself or has no area")};
+  }
+  return RingFault{hole, Sentence("ringHole", "hole {hole} crosses itself or has no area",
+                                  {{"hole", Json::UInt64(*hole + 1)}})};
 }
 
 // Joins holes to the outline by edges gone along twice, until all are one ring.
@@ -185,20 +188,22 @@ std::optional<RingFault> FaultOfRings(const Ring& outline, const std::vector<Rin
   std::vector<Points> inner;
   for (size_t h = 0; h < holes.size(); ++h) {
     if (const auto fault = FaultOf(holes[h], h, normal)) return fault;
-    const std::string name = "hole " + std::to_string(h + 1);
     inner.push_back(ProjectOutline(holes[h], normal, outline[0]));
     if (!IsInside(around, inner[h][0]) || RingsMeet(around, inner[h])) {
-      return RingFault{h, name + " is not inside the outline"};
+      return RingFault{h, Sentence("ringOutside", "hole {hole} is not inside the outline",
+                                   {{"hole", Json::UInt64(h + 1)}})};
     }
     for (size_t other = 0; other < h; ++other) {
       if (IsInside(inner[other], inner[h][0]) || IsInside(inner[h], inner[other][0]) ||
           RingsMeet(inner[other], inner[h])) {
-        return RingFault{h, name + " and hole " + std::to_string(other + 1) + " overlap"};
+        return RingFault{
+            h, Sentence("ringsOverlap", "hole {hole} and hole {other} overlap",
+                        {{"hole", Json::UInt64(h + 1)}, {"other", Json::UInt64(other + 1)}})};
       }
     }
   }
   if (holes.empty() || TrianglesWithin(outline, holes, normal)) return std::nullopt;
-  return RingFault{0, "its holes leave nothing between them"};
+  return RingFault{0, Sentence("ringsNothing", "its holes leave nothing between them")};
 }
 
 std::optional<std::vector<Eigen::Vector3i>> TriangulateRings(const Ring& outline,

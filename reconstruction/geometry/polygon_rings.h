@@ -4,8 +4,9 @@
 
 #include <Eigen/Core>
 #include <optional>
-#include <string>
 #include <vector>
+
+#include "calibration/files/sentence.h"
 
 namespace insitu {
 
@@ -13,7 +14,7 @@ using Ring = std::vector<Eigen::Vector3d>;  // [m]
 
 struct RingFault {
   std::optional<size_t> hole;  // nullopt: the outline
-  std::string text;            // "hole 2 is not inside the outline"
+  Sentence what;               // "hole 2 is not inside the outline"
 };
 
 // Why an outline with holes encloses nothing that could be seen: a ring crosses itself or has no

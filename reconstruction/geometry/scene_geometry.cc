@@ -64,7 +64,7 @@ Polygon PolygonFromJson(const JsonNode& node, const std::vector<PosedCamera>& ca
   if (polygon.vertices.size() < 3) throw node.Error("expected at least three vertices");
   if (const auto holes = node.Find("holes")) polygon.holes = HolesFromJson(*holes);
   if (const auto fault = FaultOfRings(polygon.vertices, polygon.holes, polygon.normal)) {
-    throw node.Error("polygon '" + polygon.name + "': " + fault->text);
+    throw node.Error("polygon '" + polygon.name + "': " + fault->what.text());
   }
   if (const auto covariance = node.Find("covariance")) {
     polygon.covariance = covariance->Matrix();

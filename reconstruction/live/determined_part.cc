@@ -5,7 +5,7 @@
 #include <optional>
 #include <utility>
 
-#include "calibration/files/error.h"
+#include "calibration/files/error_at.h"
 #include "reconstruction/adjustment/planarity.h"
 #include "reconstruction/adjustment/start_growth.h"
 #include "reconstruction/live/left_out_reasons.h"
@@ -19,13 +19,6 @@ std::string Joined(const std::vector<std::string>& names) {
   std::string text;
   for (const std::string& name : names) text += (text.empty() ? "" : " ") + name;
   return text;
-}
-
-// What an error says besides its place.
-std::string MessageAt(const InputError& error, const FilePlace& place) {
-  const std::string start = InputError(place.path, place.line, "").what();
-  const std::string text = error.what();
-  return text.compare(0, start.size(), start) == 0 ? text.substr(start.size()) : text;
 }
 
 // Prunes a copy of a survey. Every pass grows the start values anew, for what is left out may have
@@ -286,12 +279,8 @@ class PartFinder {
         RequirePlanar(one, points, options_.plane_sigma);
         return std::nullopt;
       } catch (const InputError& error) {
-        return LeftOut{LeftOut::Kind::kPolygon,
-                       polygon.name,
-                       "",
-                       Sentence::Verbatim(MessageAt(error, polygon.place)),
-                       polygon.place,
-                       true};
+        return LeftOut{LeftOut::Kind::kPolygon, polygon.name,  "",
+                       MessageOf(error),        polygon.place, true};
       }
     });
     PruneOpposingPairs(LeftOut::Kind::kSun, points, &part_.survey.sun_pairs);

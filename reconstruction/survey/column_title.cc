@@ -342,11 +342,12 @@ ColumnTitle ReadColumnTitle(const std::string& text) {
                       !HasAny(others, kYWords);
   const bool is_sigma = title.column >= Column::kSigmaX && title.column <= Column::kSigmaXyz;
   if (unknown && !title.unit && title.column != Column::kOther && title.column != Column::kName) {
-    title.fault = "the unit [" + *unknown + "] is none that we know";
-  } else if (is_sigma && StatesLimits(Folded(text))) {
     title.fault =
-        "holds limits of a confidence, expected standard deviations: divide by what they are of "
-        "sigma";
+        Sentence("titleUnit", "the unit [{unit}] is none that we know", {{"unit", *unknown}});
+  } else if (is_sigma && StatesLimits(Folded(text))) {
+    title.fault = Sentence("titleLimits",
+                           "holds limits of a confidence, expected standard deviations: divide by "
+                           "what they are of sigma");
   }
   return title;
 }

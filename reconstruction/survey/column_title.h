@@ -6,6 +6,8 @@
 #include <optional>
 #include <string>
 
+#include "calibration/files/sentence.h"
+
 namespace insitu {
 
 enum class Column {
@@ -34,13 +36,13 @@ struct ColumnUnit {
 struct ColumnTitle {
   std::string text;  // as it stands in the file
   Column column = Column::kOther;
-  int rank = 0;                      // 0: the plain word alone; higher: among other words
-  bool is_geographic = false;        // longitude or latitude
-  bool is_ellipsoidal = false;       // a height above the ellipsoid
-  bool is_letter_h = false;          // an accuracy "H": of the height, or horizontal beside a "V"
-  bool is_map_axis = false;          // x or y by that letter: which of them is east?
-  std::optional<ColumnUnit> unit;    // as stated
-  std::optional<std::string> fault;  // why the column cannot be taken as it is, in words
+  int rank = 0;                    // 0: the plain word alone; higher: among other words
+  bool is_geographic = false;      // longitude or latitude
+  bool is_ellipsoidal = false;     // a height above the ellipsoid
+  bool is_letter_h = false;        // an accuracy "H": of the height, or horizontal beside a "V"
+  bool is_map_axis = false;        // x or y by that letter: which of them is east?
+  std::optional<ColumnUnit> unit;  // as stated
+  Sentence fault;                  // why the column cannot be taken as it is; empty if it can
 };
 
 ColumnTitle ReadColumnTitle(const std::string& title);

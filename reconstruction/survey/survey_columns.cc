@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "calibration/files/error.h"
+#include "calibration/files/error_at.h"
 #include "calibration/files/wording.h"
 
 namespace insitu {
@@ -20,20 +20,20 @@ std::string JoinedTitles(const std::vector<const ColumnTitle*>& titles) {
   return joined;
 }
 
-const char* SaidOf(Column column) {
+Sentence SaidOf(Column column) {
   switch (column) {
     case Column::kName:
-      return "the point's name";
+      return Sentence("columnOfName", "the point's name");
     case Column::kPhoto:
-      return "the photo";
+      return Sentence("columnOfPhoto", "the photo");
     case Column::kX:
-      return "east (x)";
+      return Sentence("columnOfX", "east (x)");
     case Column::kY:
-      return "north (y)";
+      return Sentence("columnOfY", "north (y)");
     case Column::kZ:
-      return "the height";
+      return Sentence("columnOfHeight", "the height");
     default:
-      return "an accuracy";
+      return Sentence("columnOfAccuracy", "an accuracy");
   }
 }
 
@@ -62,8 +62,13 @@ class Decision {
   }
 
  private:
-  InputError Error(const std::string& message) const {
-    return InputError(place_.path, place_.line, message);
+  SaidError Error(const Sentence& message) const { return ErrorAt(place_, message); }
+
+  SaidError Error(const ColumnTitle& title, const ColumnUnit& unit,
+                  const Sentence& expected) const {
+    return Error(Sentence(
+        "columnUnit", "column {title} is in {unit}, expected {expected}",
+        {{"title", Quoted(title.text)}, {"unit", unit.name}, {"expected", expected.ToJson()}}));
   }
 
   bool Has(Column column, bool is_geographic) const {
@@ -85,7 +90,7 @@ class Decision {
       }
       title->column = *column;
       title->rank = 0;
-      title->fault.reset();
+      title->fault = {};
       is_chosen_ = true;
     }
   }
@@ -140,12 +145,19 @@ class Decision {
       (is_height || title->rank == (*best)->rank ? equal : rest).push_back(title);
     }
     if (equal.size() > 1) {
-      throw Error("columns " + JoinedTitles(equal) + " are all " + SaidOf(column) +
-                  "; which is meant? say it with --column " + NameOf(column) + "=TITLE");
+      throw Error(Sentence("columnsEqual",
+                           "columns {titles} are all {quantity}; which is meant? say it with "
+                           "--column {name}=TITLE",
+                           {{"titles", JoinedTitles(equal)},
+                            {"quantity", SaidOf(column).ToJson()},
+                            {"name", NameOf(column)}}));
     }
     const ColumnTitle& title = *equal[0];
     for (const ColumnTitle* other : rest) columns_.left_out.push_back(other->text);
-    if (title.fault) throw Error("column " + Quoted(title.text) + " " + *title.fault);
+    if (!title.fault.empty()) {
+      throw Error(Sentence("columnFault", "column {title} {fault}",
+                           {{"title", Quoted(title.text)}, {"fault", title.fault.ToJson()}}));
+    }
     columns_.index[column] = static_cast<size_t>(&title - titles_.data());
     if (title.unit) columns_.unit[column] = *title.unit;
     if (IsHorizontal(column) && title.is_geographic) columns_.has_degrees = true;
@@ -157,9 +169,11 @@ class Decision {
     const ColumnTitle& y = titles_[columns_.index.at(Column::kY)];
     const bool is_open = x.is_map_axis && y.is_map_axis && &y < &x && !columns_.has_marks;
     if (!is_open || is_chosen_) return;
-    throw Error("column " + Quoted(y.text) + " stands before " + Quoted(x.text) +
-                ", as where x counts northwards; which is east? say it with --column east=TITLE "
-                "--column north=TITLE");
+    throw Error(
+        Sentence("columnsOrder",
+                 "column {y} stands before {x}, as where x counts northwards; which is east? say "
+                 "it with --column east=TITLE --column north=TITLE",
+                 {{"y", Quoted(y.text)}, {"x", Quoted(x.text)}}));
   }
 
   void RequireUnits() {
@@ -180,8 +194,9 @@ class Decision {
       }
       const ColumnUnit& unit = stated->second;
       if (unit.kind != (is_angle ? Kind::kAngle : Kind::kLength)) {
-        throw Error("column " + Quoted(titles_[index].text) + " is in " + unit.name +
-                    ", expected " + (is_angle ? "degrees, or gon" : "a length"));
+        const Sentence expected = is_angle ? Sentence("unitAngle", "degrees, or gon")
+                                           : Sentence("unitLength", "a length");
+        throw Error(titles_[index], unit, expected);
       }
       if (IsPlainFoot(unit)) columns_.unit[column] = FootOf(titles_[index]);
     }
@@ -189,8 +204,7 @@ class Decision {
 
   void RequirePixels(const ColumnTitle& title, const ColumnUnit& unit) const {
     if (unit.kind == ColumnUnit::Kind::kPixel) return;
-    throw Error("column " + Quoted(title.text) + " is in " + unit.name +
-                ", expected pixels of the original photograph");
+    throw Error(title, unit, Sentence("unitPixels", "pixels of the original photograph"));
   }
 
   ColumnUnit OptionalUnit() const {
@@ -208,9 +222,10 @@ class Decision {
       if (unit.name.find("feet") != std::string::npos) return unit;
     }
     throw Error(
-        "column " + Quoted(title.text) +
-        " is in feet, of which there are two (2 ppm apart: a metre in 500 km); say which with "
-        "--unit \"US survey feet\" or --unit \"international feet\"");
+        Sentence("columnFeet",
+                 "column {title} is in feet, of which there are two (2 ppm apart: a metre in 500 "
+                 "km); say which with --unit \"US survey feet\" or --unit \"international feet\"",
+                 {{"title", Quoted(title.text)}}));
   }
 
   Titles titles_;
@@ -234,7 +249,7 @@ std::optional<SurveyColumns> DecideColumns(const std::vector<std::string>& title
   return Decision(ReadTitles(titles), place, reading).Make();
 }
 
-std::optional<std::string> MissingColumn(const std::vector<std::string>& texts) {
+std::optional<Sentence> MissingColumn(const std::vector<std::string>& texts) {
   const Titles titles = ReadTitles(texts);
   const auto has = [&](Column column) {
     return std::any_of(titles.begin(), titles.end(),
@@ -248,8 +263,12 @@ std::optional<std::string> MissingColumn(const std::vector<std::string>& texts) 
   std::string columns;
   for (const ColumnTitle& title : titles)
     columns += (columns.empty() ? "" : ", ") + Quoted(title.text);
-  return std::string("no column is ") + SaidOf(missing[0]) + " (there are " + columns +
-         "); say which with --column " + NameOf(missing[0]) + "=TITLE";
+  return Sentence("columnMissingOf",
+                  "no column is {quantity} (there are {columns}); say which with --column "
+                  "{name}=TITLE",
+                  {{"quantity", SaidOf(missing[0]).ToJson()},
+                   {"columns", columns},
+                   {"name", NameOf(missing[0])}});
 }
 
 }  // namespace insitu

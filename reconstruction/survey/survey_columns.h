@@ -33,6 +33,6 @@ std::optional<SurveyColumns> DecideColumns(const std::vector<std::string>& title
 
 // What a table lacks whose titles are nearly those of a survey: "no column is the height". nullopt:
 // no such titles.
-std::optional<std::string> MissingColumn(const std::vector<std::string>& titles);
+std::optional<Sentence> MissingColumn(const std::vector<std::string>& titles);
 
 }  // namespace insitu

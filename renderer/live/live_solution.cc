@@ -8,7 +8,7 @@
 #include <set>
 #include <utility>
 
-#include "calibration/files/error.h"
+#include "calibration/files/error_at.h"
 #include "calibration/files/json_file.h"
 #include "reconstruction/adjustment/adjusted_observations.h"
 #include "reconstruction/adjustment/adjusted_scene.h"
@@ -84,18 +84,18 @@ const char* WordOf(Diagnosis::Kind kind) {
   return "question";
 }
 
-// What an error says, without its place, and the place: "file:line: message".
-std::pair<std::string, FilePlace> Parted(const InputError& error) {
+// The place of an error that says "file:line: message".
+FilePlace PlaceOf(const InputError& error) {
   const std::string text = error.what();
   const size_t colon = text.find(": ");
-  if (colon == std::string::npos) return {text, {}};
+  if (colon == std::string::npos) return {};
   const std::string place = text.substr(0, colon);
   const size_t at = place.rfind(':');
   const bool has_line = at != std::string::npos && at + 1 < place.size() &&
                         std::all_of(place.begin() + static_cast<std::ptrdiff_t>(at) + 1,
                                     place.end(), [](char c) { return c >= '0' && c <= '9'; });
-  if (!has_line) return {text.substr(colon + 2), {place, 0}};
-  return {text.substr(colon + 2), {place.substr(0, at), std::stoi(place.substr(at + 1))}};
+  if (!has_line) return {place, 0};
+  return {place.substr(0, at), std::stoi(place.substr(at + 1))};
 }
 
 Json::Value OrNull(const std::optional<double>& value) {
@@ -259,10 +259,10 @@ class Solver {
   }
 
   void TellFailure(const InputError& error) {
-    const auto [text, place] = Parted(error);
-    result_.message["failed"] = text;
+    const Sentence what = MessageOf(error);
+    what.SayIn(&result_.message, "failed");
     result_.message["diagnoses"].append(
-        DiagnosisTeller(input_.survey).Tell("misfit", Sentence::Verbatim(text), place));
+        DiagnosisTeller(input_.survey).Tell("misfit", what, PlaceOf(error)));
     for (const std::string& photo : part_.photos) {
       result_.message["photos"][photo]["oriented"] = false;
       Sentence("photoFails", "the adjustment fails")

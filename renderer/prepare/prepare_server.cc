@@ -94,6 +94,10 @@ class PrepareService {
     Post("op", [this](const Json::Value& q) { return Told(session_.Apply(q)); });
     Post("undo", [this](const Json::Value& q) { return Told(session_.Undo(q["id"].asString())); });
     Post("redo", [this](const Json::Value& q) { return Told(session_.Redo(q["id"].asString())); });
+    Post("merge_decided", [this](const Json::Value& q) {
+      session_.Decided(q);
+      return JsonResponse(Json::objectValue);
+    });
     Post("epipolar", [this](const Json::Value& q) {
       return JsonResponse(EpipolarAnswer(*session_.live(), q));
     });

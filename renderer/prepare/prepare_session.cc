@@ -16,6 +16,7 @@
 #include "renderer/live/live_worker.h"
 #include "renderer/prepare/edit_messages.h"
 #include "renderer/prepare/film_message.h"
+#include "renderer/prepare/merge_conflicts.h"
 #include "renderer/prepare/site_of_photos.h"
 #include "renderer/prepare/to_do.h"
 
@@ -314,6 +315,7 @@ Json::Value PrepareSession::Site() {
   for (const Sentence& sentence : SentencesOf(parts.edit.found())) {
     site["found"].append(sentence.ToJson());
   }
+  site["merge"] = OpenMergeConflicts(parts.site, parts.edit);
   site["history"] = parts.History();
   site["adjusted"] = parts.live->result.message;
   site["light"] = parts.live->appearance.light;
@@ -362,6 +364,15 @@ PrepareSession::Answer PrepareSession::TakeSite(const Json::Value& members,
   const std::string id = "exif-site-" + std::to_string(parts_->edit.revision());
   const Operation operation{id, label, {{"site", before, after}}};
   return parts_->Do([&] { return parts_->edit.Apply(operation); }, "outside");
+}
+
+void PrepareSession::Decided(const Json::Value& conflict) {
+  const std::lock_guard lock(parts_->mutex);
+  DropMergeConflict(parts_->site, conflict);
+  Json::Value message;
+  message["type"] = "merge";
+  message["merge"] = OpenMergeConflicts(parts_->site, parts_->edit);
+  parts_->Tell(message);
 }
 
 Json::Value PrepareSession::Hello() const {

@@ -48,6 +48,10 @@ class PrepareSession {
   // as Apply.
   Answer TakeSite(const Json::Value& members, const std::string& label);
 
+  // A row of a colleague's copy that differed: which version stands has been chosen. All windows
+  // are told.
+  void Decided(const Json::Value& conflict);
+
   // The newest results.
   std::shared_ptr<const LiveState> live() const;
 

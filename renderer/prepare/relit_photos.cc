@@ -27,7 +27,7 @@ constexpr int kLongestSide = 800;  // [px]
 constexpr double kMostExposure = 16;
 constexpr double kGreyLevel = 0.25;  // of pixels that nothing is known of, in linear light
 constexpr size_t kMostKept = 12;     // photographs made smaller, 8 MB each at most
-constexpr int kNiceness = 5;  // behind the adjustment, but not starved by a render beside it
+constexpr int kNiceness = 5;         // behind the adjustment, but not starved by a render beside it
 constexpr int kRelitQuality = 90;
 const Eigen::Vector3d kLuminanceOfRgb(0.2126, 0.7152, 0.0722);  // Rec. 709
 

@@ -10,6 +10,7 @@
 #include "calibration/photo/photograph.h"
 #include "reconstruction/editing/edited_tables.h"
 #include "reconstruction/editing/site_edit.h"
+#include "renderer/prepare/merge_conflicts.h"
 
 namespace insitu {
 
@@ -64,12 +65,17 @@ std::string MergeColleague(const SitePaths& site, const SitePaths& colleague) {
             OneLineJson(conflict.after) + "\n";
   }
   for (const Sentence& remark : report.remarks) text += remark.text() + "\n";
+  if (!report.conflicts.empty()) {
+    text += "insitu prepare " + site.root.string() +
+            " shows them side by side, for somebody to decide\n";
+  }
   if (!report.outcome.refused.empty()) {
     throw InputError(colleague.root, report.outcome.refused.text());
   }
   for (const FileFault& fault : edit.Save().faults) {
     throw InputError(site.root / fault.file, fault.line, fault.text.text());
   }
+  KeepMergeConflicts(site, colleague, report.conflicts);
   return text;
 }
 

@@ -21,8 +21,9 @@ std::map<std::string, Eigen::Vector2i> PhotoSizes(const SitePaths& site);
 // neither.
 int MakeSiteOfPhotographs(const SitePaths& site);
 
-// Rows of a colleague's folder of the same site that are new come in; what differs stays ours and
-// is told. Throws InputError: a measuring page is open on the site, or it cannot be written.
+// Rows of a colleague's folder of the same site that are new come in; what differs stays ours, is
+// told, and waits for the page, where it is decided. Throws InputError: a measuring page is open on
+// the site, or it cannot be written.
 std::string MergeColleague(const SitePaths& site, const SitePaths& colleague);
 
 }  // namespace insitu

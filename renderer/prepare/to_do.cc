@@ -95,7 +95,7 @@ class List {
     }
     const Json::Value& failed = input_.adjusted["failed"];
     if (failed.isString()) {
-      Add(Sentence::Verbatim(failed.asString()),
+      Add(Sentence::SaidIn(input_.adjusted, "failed"),
           Sentence("whyFailed", "nothing can be adjusted before"), "control");
     }
     for (const Json::Value& diagnosis : input_.adjusted["diagnoses"]) {

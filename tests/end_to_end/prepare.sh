@@ -31,6 +31,7 @@ in_browser() {
   check_figures "$1" node "$tests/prepare/$2.mjs" "$temporary/site" "${@:3}"
 }
 in_browser 'two windows' windows
+in_browser 'a colleague'\''s copy' merge "$temporary/copy of it"
 in_browser 'beside the light' beside_light
 in_browser 'another light' relit
 in_browser 'German' german "${SCREENSHOTS:-}"

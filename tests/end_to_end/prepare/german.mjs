@@ -121,6 +121,14 @@ for (const [text, said] of [
   ["nichts davon\n", "hat kein bekanntes Format"],
   ["name;x;y;z\nneu_1;abc;2;3\n", "«abc» für x, nötig ist eine endliche Zahl"],
   ["name;x [mm];y [mm];z [mm]\nneu_1;1500;2250;3000\n", "umgerechnet in Meter oder Grad"],
+  ["name;x [ft];y [ft];z [ft]\nneu_1;1;2;3\n", "ist in Fuss, von denen es zwei gibt"],
+  ["name;y;x;z\nneu_1;1;2;3\n", "steht vor \"x\""],
+  ["name;x [px];y;z\nneu_1;1;2;3\n", "nötig ist eine Länge"],
+  ["name;x;irgendwas;z\nneu_1;1;2;3\n", "keine Spalte ist Nord (y)"],
+  ["<document><chunk><markers><marker id='0' label='a'><reference x='1' y='zwei' z='3'/></marker></markers></chunk></document>",
+    "<reference>: y=«zwei», nötig ist eine endliche Zahl"],
+  ["<DicoAppuisFlottant><OneAppuisDAF><Pt>1 2</Pt><NamePt>a</NamePt></OneAppuisDAF></DicoAppuisFlottant>", "2 Zahlen, nötig sind 3"],
+  ["<DicoAppuisFlottant><OneAppuisDAF>", "kein gültiges XML"],
 ]) {
   await page.fill("#pasted", text);
   await person.sees("#import-found", said);

@@ -35,7 +35,7 @@ int Cover(const Ring& all, const std::vector<Eigen::Vector3i>& triangles, const 
 std::string FaultText(const Ring& outline, const std::vector<Ring>& holes) {
   const auto fault = FaultOfRings(outline, holes, kUp);
   EXPECT_EQ(TriangulateRings(outline, holes, kUp).has_value(), !fault);
-  return fault ? fault->text : "";
+  return fault ? fault->what.text() : "";
 }
 
 // A wall of windows, some with as many corners as a round one has, on a concave outline: every

@@ -55,6 +55,15 @@ class ToDoTest : public testing::Test {
   ToDoInput input_;
 };
 
+TEST_F(ToDoTest, WhyTheAdjustmentFailsIsSaidInTheLanguageOfThePage) {
+  Sentence("pointBehind", "point {point} lies behind photo {photo}",
+           {{"point", "p"}, {"photo", "A"}})
+      .SayIn(&input_.adjusted, "failed");
+  const Json::Value items = ToDo(input_);
+  EXPECT_EQ(items[0]["text"], "point p lies behind photo A");
+  EXPECT_EQ(items[0]["text_said"]["key"], "pointBehind");
+}
+
 TEST_F(ToDoTest, ACompleteSiteIsReadyForItsMontage) {
   Complete();
   const Json::Value items = ToDo(input_);

@@ -4,6 +4,7 @@
 import {button, byId, node, table} from "../words/dom.js";
 import {kKeys} from "../site/rows.js";
 import {edit, state} from "../site/state.js";
+import {mergeBanner, rowText} from "./merged.js";
 import {emit, on} from "../site/signals.js";
 import {failures, keptCount, sendNow, storeFault, unconfirmed} from "../site/outbox.js";
 import {said, t} from "../words/words.js";
@@ -47,7 +48,8 @@ function draw() {
     storeFault,
     state.readOnly,
     state.faults,
-    state.refused.length
+    state.refused.length,
+    state.merge
   ]);
   if (signature === drawn) return;
   drawn = signature;
@@ -87,6 +89,7 @@ function draw() {
     )
   );
   if (state.refused.length > 0) made.push(conflict(state.refused[0]));
+  if (state.merge.length > 0) made.push(mergeBanner());
   byId("banners").replaceChildren(...made);
 }
 
@@ -135,13 +138,6 @@ function conflict(one) {
 
 const isKeyAlike = (table_, a, b) =>
   !kKeys[table_] || !a || !b || kKeys[table_].every(key => String(a[key]) === String(b[key]));
-const rowText = one =>
-  one
-    ? Object.entries(one)
-        .map(([key, value]) => `${key} ${Array.isArray(value) ? value.join(" ") : value}`)
-        .join(", ")
-    : t("deleted");
-
 let isLate = false,
   lateTimer = 0;
 on("connection", () => {

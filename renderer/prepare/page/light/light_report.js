@@ -92,16 +92,17 @@ function hazeOf(haze) {
   ];
 }
 
-/** One weight: its symbol, what it is of, value ± σ. */
+/** One weight: its symbol, what it is of, value ± σ; of what the photographs show, no σ. */
 function weightLine(letter, name, weight) {
   if (typeof weight?.value !== "number") return null;
-  const [value, sigma] = withSigma(weight.value, weight.sigma);
+  const [value, sigma] = withSigma(weight.value, weight.sigma),
+    isAdjusted = weight.sigma > 0;
   return node(
     "tr",
-    {title: t("weightNote")},
+    {title: t(isAdjusted ? "weightNote" : "asPhotographedNote")},
     node("th", {scope: "row"}, "k", node("sub", {text: letter}), ` ${t(name)}`),
     node("td", {text: value}),
-    node("td", {text: `± ${sigma}`})
+    node("td", {text: isAdjusted ? `± ${sigma}` : t("asPhotographed")})
   );
 }
 

@@ -37,7 +37,9 @@ export const state = {
   /** @type {any} */ building: null,
   /** @type {any} */ film: null,
   /** @type {{file?: string, line?: number, text: string}[]} */ faults: [],
-  /** @type {{operation: any, conflicts: any[], error?: string}[]} */ refused: []
+  /** @type {{operation: any, conflicts: any[], error?: string}[]} */ refused: [],
+  /** Rows of a colleague's copy that differ. @type {{from: string, table: string, current: Row, after: Row}[]} */
+  merge: []
 };
 /** The live connection. */
 export let live = {send: (/** @type {any} */ _message) => {}};
@@ -170,6 +172,10 @@ const takers = {
     state.film = message.photos ? message : null; // without photos: there is no film any more
     emit("film");
   },
+  merge: message => {
+    state.merge = message.merge;
+    emit("merge");
+  },
   run: message => emit("run", message),
   fault: message => {
     state.faults = [...state.faults.slice(-20), message];
@@ -226,6 +232,7 @@ function takeSite(site) {
     adjusted: site.adjusted,
     building: site.building ?? state.building,
     film: site.film ?? null,
+    merge: site.merge ?? [],
     notSaved: said(site, "not_saved"),
     faults: state.isLoaded ? state.faults : (site.found ?? []), // at the server's start
     isLoaded: true

@@ -113,7 +113,71 @@ export const kRowTexts = {
   remarkUnusedMarks: "{count} Bildmessungen sind als unbenutzt bezeichnet",
   remarkUnusedPoints: "{count} Punkte sind als unbenutzt bezeichnet",
   remarkFifthColumn: "die fünfte Spalte (je nach Version Zoom oder Genauigkeit) gilt nicht als σ",
+  // Titles of columns
+  columnOfName: "der Name des Punkts",
+  columnOfPhoto: "das Foto",
+  columnOfX: "Ost (x)",
+  columnOfY: "Nord (y)",
+  columnOfHeight: "die Höhe",
+  columnOfAccuracy: "eine Genauigkeit",
+  columnsEqual:
+    "die Spalten {titles} sind alle {quantity}; welche ist gemeint? Die anderen weglassen, oder " +
+    "insitu import-survey mit --column {name}=TITEL",
+  columnFault: "die Spalte {title}: {fault}",
+  columnsOrder:
+    "die Spalte {y} steht vor {x}, wie dort, wo x nach Norden zählt; welche ist Ost? Die Spalten Ost und Nord " +
+    "nennen, oder insitu import-survey mit --column east=TITEL --column north=TITEL",
+  columnUnit: "die Spalte {title} ist in {unit}, nötig ist {expected}",
+  unitAngle: "Grad oder Gon",
+  unitLength: "eine Länge",
+  unitPixels: "Pixel des unveränderten Fotos",
+  columnFeet:
+    "die Spalte {title} ist in Fuss, von denen es zwei gibt (2 ppm verschieden: ein Meter auf 500 km); " +
+    'insitu import-survey mit --unit "US survey feet" oder --unit "international feet" sagt, welche',
+  columnMissingOf:
+    "keine Spalte ist {quantity} (es gibt {columns}); einer diesen Namen geben, oder insitu import-survey mit " +
+    "--column {name}=TITEL",
+  titleUnit: "die Einheit [{unit}] ist keine bekannte",
+  titleLimits:
+    "Grenzen eines Vertrauensbereichs, nötig sind Standardabweichungen: durch das teilen, was sie von σ sind",
+  // XML
+  xmlElement: "<{element}>: {message}",
+  xmlInvalid: "kein gültiges XML ({why})",
+  xmlNothing: "kein XML: es hat kein Element",
+  xmlNumber: "«{text}», nötig ist eine endliche Zahl",
+  xmlNumbers: "«{text}», nötig sind endliche Zahlen",
+  xmlNoNumbers: "ist leer, nötig sind Zahlen",
+  xmlMissing: "<{name}> fehlt",
+  xmlNoAttribute: "das Attribut «{name}» fehlt",
+  xmlAttribute: "{name}=«{text}», nötig ist eine endliche Zahl",
+  xmlCount: "{count} Zahlen, nötig sind {expected}",
+  xmlSigmas: "nötig sind Unsicherheiten grösser als 0",
+  xmlVariances: "nötig sind Varianzen grösser als 0",
+  xmlUnknown: "ist keine bekannte Vermessung, nötig ist XML von Metashape, MicMac, MMVII oder DBAT",
+  xmlAccuracy: "nötig ist für jede Achse eine Genauigkeit grösser als 0",
+  xmlNoMarker: "marker_id nennt keinen Marker",
+  xmlNoCamera: "camera_id nennt keine Kamera",
+  xmlNoChunk:
+    "ist weder ein Chunk von Metashape noch ein Skript von DBAT; nötig sind von Metashape die exportierten " +
+    "Marker, von DBAT das Skript, das seine anderen Dateien nennt",
   // Polygons, pairs, constraints of a survey
+  ringOutline: "der Umriss schneidet sich selbst oder hat keine Fläche",
+  ringHole: "Loch {hole} schneidet sich selbst oder hat keine Fläche",
+  ringOutside: "Loch {hole} liegt nicht im Umriss",
+  ringsOverlap: "Loch {hole} und Loch {other} überdecken sich",
+  ringsNothing: "die Löcher lassen nichts übrig",
+  polygonBent:
+    "das Polygon «{polygon}» ist alles andere als eben: der Eckpunkt «{vertex}» liegt {off} neben der besten " +
+    "Ebene, höchstens {limit} dürften es sein ({tolerance} und zehn σ von {sigma}, dem des unsichersten Eckpunkts)",
+  polygonHoles:
+    "das Polygon «{polygon}»: {fault}; nötig sind Löcher im Umriss, ihre Eckpunkte der Reihe nach",
+  polygonCrossed:
+    "der Umriss des Polygons «{polygon}» schneidet sich selbst oder hat keine Fläche; nötig sind die " +
+    "Eckpunkte der Reihe nach",
+  pairAway:
+    "das Paar von «{from}» nach «{to}» zeigt von den anderen Paaren weg; nötig sind zwei Punkte in der " +
+    "Reihenfolge, die in der Datei steht",
+  pointsOneSpot: "«{from}» und «{to}» liegen am selben Ort, nötig sind zwei verschiedene Punkte",
   maskNotThere: "die Maske «{mask}» ist nicht im Ordner survey",
   keyUnknown: "«{key}» ist dort kein Schlüssel, nötig ist einer von {expected}",
   holeFew: "ein Loch des Polygons «{polygon}» hat {count} Eckpunkte, nötig sind mindestens drei",

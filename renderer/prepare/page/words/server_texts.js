@@ -103,6 +103,25 @@ export const kServerTexts = {
     "kein Standort der Kamera erklärt seine {count} bekannten Punkte: ist einer am falschen Ort oder " +
     "unter falschem Namen gemessen?",
   photoFails: "die Ausgleichung scheitert",
+  notDetermined: "die Messungen bestimmen {what} nicht (im Ganzen {count} Unbekannte); nötig: {remedy}",
+  unknownCamera: "die Kamera {name}",
+  unknownPhoto: "das Foto {name}",
+  unknownPoint: "den Punkt {name}",
+  unknownPlane: "die Ebene des Polygons {name}",
+  unknownSun: "die Richtung zur Sonne",
+  unknownZenith: "die Richtung zum Zenit",
+  remedyCamera:
+    "mehr Fotos von anderen Seiten, oder ein Objektivmodell mit weniger Parametern (insitu-calibrate " +
+    "--lens-model LENSMODEL_OPENCV4)",
+  remedyPhoto: "mehr gut verteilte Messungen darauf, oder sein vermessener Standort",
+  remedyPoint:
+    "eine Messung auf noch einem Foto, seine vermessenen Koordinaten, oder ein Polygon, dessen Ebene ihn hält",
+  remedyPlane: "drei seiner Eckpunkte, die gemessen oder vermessen sind und nicht auf einer Geraden liegen",
+  remedyDirection: "mehr Paare von Punkten in directions.json",
+  adjustmentFails: "die Ausgleichung scheitert: {why}; nötig sind Messungen, die zu ihren Punkten passen",
+  pointBehind:
+    "der Punkt «{point}» liegt hinter dem Foto «{photo}», das ihn zeigt; nötig ist ein anderer Punkt oder ein " +
+    "anderer Standort: trägt die Messung den richtigen Namen?",
   noLens: "sein Objektiv ist noch nicht bekannt: insitu-calibrate ausführen",
   markOutside: "ausserhalb des Fotos gemessen",
   markNoLens: "das Objektiv seines Fotos ist nicht bekannt",

@@ -182,6 +182,15 @@ export const kTexts = {
     "“{label}” was not done: someone changed the same rows meanwhile.",
     "«{label}» wurde nicht ausgeführt: dieselben Zeilen wurden inzwischen geändert."
   ],
+  mergeDiffers: [
+    "{n} rows differ in {from}, a copy of this site that was merged; here stays what was here until it is decided.",
+    "{n} Zeilen sind in {from} anders, einer Kopie, die aufgenommen wurde; bis zum Entscheid bleibt, was hier war."
+  ],
+  here: ["here", "hier"],
+  keepHere: ["Keep what is here", "Behalten, was hier ist"],
+  keepAllHere: ["Keep all that is here", "Alles behalten, was hier ist"],
+  takeOther: ["Take that of {from}", "Jene aus {from} nehmen"],
+  opMerge: ["Take a row of {from}", "Zeile aus {from} nehmen"],
   waiting: ["Changes still wait to be saved.", "Noch warten Änderungen auf die Sicherung."],
   nameIt: ["Name the point, then Enter.", "Punkt benennen, dann Enter."],
   badName: [
