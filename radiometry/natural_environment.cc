@@ -92,6 +92,7 @@ Json::Value MaterialToJson(const NaturalMaterial& material) {
   json["diffuse_weight"] = material.diffuse_weight;
   if (!material.specular) return json;
   json["specular"] = SpecularJson(*material.specular);
+  if (material.bumps) json["bumps"] = BumpsJson(*material.bumps);
   return json;
 }
 
@@ -257,6 +258,7 @@ NaturalMaterial ReadMaterial(const JsonNode& node) {
   if (const auto specular = node.Find("specular")) {
     material.specular = SpecularOf(*specular);
   }
+  if (const auto bumps = node.Find("bumps")) material.bumps = BumpsOf(*bumps);
   return material;
 }
 

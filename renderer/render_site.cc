@@ -49,19 +49,6 @@ std::vector<std::filesystem::path> ChoosePhotographs(const SitePaths& site,
   return chosen;
 }
 
-// What a pixel in the middle of the sharpest input image spans [rad].
-double PixelAngle(const NaturalEnvironment& natural) {
-  double smallest = 1;
-  for (const InputImage& image : natural.input_images) {
-    const Eigen::Vector2d center(image.camera.width() / 2.0, image.camera.height() / 2.0);
-    const Eigen::Vector3d here = image.camera.Unproject(center).normalized();
-    const Eigen::Vector3d next =
-        image.camera.Unproject(center + Eigen::Vector2d::UnitX()).normalized();
-    smallest = std::min(smallest, (next - here).norm());
-  }
-  return smallest;
-}
-
 std::shared_ptr<const SurfaceTextures> LoadTextures(const SitePaths& site,
                                                     const NaturalEnvironment& natural,
                                                     const ArtificialEnvironment& building) {

@@ -37,6 +37,11 @@ FacetDistribution ReadDistribution(const MaterialKeys& material) {
 NaturalMaterial ReadMaterial(const MaterialKeys& material) {
   NaturalMaterial result;
   result.specular = ReadSpecular(material);
+  result.bumps = ReadBumps(material);
+  if (result.bumps && !result.specular) {
+    throw material.At("bumps").Error(
+        "is of a surface that mirrors nothing: its photograph shows what light makes of them");
+  }
   result.diffuse_weight = NumberOr(material, "diffuse_weight", 1);
   if (result.diffuse_weight <= 0) {
     throw material.At("diffuse_weight").Error("is out of range, expected above 0");

@@ -9,6 +9,7 @@
 #include "calibration/files/json_file.h"
 #include "calibration/program/site.h"
 #include "radiometry/library/material_keys.h"
+#include "radiometry/light/bumps.h"
 #include "radiometry/light/microfacet.h"
 
 namespace insitu {
@@ -25,6 +26,7 @@ struct Specular {
 struct NaturalMaterial {
   double diffuse_weight = 1;         // k_d > 0
   std::optional<Specular> specular;  // nullopt: purely diffuse
+  std::optional<Bumps> bumps = {};   // of what it mirrors; nullopt: flat
 };
 
 // Of an entry of materials.json: specular (none, fresnel, mirror), specular_weight, ior, roughness

@@ -110,6 +110,7 @@ Json::Value MaterialJson(const SurfaceMaterial& material) {
     json["metal"]["extinction"] = TableJson(material.metal->extinction);
   }
   if (material.glass) json["glass"] = GlassJson(*material.glass);
+  if (material.bumps) json["bumps"] = BumpsJson(*material.bumps);
   return json;
 }
 
@@ -130,6 +131,7 @@ SurfaceMaterial MaterialOf(const JsonNode& node) {
     material.metal = Metal{TableOf(metal->At("index")), TableOf(metal->At("extinction"))};
   }
   if (const auto glass = node.Find("glass")) material.glass = GlassOf(*glass);
+  if (const auto bumps = node.Find("bumps")) material.bumps = BumpsOf(*bumps);
   return material;
 }
 
@@ -349,6 +351,8 @@ std::vector<std::string> NotShown(const ArtificialEnvironment& environment) {
     if (material.glass && material.specular && material.specular->roughness.slope > 0) {
       lines.push_back(name + "its rough glass is shown as smooth glass");
     }
+    if (material.glass && material.bumps)
+      lines.push_back(name + "its glass is shown without bumps");
     if (HasFaceWithoutTexture(environment, material)) {
       lines.push_back(name +
                       "faces without texture coordinates show the mean colour of its texture: "

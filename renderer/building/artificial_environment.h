@@ -45,6 +45,7 @@ struct SurfaceMaterial {
   Eigen::Vector3d specular_rgb = Eigen::Vector3d::Ones();  // colour of a bare mirror, 0..1
   std::optional<Metal> metal = {};                         // goes before specular_rgb
   std::optional<Glass> glass = {};                         // nullopt: opaque
+  std::optional<Bumps> bumps = {};                         // nullopt: flat
 };
 
 // Shines alike in all directions unless it has a distribution. Area lights are several of these.

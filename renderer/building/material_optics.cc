@@ -96,6 +96,7 @@ void ReadOptics(const MaterialKeys& material, SurfaceMaterial* surface) {
   ReadMirrorColor(material, surface);
   surface->specular = ReadSpecular(material, true);
   surface->glass = ReadGlass(material, *surface);
+  surface->bumps = ReadBumps(material);
 }
 
 }  // namespace insitu

@@ -14,10 +14,11 @@ namespace insitu {
 //   transmission 0..1: share of the light that is not mirrored and goes through; with
 //   thin true (the default): a pane of thickness_m drawn as one face, or
 //   solid true: the faces bound a body, at which light is refracted,
-//   absorption_per_m: [r, g, b] >= 0, or absorption_table: [[nm, per metre], ...].
-// Sets specular, specular_rgb, metal and glass. Throws InputError: out of range, an unknown word,
-// an index of 1 or less, both thin and solid, a table that does not rise or covers less than the
-// visible range.
+//   absorption_per_m: [r, g, b] >= 0, or absorption_table: [[nm, per metre], ...],
+//   bumps: see ReadBumps.
+// Sets specular, specular_rgb, metal, glass and bumps. Throws InputError: out of range, an unknown
+// word, an index of 1 or less, both thin and solid, a table that does not rise or covers less than
+// the visible range.
 void ReadOptics(const MaterialKeys& material, SurfaceMaterial* surface);
 
 }  // namespace insitu

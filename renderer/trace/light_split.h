@@ -11,9 +11,9 @@ namespace insitu {
 
 // The light directions of one camera ray: a point of the sun's disc and every `stride`-th sky facet
 // from `first`. Four rays a pixel with stride 4 together use every facet once.
-// What else goes with the ray: the facet of its first mirror, by the seed all further choices, and
-// whether it may still meet sun and lamps themselves: not behind a rough mirror, where they are
-// counted apart.
+// What else goes with the ray: the first facet of its first mirror, by the seed all further
+// choices, and whether it may still meet sun and lamps themselves: not behind a rough mirror, where
+// they are counted apart.
 struct LightDirections {
   Eigen::Vector3d sun;  // unit; any point of the disc
   int first = 0;

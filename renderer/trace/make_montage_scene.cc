@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "renderer/trace/make_montage_scene.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -46,10 +47,21 @@ InfluenceBox BoxAround(const TriangleMesh& mesh) {
   return box;
 }
 
+std::shared_ptr<const BumpField> FieldOf(const NaturalEnvironment& natural, const Bumps& bumps,
+                                         const std::string& material) {
+  return std::make_shared<const BumpField>(bumps, material, natural.light.zenith_direction,
+                                           natural.scene.origin);
+}
+
 SpectralMaterial NaturalSurface(const NaturalEnvironment& natural, const Polygon& polygon) {
   const auto found = natural.materials.find(polygon.material);
   if (found == natural.materials.end()) return {};
-  return {.diffuse_weight = found->second.diffuse_weight, .specular = found->second.specular};
+  SpectralMaterial surface{.diffuse_weight = found->second.diffuse_weight,
+                           .specular = found->second.specular};
+  if (const auto& bumps = found->second.bumps) {
+    surface.bumps = FieldOf(natural, *bumps, polygon.material);
+  }
+  return surface;
 }
 
 // Absorption by wavelength from three channels: what a layer lets through that is as thick as the
@@ -139,11 +151,14 @@ MontageScene WithoutImages(NaturalEnvironment natural, const ArtificialEnvironme
                      .interreflected = {}};
   const NaturalEnvironment& site = scene.natural;
   scene.ground = LargestLevelPolygon(site.scene);
+  scene.ray_angle = PixelAngle(site) / 2;
   for (const Polygon& polygon : site.scene.polygons) {
     scene.material_of_polygon.push_back(NaturalSurface(site, polygon));
   }
   for (const SurfaceMaterial& material : artificial.materials) {
     scene.artificial_materials.push_back(SpectralMaterialOf(site.spectra, material));
+    if (!material.bumps || material.glass) continue;
+    scene.artificial_materials.back().bumps = FieldOf(site, *material.bumps, material.name);
   }
   scene.split_faces = SplitByGlass(scene);
   for (const PointLight& lamp : artificial.lights) {
@@ -163,6 +178,18 @@ MontageScene WithoutImages(NaturalEnvironment natural, const ArtificialEnvironme
 }
 
 }  // namespace
+
+double PixelAngle(const NaturalEnvironment& natural) {
+  double smallest = 1;
+  for (const InputImage& image : natural.input_images) {
+    const Eigen::Vector2d center(image.camera.width() / 2.0, image.camera.height() / 2.0);
+    const Eigen::Vector3d here = image.camera.Unproject(center).normalized();
+    const Eigen::Vector3d next =
+        image.camera.Unproject(center + Eigen::Vector2d::UnitX()).normalized();
+    smallest = std::min(smallest, (next - here).norm());
+  }
+  return smallest;
+}
 
 SpectralMaterial SpectralMaterialOf(const SpectralBasis& spectra, const SurfaceMaterial& material) {
   const Spectrum albedo = material.reflectance.empty()

@@ -19,7 +19,10 @@ MontageScene MakeMontageScene(NaturalEnvironment natural, const ArtificialEnviro
 MontageScene MakeMontageScene(NaturalEnvironment natural, const ArtificialEnvironment& artificial,
                               const std::vector<LocalImage::ImageFunction>& images);
 
-// What a planned material is to rays, but for its texture.
+// What a pixel in the middle of the sharpest input image spans [rad].
+double PixelAngle(const NaturalEnvironment& natural);
+
+// What a planned material is to rays, but for its textures.
 SpectralMaterial SpectralMaterialOf(const SpectralBasis& spectra, const SurfaceMaterial& material);
 
 }  // namespace insitu

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "calibration/photo/raster.h"
+#include "radiometry/light/bumps.h"
 #include "radiometry/light/photographed_color.h"
 #include "radiometry/natural_environment.h"
 #include "reconstruction/geometry/ray_scene.h"
@@ -34,9 +35,10 @@ struct SpectralMaterial {
   double diffuse_weight = 1;
   Spectrum brdf = Spectrum::Zero();  // rho [1/sr]; zero for natural surfaces: it is in the photo
   std::optional<Specular> specular = {};
-  Spectrum mirror_color = Spectrum::Ones();  // of a bare mirror
-  std::optional<SpectralMetal> metal = {};   // goes before it
-  std::optional<SpectralGlass> glass = {};   // nullopt: opaque
+  Spectrum mirror_color = Spectrum::Ones();     // of a bare mirror
+  std::optional<SpectralMetal> metal = {};      // goes before it
+  std::optional<SpectralGlass> glass = {};      // nullopt: opaque
+  std::shared_ptr<const BumpField> bumps = {};  // null: flat
 };
 
 struct LampSpectrum {
@@ -121,6 +123,8 @@ struct MontageScene {
   std::shared_ptr<const InterreflectedLight> interreflected;
 
   std::shared_ptr<const SurfaceTextures> textures = {};  // of the building; null: none
+  // Width that a ray of the sharpest photograph stands for, one of four of a pixel [rad].
+  double ray_angle = 0;
 
   const SpectralMaterial& MaterialOfTriangle(int triangle) const {
     return artificial_materials[material_of_triangle[triangle]];

@@ -23,6 +23,10 @@ Eigen::Vector2d SpreadPoint(const Eigen::Vector2d& shift, int index) {
 
 }  // namespace
 
+Eigen::Vector2d SpreadAfter(const Eigen::Vector2d& point, int steps) {
+  return SpreadPoint(point, steps);
+}
+
 PixelSampler::PixelSampler(int x, int y) {
   uint64_t state = SplitMix64(static_cast<uint64_t>(y) << 32 | static_cast<uint32_t>(x));
   const auto next = [&state] { return UnitInterval(state = SplitMix64(state)); };
@@ -53,7 +57,9 @@ Eigen::Vector2d PixelSampler::Spread(int ray, double sigma) const {
 
 Eigen::Vector2d PixelSampler::OnDisc(int ray) const { return SpreadPoint(disc_shift_, ray); }
 
-Eigen::Vector2d PixelSampler::OnFacet(int ray) const { return SpreadPoint(facet_shift_, ray); }
+Eigen::Vector2d PixelSampler::OnFacet(int ray) const {
+  return SpreadPoint(facet_shift_, ray * kFacetsPerRay);
+}
 
 uint64_t PixelSampler::Seed(int ray) const { return SplitMix64(seed_ + ray); }
 

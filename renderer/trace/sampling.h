@@ -11,6 +11,14 @@ namespace insitu {
 
 constexpr double kSpreadReach = 3.1;
 
+// Facets of a rough mirror that each ray of a pixel looks into: they cost less than rays, which
+// also gather what else a pixel is made of. Every fifth point of the sequence is well spread, too
+// (every fourth is not), for what rays choose once.
+constexpr int kFacetsPerRay = 5;
+
+// The point that comes `steps` later in the sequence that all rays of a pixel take theirs from.
+Eigen::Vector2d SpreadAfter(const Eigen::Vector2d& point, int steps);
+
 // Well-spread pseudo-random positions, seeded by the pixel alone.
 class PixelSampler {
  public:
@@ -20,9 +28,10 @@ class PixelSampler {
   // Offset [px] as the light of a point spreads over the film: a Gaussian of this sigma [px], cut
   // off at kSpreadReach sigma and so much wider that its variance stays.
   Eigen::Vector2d Spread(int ray, double sigma) const;
-  Eigen::Vector2d OnDisc(int ray) const;   // for the sun's disc, [0, 1)^2
-  Eigen::Vector2d OnFacet(int ray) const;  // for the facet of a rough mirror, [0, 1)^2
-  uint64_t Seed(int ray) const;            // for all that is chosen after
+  Eigen::Vector2d OnDisc(int ray) const;  // for the sun's disc, [0, 1)^2
+  // For the first of a ray's facets of a rough mirror, [0, 1)^2; the others come after it.
+  Eigen::Vector2d OnFacet(int ray) const;
+  uint64_t Seed(int ray) const;  // for all that is chosen after
 
  private:
   Eigen::Vector2d pixel_shift_, disc_shift_, facet_shift_;

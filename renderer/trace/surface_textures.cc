@@ -7,7 +7,9 @@
 
 #include <Eigen/Geometry>
 #include <Eigen/LU>
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <stdexcept>
 
 #include "calibration/files/sha256.h"
@@ -51,6 +53,32 @@ Eigen::Matrix<double, 2, 3> Gradient(const std::array<Eigen::Vector3d, 3>& corne
   Eigen::Matrix2d steps;
   steps << uv[1] - uv[0], uv[2] - uv[0];
   return steps * (edges.transpose() * edges).inverse() * edges.transpose();
+}
+
+constexpr double kLeastCosine = 0.02;  // of a facet that is seen
+// Of a ray's share: a square of its width has about this standard deviation in widths.
+constexpr double kSigmaOfWidth = 0.29;
+
+// The ray's cone meets the surface in an ellipse: along the line of sight longer by the
+// obliqueness.
+Eigen::Matrix<double, 3, 2> SpreadOn(const Eigen::Vector3d& normal,
+                                     const Eigen::Vector3d& to_viewer, double width) {
+  const double cosine = std::max(0.01, std::abs(normal.dot(to_viewer)));
+  Eigen::Vector3d across = normal.cross(to_viewer);
+  if (across.squaredNorm() < 1e-12) across = normal.unitOrthogonal();
+  across.normalize();
+  Eigen::Matrix<double, 3, 2> spread;
+  spread << across, normal.cross(across) / cosine;
+  return kSigmaOfWidth * width * spread;
+}
+
+// Variances of slopes add; a smooth mirror takes the distribution that many waves have.
+Roughness Rougher(const Roughness& roughness, double variance) {
+  if (variance <= 0) return roughness;
+  Roughness rougher = roughness;
+  if (roughness.slope == 0) rougher.distribution = FacetDistribution::kBeckmann;
+  rougher.slope = std::min(1.0, std::sqrt(roughness.slope * roughness.slope + variance));
+  return rougher;
 }
 
 }  // namespace
@@ -146,6 +174,24 @@ std::optional<Eigen::Vector3d> SurfaceTextures::Albedo(const FacePlace& place, d
   if (!is_read) throw std::runtime_error("a texture: " + images_->system->geterror());
   const Eigen::Array3d albedo = Eigen::Array3f(rgb[0], rgb[1], rgb[2]).cast<double>() * image.tint;
   return albedo.max(0).min(1).matrix();
+}
+
+BumpedSurface BumpedAt(const MontageScene& scene, const SurfacePoint& surface,
+                       const SpectralMaterial& material, const Eigen::Vector3d& to_viewer,
+                       double distance) {
+  BumpedSurface bumped{surface, material};
+  if (!material.bumps) return bumped;
+  const auto spread = SpreadOn(surface.normal, to_viewer, scene.ray_angle * distance);
+  const BumpField::Turned turned = material.bumps->At(surface.position, surface.normal, spread);
+  bumped.surface.normal = turned.normal;
+  const double cosine = turned.normal.dot(to_viewer);
+  if (cosine < kLeastCosine) {
+    bumped.surface.normal = (turned.normal + (kLeastCosine - cosine) * to_viewer).normalized();
+  }
+  if (!material.specular) return bumped;
+  Roughness& roughness = bumped.material.specular->roughness;
+  roughness = Rougher(roughness, turned.variance);
+  return bumped;
 }
 
 }  // namespace insitu

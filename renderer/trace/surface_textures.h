@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Images on the building's faces, filtered to what a ray stands for.
+// Images on the building's faces, and solid textures, filtered to what a ray stands for.
 #pragma once
 
 #include <Eigen/Core>
@@ -10,6 +10,7 @@
 
 #include "renderer/building/artificial_environment.h"
 #include "renderer/trace/irradiance_map.h"
+#include "renderer/trace/montage_scene.h"
 
 namespace insitu {
 
@@ -35,5 +36,18 @@ class SurfaceTextures {
   std::vector<Face> faces_;
   std::unique_ptr<Images> images_;
 };
+
+// What of a surface's bumps is coarser than the ray's share of a pixel turns its normal, what is
+// finer makes its mirror rough.
+struct BumpedSurface {
+  SurfacePoint surface;
+  SpectralMaterial material;
+};
+
+// `surface` lies `distance` [m] along a ray to the viewer. Without bumps: as it is. The normal
+// stays on the viewer's side.
+BumpedSurface BumpedAt(const MontageScene& scene, const SurfacePoint& surface,
+                       const SpectralMaterial& material, const Eigen::Vector3d& to_viewer,
+                       double distance);
 
 }  // namespace insitu

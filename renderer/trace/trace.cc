@@ -8,9 +8,11 @@
 
 #include "radiometry/light/illumination.h"
 #include "radiometry/light/mirrored_share.h"
+#include "radiometry/light/split_mix.h"
 #include "renderer/trace/glass.h"
 #include "renderer/trace/interreflected_light.h"
 #include "renderer/trace/mirror.h"
+#include "renderer/trace/sampling.h"
 #include "renderer/trace/surface_textures.h"
 
 namespace insitu {
@@ -33,15 +35,22 @@ double CosineTo(const SurfacePoint& surface, const Eigen::Vector3d& to_viewer) {
 Spectrum MirrorImage(const MontageScene& scene, const SurfacePoint& surface,
                      const Roughness& roughness, const Eigen::Vector3d& to_viewer,
                      const LightDirections& light, World world, int depth, double clearance) {
-  const MirroredRay mirrored =
-      ChooseMirrored(surface, roughness, to_viewer, clearance, FacetChoice(light, depth));
-  Spectrum image = LightsInRoughMirror(scene, surface, roughness, to_viewer, light,
-                                       world == World::kWithBuilding, clearance);
-  if (mirrored.weight <= 0) return image;
-  LightDirections further = light;
-  further.sees_lights = light.sees_lights && roughness.slope == 0;
-  image += mirrored.weight * TraceSecondary(scene, mirrored.ray, further, world, depth + 1);
-  return image;
+  const bool is_rough = roughness.slope > 0;
+  // Behind a first mirror one facet is enough.
+  const int facets = is_rough && depth == 0 ? kFacetsPerRay : 1;
+  Spectrum image = Spectrum::Zero();
+  for (int i = 0; i < facets; ++i) {
+    const MirroredRay mirrored = ChooseMirrored(surface, roughness, to_viewer, clearance,
+                                                SpreadAfter(FacetChoice(light, depth), i));
+    if (mirrored.weight <= 0) continue;
+    LightDirections further = light;
+    further.sees_lights = light.sees_lights && !is_rough;
+    further.share = light.share / facets;
+    if (i > 0) further.seed = SplitMix64(light.seed + i);
+    image += mirrored.weight * TraceSecondary(scene, mirrored.ray, further, world, depth + 1);
+  }
+  return image / facets + LightsInRoughMirror(scene, surface, roughness, to_viewer, light,
+                                              world == World::kWithBuilding, clearance);
 }
 
 // What a natural surface mirrors towards a viewer.
@@ -130,12 +139,13 @@ Eigen::Vector3d ChangeOfPixel(const MontageScene& scene, const PrimaryRay& prima
   Spectrum mirrored_before = Spectrum::Zero();
   if (material.specular) {
     mirrored_before = MirroredBefore(scene, hit.surface, material, to_viewer, primary.light, 0);
+    const BumpedSurface bumped = BumpedAt(scene, hit.surface, material, to_viewer, hit.distance);
     const auto mirrored = [&](World world) {
-      return Mirrored(scene, hit.surface, material, to_viewer, primary.light, world, 0);
+      return Mirrored(scene, bumped.surface, bumped.material, to_viewer, primary.light, world, 0);
     };
-    const bool is_rough = material.specular->roughness.slope > 0;
+    const bool is_even = material.specular->roughness.slope == 0 && !material.bumps;
     change =
-        mirrored(World::kWithBuilding) - (is_rough ? mirrored(World::kSiteOnly) : mirrored_before);
+        mirrored(World::kWithBuilding) - (is_even ? mirrored_before : mirrored(World::kSiteOnly));
   }
   if (balance) {
     change += ChangeBy(*balance, (L0 - mirrored_before).max(0), material.diffuse_weight);
@@ -183,7 +193,9 @@ Spectrum SiteColor(const MontageScene& scene, const SceneHit& hit, const Eigen::
     diffuse = ReflectedRadiance(1, scene.mean_brdf_of_polygon[hit.index],
                                 TotalIrradiance(scene.natural.light, split.natural));
   }
-  Spectrum L0 = diffuse + Mirrored(scene, hit.surface, material, to_viewer, light, world, depth);
+  const BumpedSurface bumped = BumpedAt(scene, hit.surface, material, to_viewer, hit.distance);
+  Spectrum L0 =
+      diffuse + Mirrored(scene, bumped.surface, bumped.material, to_viewer, light, world, depth);
   if (world == World::kWithBuilding) {
     L0 += DiffuseChange(scene, hit.surface, diffuse, material.diffuse_weight, light, around);
   }
@@ -207,7 +219,9 @@ Spectrum FaceColor(const MontageScene& scene, const SceneHit& hit, const Ray& ra
                    const std::function<Spectrum()>& straight_on) {
   const SpectralMaterial material = MaterialAt(scene, hit, -ray.direction);
   if (!material.glass) {
-    return BuildingColor(scene, hit.surface, material, -ray.direction, light, depth,
+    const BumpedSurface bumped =
+        BumpedAt(scene, hit.surface, material, -ray.direction, hit.distance);
+    return BuildingColor(scene, bumped.surface, bumped.material, -ray.direction, light, depth,
                          LightAround(scene, hit));
   }
   // A pane mirrors it, at two faces; a body lets most of it through.

@@ -65,6 +65,7 @@ TEST(ReadNaturalMaterials, FaultsNameFileAndLine) {
   expect("\"specular\": \"mirror\",\n\"distribution\": \"phong\"", 4, "\"ggx\" or \"beckmann\"");
   expect("\"specular\": \"fresnel\"", 2, "\"ior\" is missing");
   expect("\"specular\": \"fresnel\",\n\"ior\": 0.9", 4, "expected above 1");
+  expect("\"bumps\": {\"rms_slope\": 0.1, \"scale_m\": 1}", 3, "mirrors nothing");
   expect("\"diffuse_weight\": 0", 3, "expected above 0");
   expect("\"diffuse\": \"grey\"", 3, "expected \"from photo\"");
 }

@@ -9,6 +9,7 @@
 #include "radiometry/light/fresnel.h"
 #include "renderer/trace/interreflected_light.h"
 #include "renderer/trace/mirror.h"
+#include "renderer/trace/sampling.h"
 #include "renderer/trace/through_glass.h"
 #include "renderer/trace/trace.h"
 #include "tests/renderer/trace/small_site.h"
@@ -138,14 +139,13 @@ TEST(RoughMirror, DisappearsInAFurnace) {
     SurfaceMaterial material{"m", Vector3d::Constant(diffuse), 1, Specular{1, index, roughness}};
     const MontageScene scene = site.With(Plate(site, {0, 0, 1}, 3, material));
     Vector3d sum = Vector3d::Zero();
-    constexpr int kSide = 24;
-    for (int i = 0; i < kSide * kSide; ++i) {
+    constexpr int kRays = 576;
+    for (int i = 0; i < kRays; ++i) {
       PrimaryRay primary = {{{0, -10, 6}, Vector3d(0, 10, -5).normalized()},
                             Vector3d::Constant(kLawnRadiance),
                             Along(Vector3d::UnitZ())};
-      const int column = i % kSide, row = i / kSide;
-      primary.light.facet = {(column + 0.5) / kSide, (row + 0.5) / kSide};
-      sum += TracePrimary(scene, primary).rgb / (kSide * kSide);
+      primary.light.facet = SpreadAfter({0.5, 0.5}, i * kFacetsPerRay);
+      sum += TracePrimary(scene, primary).rgb / kRays;
     }
     return sum.x() / kLawnRadiance;
   };
@@ -155,6 +155,33 @@ TEST(RoughMirror, DisappearsInAFurnace) {
       EXPECT_NEAR(seen(1, 1.5, {slope, distribution}), 1, 0.01) << slope;
     }
   }
+}
+
+// Half of what it mirrors is bright sky, half dark ground.
+TEST(RoughMirror, LooksAlikeInAllPixelsOfSixteenRays) {
+  SmallSite site = MakeSmallSite();
+  site.natural.air.horizon = site.natural.spectra.SpectrumFromRgb(Vector3d::Constant(1));
+  site.natural.light.sun_radiance.setZero();
+  const SurfaceMaterial metal{"m", Vector3d::Zero(), 1, Specular{1, std::nullopt, {0.3}}};
+  const MontageScene scene = site.With(Box(site, {-2, 0, 0.5}, {2, 1, 4}, metal));
+  double sum = 0, squares = 0;
+  constexpr int kPixels = 200, kRays = 16;
+  for (int x = 0; x < kPixels; ++x) {
+    const PixelSampler sampler(x, 0);
+    double mean = 0;
+    for (int ray = 0; ray < kRays; ++ray) {
+      PrimaryRay primary = {{{0, -10, 2}, Vector3d::UnitY()},
+                            Vector3d::Constant(kLawnRadiance),
+                            Along(Vector3d::UnitZ())};
+      primary.light.facet = sampler.OnFacet(ray);
+      primary.light.seed = sampler.Seed(ray);
+      mean += TracePrimary(scene, primary).rgb.x() / kRays;
+    }
+    sum += mean / kPixels;
+    squares += mean * mean / kPixels;
+  }
+  EXPECT_NEAR(sum, (1 + kLawnRadiance) / 2, 0.1);
+  EXPECT_LT(std::sqrt(squares - sum * sum), 0.02);
 }
 
 TEST(MirrorReflectance, IsFresnelsOrTheMetalsColor) {

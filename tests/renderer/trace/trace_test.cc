@@ -3,8 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <numbers>
 
+#include "radiometry/light/split_mix.h"
 #include "tests/renderer/trace/small_site.h"
 
 namespace insitu {
@@ -206,6 +209,84 @@ TEST(NaturalMirror, WaterShowsTheBuildingOnlyWhereItsReflectionFalls) {
   EXPECT_LT(meets.rgb.x(), -0.01);  // black instead of horizon
   const RayOutcome misses = TracePrimary(scene, Primary(scene, {0, -10, 3}, {-9, 2, 0}));
   EXPECT_TRUE(misses.rgb.isZero(0));
+}
+
+// A black wall's image in a bare mirror, whose reflectance does not grow with the angle: sharp and
+// straight in flat water, broken up where waves are as large as its edge, and from far away as in a
+// rough mirror of the waves' slope.
+class Waves : public testing::Test {
+ protected:
+  static constexpr double kSlope = 0.1;
+
+  static MontageScene Water(const Bumps& bumps) {
+    SmallSite site = MakeSmallSite();
+    site.natural.materials["lawn"].specular = Specular{0.2, std::nullopt};
+    site.natural.materials["lawn"].bumps = bumps;
+    site.natural.light.sky_radiance.setZero();
+    site.natural.light.sun_radiance.setZero();
+    return site.With(Box(site, {-30, 5, 0.5}, {30, 6, 4}, Grey(0)));
+  }
+
+  // Mean and rms of the changes along a line of water; its mirror image ends in the wall's top.
+  static Eigen::Vector2d Changes(const MontageScene& scene) {
+    double sum = 0, squares = 0;
+    constexpr int kRays = 1500;
+    for (int i = 0; i < kRays; ++i) {
+      PrimaryRay ray = Primary(scene, {0, -10, 12}, {-12 + 24.0 * i / kRays, 1.25, 0});
+      ray.light.seed = SplitMix64(i);
+      ray.light.facet = {SplitMix64(2 * i) * 0x1p-64, SplitMix64(2 * i + 1) * 0x1p-64};
+      const double change = TracePrimary(scene, ray).rgb.x();
+      sum += change / kRays;
+      squares += change * change / kRays;
+    }
+    return {sum, std::sqrt(squares - sum * sum)};
+  }
+};
+
+TEST_F(Waves, ThatAreSeenSinglyBreakTheImageUp) {
+  const Bumps bumps{kSlope, 0.4, 0.1};
+  MontageScene scene = Water(bumps);
+  scene.ray_angle = 1e-5;
+  const Eigen::Vector2d singly = Changes(scene);
+  scene.ray_angle = 1;  // all of them lie in one ray
+  const Eigen::Vector2d together = Changes(scene);
+  EXPECT_NEAR(singly.x(), together.x(), 0.15 * std::abs(together.x()));
+  EXPECT_GT(singly.y(), 1.3 * together.y());
+  SmallSite rough = MakeSmallSite();
+  rough.natural.materials["lawn"].specular =
+      Specular{0.2, std::nullopt, {kSlope, FacetDistribution::kBeckmann}};
+  rough.natural.light.sky_radiance.setZero();
+  rough.natural.light.sun_radiance.setZero();
+  const MontageScene mirror = rough.With(Box(rough, {-30, 5, 0.5}, {30, 6, 4}, Grey(0)));
+  EXPECT_NEAR(together.x(), Changes(mirror).x(), 0.04 * std::abs(together.x()));
+}
+
+TEST_F(Waves, WithoutABuildingInThemChangeNothing) {
+  MontageScene scene = Water({kSlope, 0.4, 0.1});
+  const RayOutcome misses = TracePrimary(scene, Primary(scene, {0, -10, 3}, {-90, 2, 0}));
+  EXPECT_TRUE(misses.rgb.isZero(0));
+}
+
+TEST(CaseC, BumpsTurnTheBuildingsFacesToTheSun) {
+  const SmallSite site = MakeSmallSite();
+  SurfaceMaterial plaster = Grey(0.5);
+  plaster.bumps = Bumps{0.3, 0.2, 0.05};
+  const auto seen = [&](const MontageScene& scene, double x) {
+    return TracePrimary(scene, Primary(scene, {0, -10, 3}, {x, 0, 1})).rgb.x();
+  };
+  const MontageScene flat = site.With(Plate(site, {0, 0, 1}, 3, Grey(0.5)));
+  const MontageScene bumped = site.With(Plate(site, {0, 0, 1}, 3, plaster));
+  double mean = 0, least = 1e9, most = 0;
+  constexpr int kPlaces = 400;
+  for (int i = 0; i < kPlaces; ++i) {
+    const double value = seen(bumped, -2 + 4.0 * i / kPlaces) / seen(flat, 0);
+    mean += value / kPlaces;
+    least = std::min(least, value);
+    most = std::max(most, value);
+  }
+  EXPECT_NEAR(mean, 1, 0.05);
+  EXPECT_LT(least, 0.95);
+  EXPECT_GT(most, 1.05);
 }
 
 TEST(TraceSecondary, WithoutInfluenceBothWorldsAreBitEqual) {
