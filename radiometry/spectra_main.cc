@@ -7,7 +7,7 @@
 
 #include "calibration/files/error.h"
 #include "calibration/program/program.h"
-#include "radiometry/spectra_page.h"
+#include "radiometry/spectrum/spectra_page.h"
 
 namespace insitu {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "radiometry/spectra_page.h"
+#include "radiometry/spectrum/spectra_page.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "radiometry/spectra_page.h"
+#include "radiometry/spectrum/spectra_page.h"
 
 #include <Eigen/LU>
 #include <algorithm>
@@ -10,8 +10,8 @@
 #include "calibration/files/whole_file.h"
 #include "calibration/files/wording.h"
 #include "calibration/program/report_page.h"
-#include "radiometry/spectra_page_script.h"
 #include "radiometry/spectrum/rgb_to_spectrum.h"
+#include "radiometry/spectrum/spectra_page_script.h"
 
 namespace insitu {
 namespace {
