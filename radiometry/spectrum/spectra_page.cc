@@ -67,13 +67,13 @@ Json::Value BasesJson(const RgbPrimaries& primaries, const SpectralBins& bins) {
 // Over all colours of a cube of steps: the worst error of a channel, and the lowest radiance there
 // is relative to the spectrum's peak, 0 where none is negative.
 Json::Value RoundTripJson(const SpectralBasis& basis) {
-  constexpr int kSteps = 16;
+  constexpr int kCubeSteps = 16;
   double worst = 0, lowest = 0;
-  for (int index = 1; index < (kSteps + 1) * (kSteps + 1) * (kSteps + 1); ++index) {
+  for (int index = 1; index < (kCubeSteps + 1) * (kCubeSteps + 1) * (kCubeSteps + 1); ++index) {
     const Eigen::Vector3d rgb =
-        Eigen::Vector3d(index % (kSteps + 1), index / (kSteps + 1) % (kSteps + 1),
-                        index / (kSteps + 1) / (kSteps + 1)) /
-        kSteps;
+        Eigen::Vector3d(index % (kCubeSteps + 1), index / (kCubeSteps + 1) % (kCubeSteps + 1),
+                        index / (kCubeSteps + 1) / (kCubeSteps + 1)) /
+        kCubeSteps;
     const Spectrum spectrum = basis.SpectrumFromRgb(rgb);
     worst = std::max(worst, (basis.RgbFromSpectrum(spectrum) - rgb).cwiseAbs().maxCoeff());
     lowest = std::min(lowest, spectrum.minCoeff() / spectrum.maxCoeff());
