@@ -35,7 +35,7 @@ export const kPanelTexts = {
   leftOut: ["left out", "weggelassen"],
   leftOutHead: ["Left out", "Weggelassen"],
   advice: ["Advice", "Ratschläge"],
-  off100: ["off", "Abweichung"],
+  off100: ["off", "Abw."],
   // A point's photos
   vHead: ["v x, y [px]", "v x, y [px]"],
   sigmaMark: ["σ [px]", "σ [px]"],
