@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "renderer/prepare/relit_photos.h"
 
-#include <sys/resource.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <condition_variable>
 #include <deque>
@@ -27,7 +24,6 @@ constexpr int kLongestSide = 800;  // [px]
 constexpr double kMostExposure = 16;
 constexpr double kGreyLevel = 0.25;  // of pixels that nothing is known of, in linear light
 constexpr size_t kMostKept = 12;     // photographs made smaller, 8 MB each at most
-constexpr int kNiceness = 5;         // behind the adjustment, but not starved by a render beside it
 constexpr int kRelitQuality = 90;
 const Eigen::Vector3d kLuminanceOfRgb(0.2126, 0.7152, 0.0722);  // Rec. 709
 
@@ -180,7 +176,6 @@ struct RelitPhotos::Parts {
   }
 
   void Work(const std::stop_token& stop) {
-    setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), kNiceness);  // of this thread
     std::unique_lock lock(mutex);
     while (asked.wait(lock, stop, [&] { return !wanted.empty(); })) {
       const int photo = wanted.front();

@@ -64,5 +64,19 @@ await person.settled();
 report("all redone, those they became", again === steps && differing(after, files()).length === 0, differing(after, files()).join(", "));
 report("the page shows them", (await person.page.locator('.marks [data-point="new_mark"]').count()) > 0 && person.faults.length === 0,
   person.faults[0] ?? "");
+
+// A file of an older Windows program, and one of a spreadsheet that says "Unicode text".
+const take = async bytes => {
+  await person.click("[data-menu=controlTable]");
+  await person.page.setInputFiles("#import-file", {name: "points.txt", mimeType: "text/plain", buffer: Buffer.from(bytes)});
+  await person.click("#take-over");
+  await person.press("Escape");
+  await person.settled();
+};
+await take(Buffer.from("name;x;y;z\nT\u00fcrm;1,5;2;3\n", "latin1"));
+await take(Buffer.from("\ufeffname\tx\ty\tz\nZ\u00fcrich\t4\t5\t6\n", "utf16le"));
+const points = fs.readFileSync(`${site}/survey/control_points.csv`, "utf8");
+report("points of a file are taken, whatever its letters", points.includes("T\u00fcrm,1.5,2,3,") && points.includes("Z\u00fcrich,4,5,6,"),
+  points.trim().split("\n").slice(-2).join(" | "));
 await person.browser.close();
 await server.stop();

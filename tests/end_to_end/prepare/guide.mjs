@@ -1,28 +1,29 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// guide.mjs MEASURED FILM FOLDER PICTURES: the pictures of renderer/prepare/GUIDE.md, from the demo site MEASURED and
-// from FILM, of film_scans.py, copied step by step into FOLDER.
+// guide.mjs MEASURED FILM FOLDER PICTURES [NAME...]: the pictures of renderer/prepare/GUIDE.md, or those named, from the
+// demo site MEASURED and from FILM, of film_scans.py, copied step by step into FOLDER.
 import fs from "node:fs";
 import {open} from "./page.mjs";
 import {start, until} from "./server.mjs";
 
-const [measured, film, folder, pictures] = process.argv.slice(2);
+const [measured, film, folder, pictures, ...named] = process.argv.slice(2);
 const read = name => fs.readFileSync(`${measured}/survey/${name}`, "utf8");
 
 /**
- * A site with some of the demo's files, its page, and what is done on it before its picture is taken.
+ * A site with some of the demo's files, the page of a program on it, and what is done on it before its picture is taken.
  * @param {string} name
  * @param {{from?: string, parts?: string[], survey?: Record<string, string>}} site
  * @param {(person: any, server: any) => Promise<any>} act
  */
-async function picture(name, {from = measured, parts = ["calibration", "work/calibration"], survey = {}}, act) {
+async function picture(name, {from = measured, parts = ["calibration", "work/calibration"], survey = {}}, act, program = "insitu-prepare") {
+  if (named.length > 0 && !named.includes(name)) return;
   fs.rmSync(folder, {recursive: true, force: true});
   fs.mkdirSync(`${folder}/demo/survey`, {recursive: true});
   for (const part of ["photos", "building", "site.json", ...parts])
     fs.cpSync(`${from}/${part}`, `${folder}/demo/${part}`, {recursive: true});
   for (const [file, text] of Object.entries(survey)) fs.writeFileSync(`${folder}/demo/survey/${file}`, text);
-  const server = await start(`${folder}/demo`);
+  const server = await start(`${folder}/demo`, [], {}, program);
   const person = await open(server);
-  await person.settled().catch(() => {});
+  if (program === "insitu-prepare") await person.settled();
   await act(person, server);
   await person.page.waitForLoadState("networkidle").catch(() => {});
   await person.page.evaluate(() => new Promise(resolve => requestAnimationFrame(() => requestAnimationFrame(resolve))));
@@ -120,3 +121,6 @@ await picture("7_building", {survey: all, parts: ["calibration", "work/calibrati
   await person.press("'", "/");
   await person.page.waitForSelector('.pane[data-photo="left"] path.building.corner', {state: "attached"});
 });
+await picture("7_montage", {survey: all, parts: ["calibration", "work", "montages"]}, async person => {
+  await person.page.selectOption("#choose-photo", "right");
+}, "insitu-view");

@@ -100,6 +100,20 @@ await person.sees("#tool .hint", draft.vertices.join(", "));
 report("and taken up again", true);
 await person.press("Backspace", "Backspace", "Escape");
 
+// A place on the chosen polygon's edge: the one that is nearest to the crosshair.
+await person.click('#list tr[data-key="block_w0"] button');
+await person.photo("right");
+const seen = (await tables()).observations.filter(one => one.photo === "right");
+const ends = (await polygon("block_w0")).vertices.slice(0, 2).map(name => seen.find(one => one.point === name));
+await person.goTo(((ends[0].x + ends[1].x) / 2).toFixed(2), ((ends[0].y + ends[1].y) / 2).toFixed(2));
+await person.press("k");
+await person.sees("#tool .hint", `${ends[0].point}–${ends[1].point}`);
+await person.press("Enter", "Escape");
+await person.settled();
+const [edge] = (await tables()).edges;
+report("K marks a place on the polygon's edge at the crosshair", edge?.from === ends[0].point && edge?.to === ends[1].point && edge?.photo === "right", JSON.stringify(edge));
+report("in the mode in which polygons are drawn, which shows it", (await person.data()).mode === "polygons" && (await person.page.$$('.pane[data-photo="right"] .edge.line')).length > 0);
+
 await person.press("Alt+1");
 await person.point("lone");
 await person.goTo(640, 215);

@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <future>
 #include <vector>
 
@@ -24,7 +25,8 @@ TEST(AppearanceThread, TellsTheFirstAndTheLastOfOrdersThatComeWhileItIsBusy) {
   AppearanceThread thread(site, [&](const LiveAppearance& now, const Json::Value& message) {
     EXPECT_EQ(message["type"], "light");
     told.emplace_back(now.serial, message["revision"].asInt());
-    if (now.serial == 3) return ended.set_value();
+    if (now.serial == 3) ended.set_value();
+    if (now.serial != 1) return;
     begun.set_value();
     released.get_future().wait();
   });
@@ -33,7 +35,7 @@ TEST(AppearanceThread, TellsTheFirstAndTheLastOfOrdersThatComeWhileItIsBusy) {
   thread.Order({2, 20, std::nullopt});
   thread.Order({3, 30, std::nullopt});
   released.set_value();
-  ended.get_future().wait();
+  EXPECT_EQ(ended.get_future().wait_for(std::chrono::minutes(1)), std::future_status::ready);
   thread.Stop();
   EXPECT_THAT(told, ElementsAre(std::pair(1, 10), std::pair(3, 30)));
 }

@@ -89,7 +89,8 @@ function ellipse(x, y, major, minor, angle) {
 }
 
 function* edges(photo) {
-  for (const edge of ui.mode === "sun" || ui.lines === "all" ? rows("edges") : []) {
+  const isShown = ui.mode === "sun" || ui.mode === "polygons" || ui.lines === "all";
+  for (const edge of isShown ? rows("edges") : []) {
     if (edge.photo !== photo) continue;
     const isOff = edge.state === "off";
     yield {

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Control and check points and surveyed camera positions as tables: typed, or pasted from a spreadsheet.
+// Control and check points and surveyed camera positions as tables: typed, pasted from a spreadsheet, or
+// of a file.
 
 import {ask} from "../site/api.js";
 import {drawCoordinates} from "./coordinate_table.js";
-import {button, byId, dialog, node, select, table} from "../words/dom.js";
+import {button, byId, dialog, labelled, node, select, table} from "../words/dom.js";
 import {edit, freeName, isReadOnly, nameFault, row, rows, state} from "../site/state.js";
 import {say} from "../around/notices.js";
 import {formatText, said, t} from "../words/words.js";
@@ -72,6 +73,23 @@ export function showControlTable() {
   const found = node("div", {id: "import-found"}),
     cameras = node("div", {id: "camera-rows", class: "scroll"});
   pasted.addEventListener("input", () => read(pasted.value, found));
+  /** @param {File|undefined} file */
+  const readFile = async file => {
+    if (!file) return;
+    pasted.value = decoded(new Uint8Array(await file.arrayBuffer()));
+    read(pasted.value, found);
+  };
+  const chooser = node("input", {
+    id: "import-file",
+    type: "file",
+    onchange: event => readFile(event.target.files[0])
+  });
+  pasted.addEventListener("dragover", event => event.preventDefault());
+  pasted.addEventListener("drop", event => {
+    if (event.dataTransfer.files.length === 0) return;
+    event.preventDefault();
+    readFile(event.dataTransfer.files[0]);
+  });
   dialog(
     t("controlTable"),
     [
@@ -79,6 +97,7 @@ export function showControlTable() {
       node("div", {id: "control-rows", class: "scroll"}),
       node("h3", {text: t("paste")}),
       pasted,
+      labelled(t("orFile"), chooser),
       found,
       node(
         "details",
@@ -92,6 +111,17 @@ export function showControlTable() {
   );
   draw();
   drawCoordinates(cameras, kCameras);
+}
+
+/** A file's text: UTF-8 or UTF-16, else as older programs of Windows write. */
+function decoded(bytes) {
+  const utf16 = {"255,254": "utf-16le", "254,255": "utf-16be"}[bytes.subarray(0, 2).join()];
+  if (utf16) return new TextDecoder(utf16).decode(bytes);
+  try {
+    return new TextDecoder("utf-8", {fatal: true}).decode(bytes);
+  } catch {
+    return new TextDecoder("windows-1252").decode(bytes);
+  }
 }
 
 /** Asks the server's readers what the pasted text says, and offers to take it. */

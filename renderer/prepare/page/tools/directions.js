@@ -6,6 +6,7 @@ import {addAction} from "../around/keys.js";
 import {marking} from "../points/marking.js";
 import {say} from "../around/notices.js";
 import {shown, stored} from "../words/numbers.js";
+import {nearestEdge} from "./outlines.js";
 import {pointTool} from "./pickers.js";
 import {edit, isReadOnly, row, rows, state} from "../site/state.js";
 import {activePane, placeOf, setMode, setTool, ui} from "../site/ui.js";
@@ -37,10 +38,24 @@ export function drawPair(kind) {
   say(t(`pick_${first}`));
 }
 
-/** An edge's two points, then places on it until Esc. */
+/** The edge of the chosen polygon that is nearest to the crosshair, while polygons are worked on. */
+function edgeHere() {
+  const polygon = ui.mode === "polygons" && ui.polygon !== null && row("polygons", ui.polygon),
+    {photo, cursor} = activePane();
+  return polygon && photo ? nearestEdge(polygon, photo.name, cursor.x, cursor.y) : null;
+}
+
+/** An edge's two points, or the one of the chosen polygon, then places on it until Esc; K again: another one. */
 export function drawEdge() {
   if (isReadOnly("edges")) return say(t("readOnlyTable"));
-  setMode("sun");
+  const ends = ui.tool?.name === "edgeMark" ? null : edgeHere();
+  if (ends) {
+    const {isMoved} = activePane();
+    setTool(edgeTool(...ends));
+    activePane().isMoved = isMoved; // the crosshair was brought to it: Enter marks there
+    return say(t("edgePlace", {from: ends[0], to: ends[1]}));
+  }
+  if (ui.mode !== "polygons") setMode("sun");
   setTool(
     pointTool({
       name: "edgeMark",

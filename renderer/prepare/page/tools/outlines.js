@@ -61,3 +61,34 @@ export function pixelOf(polygon, photo) {
   const [x, y] = [middle, ...ways].find(([u, v]) => isSeenAt(polygon, photo, u, v)) ?? middle;
   return {x: Math.round(x), y: Math.round(y)};
 }
+
+/** Square of the distance from a place to a segment. */
+function fromSegment([x1, y1], [x2, y2], x, y) {
+  const [u, v] = [x2 - x1, y2 - y1],
+    along = ((x - x1) * u + (y - y1) * v) / (u * u + v * v || 1),
+    share = Math.min(Math.max(along, 0), 1);
+  return (x1 + share * u - x) ** 2 + (y1 + share * v - y) ** 2;
+}
+
+/**
+ * The ends of the polygon's edge that is nearest to a pixel; null where none of its edges has both.
+ * @param {any} polygon
+ * @param {string} photo
+ * @param {number} x
+ * @param {number} y
+ * @returns {[string, string]|null}
+ */
+export function nearestEdge(polygon, photo, x, y) {
+  /** @type {[string, string]|null} */
+  let nearest = null;
+  let least = Infinity;
+  for (const names of ringsOf(polygon)) {
+    names.forEach((from, i) => {
+      const to = names[(i + 1) % names.length],
+        [a, b] = [placeOf(photo, from), placeOf(photo, to)];
+      const distance = a && b ? fromSegment([a.x, a.y], [b.x, b.y], x, y) : Infinity;
+      if (distance < least) [nearest, least] = [[from, to], distance];
+    });
+  }
+  return nearest;
+}

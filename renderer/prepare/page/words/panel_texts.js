@@ -17,7 +17,7 @@ export const kPanelTexts = {
   lightSky: ["open sky", "offener Himmel"],
   lightAmbient: ["ambient", "Umgebung"],
   weightNote: ["weight of the light D65", "Gewicht des Lichts D65"],
-  asPhotographed: ["as photographed", "wie fotografiert"],
+  asPhotographed: ["photographed", "fotografiert"],
   asPhotographedNote: [
     "the mean of what the photographs show around the samples: not adjusted, so without σ",
     "Mittel dessen, was die Fotos um die Proben zeigen: nicht ausgeglichen, darum ohne σ"
@@ -35,7 +35,7 @@ export const kPanelTexts = {
   leftOut: ["left out", "weggelassen"],
   leftOutHead: ["Left out", "Weggelassen"],
   advice: ["Advice", "Ratschläge"],
-  off100: ["off", "Abweichung"],
+  off100: ["off", "Abw."],
   // A point's photos
   vHead: ["v x, y [px]", "v x, y [px]"],
   sigmaMark: ["σ [px]", "σ [px]"],

@@ -307,10 +307,8 @@ export const kTexts = {
     "What is typed goes to the survey at once. Check points stay out of the adjustment and test it.",
     "Was getippt wird, geht sofort in die Vermessung. Kontrollpunkte bleiben aus der Ausgleichung und prüfen sie."
   ],
-  paste: [
-    "Paste a table from a spreadsheet or a file",
-    "Tabelle aus einer Tabellenkalkulation oder Datei einfügen"
-  ],
+  paste: ["Paste a table from a spreadsheet", "Tabelle aus einer Tabellenkalkulation einfügen"],
+  orFile: ["or take a file", "oder eine Datei nehmen"],
   importFound: [
     "{n} points ({format}).", "{n} Punkte ({format})."
   ],
