@@ -24,6 +24,10 @@ constexpr Drawing kShadows = {
     "shadows",
     "black where something that no polygon stands for keeps the sun away, white elsewhere"};
 
+constexpr Drawing kTrimaps = {
+    "trimaps",
+    "black what is behind, white what is in front, any grey what is to be found between them"};
+
 // Coverage is a share of the pixel, so codes are linear in it.
 template <typename Code>
 Raster SharesOf(const fs::path& path, const std::vector<Code>& codes, int width, int height,
@@ -87,9 +91,15 @@ std::optional<Raster> ReadShadowPicture(const SitePaths& site, const std::string
   return ReadDrawing(site, kShadows, photo, width, height);
 }
 
+std::optional<Raster> ReadTrimap(const SitePaths& site, const std::string& photo, int width,
+                                 int height) {
+  return ReadDrawing(site, kTrimaps, photo, width, height);
+}
+
 std::vector<std::string> UnreadDrawings(const SitePaths& site) {
   std::vector<std::string> unread;
-  for (const Drawing& drawing : {kForeground, kShadows}) AddUnread(site, drawing, &unread);
+  for (const Drawing& drawing : {kForeground, kShadows, kTrimaps})
+    AddUnread(site, drawing, &unread);
   std::ranges::sort(unread);
   return unread;
 }

@@ -23,7 +23,12 @@ std::optional<Raster> ReadForegroundMatte(const SitePaths& site, const std::stri
 std::optional<Raster> ReadShadowPicture(const SitePaths& site, const std::string& photo, int width,
                                         int height);
 
-// Files in these two folders that belong to no photograph, a line each.
+// What insitu-matte makes the first of, survey/trimaps/<photo>.png: 0 behind, 1 in front, what is
+// between is to be found.
+std::optional<Raster> ReadTrimap(const SitePaths& site, const std::string& photo, int width,
+                                 int height);
+
+// Files in these folders that belong to no photograph, a line each.
 std::vector<std::string> UnreadDrawings(const SitePaths& site);
 
 }  // namespace insitu

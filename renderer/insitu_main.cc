@@ -23,6 +23,7 @@ std::vector<Command> OtherCommands() {
   return {{"montage", "all of these, as far as their results do not hold any more"},
           {"prepare", "the measuring page: everything in survey/, measured on the photographs"},
           {"new", "a site's folder from photographs, with files that explain themselves"},
+          {"matte", "what stands in front, from a rough drawing"},
           {"materials", "the library of materials and lamps: its list, swatches, proposals"},
           {"spectra", "the spectra that stand behind colours, in a page"},
           {"view", "the viewing page: before and after, pixel by pixel; renders as they run"},
