@@ -35,7 +35,8 @@ TEST(SpectraReport, MetamersDifferAndLookAlike) {
     ASSERT_EQ(report["metamers"].size(), 4U);
     for (const Json::Value& metamer : report["metamers"]) {
       const Eigen::Vector3d seen = TristimulusOf(metamer["spectrum"], {count});
-      for (int i = 0; i < 3; ++i) EXPECT_NEAR(seen[i], xyz[i], 1e-12) << metamer["space"].asString();
+      for (int i = 0; i < 3; ++i)
+        EXPECT_NEAR(seen[i], xyz[i], 1e-12) << metamer["space"].asString();
     }
     EXPECT_NE(report["metamers"][0]["spectrum"], report["metamers"][1]["spectrum"]);
     EXPECT_THAT(Numbers(report["metamers"][1]["rgb"]),
