@@ -190,8 +190,12 @@ void SetSurroundings(const Interreflection& interreflection,
 DaylightFitOptions FitOptions(const LightMeasurement& measured, const LightOptions& options) {
   const auto& table = measured.samples.daylight_spectrum;
   const SpectralBins& bins = measured.environment.spectra.bins();
-  return {options.average_over_wavelength,
-          table ? std::optional(Sampled(*table, bins)) : std::nullopt};
+  const SkyFit& sky = measured.sky.fit;
+  DaylightFitOptions fit;
+  fit.average_over_wavelength = options.average_over_wavelength;
+  if (table) fit.relative_spectrum = Sampled(*table, bins);
+  if (measured.reflectance_known && sky.level) fit.sky = {*sky.level, sky.level_sigma};
+  return fit;
 }
 
 // Eq. (9) with photographed surroundings: what no photograph shows of them depends on the light,
