@@ -198,6 +198,22 @@ DaylightFitOptions FitOptions(const LightMeasurement& measured, const LightOptio
   return fit;
 }
 
+// A sky that is quite another than the samples tell is of another exposure, or their albedo is
+// wrong: it does not count, and is warned of.
+DaylightFit FitWithOrWithoutSky(const LightMeasurement& measured, bool has_sun,
+                                const DaylightFitOptions& options) {
+  const SpectralBins& bins = measured.environment.spectra.bins();
+  const auto fit_with = [&](const std::optional<SkyObservation>& sky) {
+    DaylightFitOptions with = options;
+    with.sky = sky;
+    return FitDaylight(measured.daylight, measured.brdf, has_sun, bins, with);
+  };
+  const DaylightFit without = fit_with(std::nullopt);
+  const Spectrum lighting = without.sky_radiance + without.ambient_radiance;
+  if (!options.sky || IsAnotherSky(options.sky->radiance, lighting, bins)) return without;
+  return fit_with(options.sky);
+}
+
 // Eq. (9) with photographed surroundings: what no photograph shows of them depends on the light,
 // so the two take turns.
 void FitInSurroundings(const PhotographSet& photos, const std::vector<SurfacePoint>& points,
@@ -230,8 +246,7 @@ void FitInSurroundings(const PhotographSet& photos, const std::vector<SurfacePoi
     measured->daylight = bare;
     SetSurroundings(interreflection, points, measured->brdf, &measured->daylight,
                     &measured->unseen);
-    fit = FitDaylight(measured->daylight, measured->brdf, has_sun, environment.spectra.bins(),
-                      FitOptions(*measured, options));
+    fit = FitWithOrWithoutSky(*measured, has_sun, FitOptions(*measured, options));
     light.sun_radiance = fit.sun_radiance;
     light.sky_radiance = fit.sky_radiance + fit.ambient_radiance;
   }
