@@ -58,6 +58,11 @@ void AddSky(const LightMeasurement& measured, Json::Value* sky) {
   json["gradation_sigma"] = BinsJson(fit.sigma.gradation, spectra.bins());
   json["glow_sigma"] = BinsJson(fit.sigma.glow, spectra.bins());
   json["photographed_rgb"] = ToJson(spectra.RgbFromSpectrum(*fit.level));
+  json["photographed_radiance"] = BinsJson(*fit.level, spectra.bins());
+  json["photographed_radiance_sigma"] = BinsJson(fit.level_sigma, spectra.bins());
+  if (const auto& residual = measured.daylight_fit.sky_over_sigma) {
+    json["residual_over_sigma"] = *residual;  // of the inversion, in which it counted
+  }
   json["heights"].append(fit.lowest);
   json["heights"].append(fit.highest);
   json["rms_of_ln"] = fit.rms;
@@ -154,7 +159,12 @@ void PrintSky(const LightMeasurement& measured, std::ostream& out) {
   constexpr double kToDegrees = 180 / std::numbers::pi;
   out << "; " << fit.cells << " places in " << measured.sky.photos << " photographs, "
       << std::lround(kToDegrees * fit.lowest) << " to " << std::lround(kToDegrees * fit.highest)
-      << " degrees high, photographed as " << spectra.RgbFromSpectrum(*fit.level) << "\n";
+      << " degrees high, photographed as " << spectra.RgbFromSpectrum(*fit.level) << " +- "
+      << 100 * mean(fit.level_sigma) / mean(*fit.level) << " %";
+  if (const auto& residual = measured.daylight_fit.sky_over_sigma) {
+    out << ", met to " << *residual << " sigma";
+  }
+  out << "\n";
 }
 
 }  // namespace

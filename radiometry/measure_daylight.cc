@@ -190,8 +190,28 @@ void SetSurroundings(const Interreflection& interreflection,
 DaylightFitOptions FitOptions(const LightMeasurement& measured, const LightOptions& options) {
   const auto& table = measured.samples.daylight_spectrum;
   const SpectralBins& bins = measured.environment.spectra.bins();
-  return {options.average_over_wavelength,
-          table ? std::optional(Sampled(*table, bins)) : std::nullopt};
+  const SkyFit& sky = measured.sky.fit;
+  DaylightFitOptions fit;
+  fit.average_over_wavelength = options.average_over_wavelength;
+  if (table) fit.relative_spectrum = Sampled(*table, bins);
+  if (measured.reflectance_known && sky.level) fit.sky = {*sky.level, sky.level_sigma};
+  return fit;
+}
+
+// A sky that is quite another than the samples tell is of another exposure, or their albedo is
+// wrong: it does not count, and is warned of.
+DaylightFit FitWithOrWithoutSky(const LightMeasurement& measured, bool has_sun,
+                                const DaylightFitOptions& options) {
+  const SpectralBins& bins = measured.environment.spectra.bins();
+  const auto fit_with = [&](const std::optional<SkyObservation>& sky) {
+    DaylightFitOptions with = options;
+    with.sky = sky;
+    return FitDaylight(measured.daylight, measured.brdf, has_sun, bins, with);
+  };
+  const DaylightFit without = fit_with(std::nullopt);
+  const Spectrum lighting = without.sky_radiance + without.ambient_radiance;
+  if (!options.sky || IsAnotherSky(options.sky->radiance, lighting, bins)) return without;
+  return fit_with(options.sky);
 }
 
 // Eq. (9) with photographed surroundings: what no photograph shows of them depends on the light,
@@ -226,8 +246,7 @@ void FitInSurroundings(const PhotographSet& photos, const std::vector<SurfacePoi
     measured->daylight = bare;
     SetSurroundings(interreflection, points, measured->brdf, &measured->daylight,
                     &measured->unseen);
-    fit = FitDaylight(measured->daylight, measured->brdf, has_sun, environment.spectra.bins(),
-                      FitOptions(*measured, options));
+    fit = FitWithOrWithoutSky(*measured, has_sun, FitOptions(*measured, options));
     light.sun_radiance = fit.sun_radiance;
     light.sky_radiance = fit.sky_radiance + fit.ambient_radiance;
   }

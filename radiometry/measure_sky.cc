@@ -18,6 +18,10 @@ void Average(const SpectralBins& bins, Spectrum* power) {
   power->head(bins.count).setConstant(mean);
 }
 
+double TimesAsBright(const Spectrum& sky, const Spectrum& other, const SpectralBins& bins) {
+  return Tristimulus(sky, bins).y() / std::max(1e-12, Tristimulus(other, bins).y());
+}
+
 }  // namespace
 
 SeenSky MeasureSky(const SitePaths& site, const PhotographSet& photos,
@@ -54,15 +58,20 @@ SeenSky MeasureSky(const SitePaths& site, const PhotographSet& photos,
   return sky;
 }
 
+bool IsAnotherSky(const Spectrum& photographed, const Spectrum& lighting,
+                  const SpectralBins& bins) {
+  constexpr double kOtherSky = 1.5;  // times as bright
+  const double times = TimesAsBright(photographed, lighting, bins);
+  return times >= kOtherSky || times <= 1 / kOtherSky;
+}
+
 void WarnOfAnotherSky(const NaturalEnvironment& environment, const SeenSky& sky,
                       std::vector<Sentence>* warnings) {
-  constexpr double kOtherSky = 1.5;  // times as bright
   if (!sky.fit.level) return;
   const SpectralBins& bins = environment.spectra.bins();
   const Spectrum lighting = environment.light.sky_radiance + environment.light.ambient_radiance;
-  const double times =
-      Tristimulus(*sky.fit.level, bins).y() / std::max(1e-12, Tristimulus(lighting, bins).y());
-  if (times < kOtherSky && times > 1 / kOtherSky) return;
+  if (!IsAnotherSky(*sky.fit.level, lighting, bins)) return;
+  const double times = TimesAsBright(*sky.fit.level, lighting, bins);
   warnings->push_back(
       Sentence("lightOtherSky",
                "the photographs show a sky {times} times as bright as that which lights the "

@@ -25,6 +25,10 @@ SeenSky MeasureSky(const SitePaths& site, const PhotographSet& photos,
                    const std::vector<PixelSample>& horizon, bool is_average,
                    NaturalEnvironment* environment);
 
+// Whether a photographed sky is 1.5 times as bright, or as dark, as the one that lights the
+// samples.
+bool IsAnotherSky(const Spectrum& photographed, const Spectrum& lighting, const SpectralBins& bins);
+
 // Warns where the photographs show another sky than that which lights the daylight samples: both
 // are told in one unit, if the samples' albedo is known.
 void WarnOfAnotherSky(const NaturalEnvironment& environment, const SeenSky& sky,

@@ -25,8 +25,7 @@ void PrintReport(FILE* out, const RenderSiteReport& report) {
     std::fprintf(out, "%s: not rendered\n", report.photo.c_str());
     return;
   }
-  const Raster& picture = report.result.linear;
-  const double pixels = static_cast<double>(picture.width) * picture.height;
+  const double pixels = report.pixels;
   std::fprintf(
       out, "%s: building %.1f %%, changed %.1f %% of the pixels, %.2f rays a pixel, %.1f s\n",
       report.photo.c_str(), 100 * report.result.building_pixels / pixels,
@@ -122,6 +121,7 @@ void RenderAndReport(const RenderCommand& command) {
   options.frame = kFrames.at(command.frame);
   options.sharpness = kSharpness.at(command.sharpness);
   options.with_building = !command.no_building;
+  options.keeps_pictures = false;
   NoteStopSignals();
   options.stops = IsStopSignalled;
   const auto profile = command.timing ? std::make_unique<Profile>() : nullptr;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <chrono>
 #include <memory>
+#include <utility>
 
 #include "calibration/files/error.h"
 #include "calibration/files/json_file.h"
@@ -214,7 +215,7 @@ class SiteRender {
     if (options_.with_building) {
       report.uncertainty = WriteUncertaintyOf(site_, geometry, camera, edges_);
     }
-    const std::optional<SunShares> shares = SunSharesOf(scene_, view, options_);
+    std::optional<SunShares> shares = SunSharesOf(scene_, view, options_);
     const RenderOptions render = OptionsFor(view, shares);
     report.point_spread = render.point_spread;
     report.has_grain = render.grain.has_value();
@@ -225,10 +226,15 @@ class SiteRender {
     }
     report.seconds =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    report.remarks = WriteMontage(site_, photograph, options_.frame, std::move(view.photo),
-                                  report.result, statement_);
+    report.pixels = static_cast<double>(report.result.linear.width) * report.result.linear.height;
     WriteSunShares(site_, photograph, shares);
-    WriteUnseen(site_, photograph, report.result);
+    shares.reset();
+    WriteLayers(site_, photograph, report.result);
+    if (!options_.keeps_pictures) report.result.layers = report.result.unseen = {};
+    Raster linear =
+        options_.keeps_pictures ? report.result.linear : std::exchange(report.result.linear, {});
+    report.remarks = WriteMontage(site_, photograph, options_.frame, std::move(view.photo),
+                                  std::move(linear), report.result, statement_);
     RemarkClipped(report.result, &report.remarks);
     WriteRenderRecord(site_, photo, options_);
     return report;

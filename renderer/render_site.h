@@ -34,6 +34,7 @@ struct RenderSiteOptions {
   bool find_shadows = true;
   bool uniform_ambient = false;     // the paper's light as printed, instead of light among surfaces
   std::optional<int> bounces = {};  // of light among surfaces, at most; 0: sun and sky alone
+  bool keeps_pictures = true;       // in the reports, too: as much memory as all montages together
   std::function<bool()> stops = {};  // asked before each tile, from any thread
   RenderWatcher* watcher = nullptr;  // null: nobody looks on
 
@@ -42,7 +43,8 @@ struct RenderSiteOptions {
 
 struct RenderSiteReport {
   std::string photo;
-  RenderResult result;                      // its picture is written already
+  RenderResult result;  // its picture is written already; empty unless keeps_pictures
+  double pixels = 0;    // of the picture
   std::optional<PointSpread> point_spread;  // applied; nullopt: ideal
   bool has_grain = false;
   double seconds = 0;                             // rendering, files apart

@@ -78,7 +78,7 @@ Raster ReadInputImage(const InputImage& image) {
 }
 
 bool FitInMemory(const NaturalEnvironment& natural) {
-  constexpr double kMostBytes = 1.5e9;
+  constexpr double kMostBytes = 0.8e9;
   double bytes = 0;
   for (const InputImage& image : natural.input_images) {
     bytes += 3.0 * sizeof(float) * image.camera.width() * image.camera.height();

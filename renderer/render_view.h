@@ -40,7 +40,7 @@ size_t CameraIndex(const SitePaths& site, const SceneGeometry& scene, const std:
 // Linear, as photographed. Throws InputError: not there, or not of its camera's size.
 Raster ReadInputImage(const InputImage& image);
 
-// Whether all input images together are few enough to be held, 1.5 GB. Photographs that are
+// Whether all input images together are few enough to be held, 0.8 GB. Photographs that are
 // rendered take memory beside them.
 bool FitInMemory(const NaturalEnvironment& natural);
 

@@ -57,13 +57,11 @@ MontageStatement StatementOf(const SitePaths& site, bool with_building) {
 
 std::vector<std::string> WriteMontage(const SitePaths& site,
                                       const std::filesystem::path& photograph, Frame frame,
-                                      Photograph photo, const RenderResult& result,
+                                      Photograph photo, Raster linear, const RenderResult& result,
                                       const MontageStatement& statement) {
   const PhaseScope phase(Phase::kFiles);
-  WriteUpright(site.montages() / (photograph.stem().string() + ".layers.exr"), result.layers,
-               photograph);
   return WriteMontageFiles(site.montages() / photograph.stem(),
-                           {result.linear, std::move(photo), photograph, frame == Frame::kPhoto,
+                           {std::move(linear), std::move(photo), photograph, frame == Frame::kPhoto,
                             StatementOf(statement, photograph, result)});
 }
 
@@ -83,8 +81,10 @@ void WriteSunShares(const SitePaths& site, const std::filesystem::path& photogra
   WriteUpright(file, picture, photograph);
 }
 
-void WriteUnseen(const SitePaths& site, const std::filesystem::path& photograph,
+void WriteLayers(const SitePaths& site, const std::filesystem::path& photograph,
                  const RenderResult& result) {
+  WriteUpright(site.montages() / (photograph.stem().string() + ".layers.exr"), result.layers,
+               photograph);
   const std::filesystem::path file = site.montages() / (photograph.stem().string() + ".unseen.exr");
   if (result.unseen_pixels == 0) {
     std::filesystem::remove(file);

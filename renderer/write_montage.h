@@ -18,11 +18,11 @@ namespace insitu {
 // What all pictures of a run state.
 MontageStatement StatementOf(const SitePaths& site, bool with_building);
 
-// montages/<photo>.exr and the others (montage_files.h), and <photo>.layers.exr. What of the
-// photograph could not be delivered is returned.
+// montages/<photo>.exr and the others (montage_files.h). What of the photograph could not be
+// delivered is returned. `linear` is the picture, of `result` the counts are taken.
 std::vector<std::string> WriteMontage(const SitePaths& site,
                                       const std::filesystem::path& photograph, Frame frame,
-                                      Photograph photo, const RenderResult& result,
+                                      Photograph photo, Raster linear, const RenderResult& result,
                                       const MontageStatement& statement);
 
 // montages/<photo>.shadows.exr, upright as the montage's EXR is; without `shares`, what an earlier
@@ -30,10 +30,10 @@ std::vector<std::string> WriteMontage(const SitePaths& site,
 void WriteSunShares(const SitePaths& site, const std::filesystem::path& photograph,
                     const std::optional<SunShares>& shares);
 
-// montages/<photo>.unseen.exr, upright too: how much of each pixel is of surfaces, mirrored or
-// behind glass, that no photograph shows (red). If there is none, what an earlier run has left
-// goes.
-void WriteUnseen(const SitePaths& site, const std::filesystem::path& photograph,
+// montages/<photo>.layers.exr, upright too, and <photo>.unseen.exr: how much of each pixel is of
+// surfaces, mirrored or behind glass, that no photograph shows (red). If there is none, what of it
+// an earlier run has left goes.
+void WriteLayers(const SitePaths& site, const std::filesystem::path& photograph,
                  const RenderResult& result);
 
 // What an earlier run has left.

@@ -9,7 +9,7 @@
 namespace insitu {
 
 // Of all tiled images together, this much of their tiles is held.
-inline constexpr float kTileMegabytes = 1024;
+inline constexpr float kTileMegabytes = 512;
 
 class TiledImage {
  public:

@@ -16,6 +16,9 @@ namespace {
 
 constexpr double kRankDefect = 1e16;  // condition reported then
 constexpr double kRankTolerance = 1e-8;
+// Sigmas from where a photographed sky counts less. Nearer it is the samples that give way: it is
+// seen as it is, while what stands around them, trees above all, may be no polygon.
+constexpr double kFarOff = 5;
 
 // The ambient column of Eq. (9): pi as in Eq. (4); none where the surroundings are known.
 double AmbientFactor(const DaylightSample& sample) {
@@ -39,17 +42,39 @@ struct Solution {
   double condition = 1;
 };
 
-Equations SetUp(const std::vector<DaylightSample>& samples, double brdf, bool has_sun, int bin,
-                const std::vector<double>& weights) {
-  const int n = static_cast<int>(samples.size());
-  Equations equations{Eigen::MatrixX3d(n, 3), Eigen::VectorXd(n)};
+// The photographed sky in a system of samples; its sigma is in units of their sigma.
+struct WeighedSky {
+  Spectrum radiance, sigma;
+  double weight = 1;
+};
+
+// What the equations are made of.
+struct DaylightObservations {
+  const std::vector<DaylightSample>& samples;
+  const Spectrum& brdf;
+  bool has_sun = false;
+  const SpectralBins& bins;
+  std::vector<double> weights;  // of the samples
+  std::optional<WeighedSky> sky = {};
+};
+
+Equations SetUp(const DaylightObservations& observed, int bin) {
+  const std::vector<DaylightSample>& samples = observed.samples;
+  const double brdf = observed.brdf[bin];
+  const int n = static_cast<int>(samples.size()), rows = n + (observed.sky ? 1 : 0);
+  Equations equations{Eigen::MatrixX3d(rows, 3), Eigen::VectorXd(rows)};
   for (int i = 0; i < n; ++i) {
     const LightGeometry& seen = samples[i].geometry;
-    const double p = std::sqrt(weights[i]) / samples[i].sigma[bin];
-    equations.A.row(i) << (has_sun ? seen.sun : 0), AmbientFactor(samples[i]),
+    const double p = std::sqrt(observed.weights[i]) / samples[i].sigma[bin];
+    equations.A.row(i) << (observed.has_sun ? seen.sun : 0), AmbientFactor(samples[i]),
         seen.sky * samples[i].relative_sky[bin];
     equations.A.row(i) *= p * brdf;
     equations.y[i] = p * Unexplained(samples[i], brdf, bin);
+  }
+  if (const auto& sky = observed.sky) {
+    const double p = std::sqrt(sky->weight) / sky->sigma[bin];
+    equations.A.row(n) << 0, 0, p;
+    equations.y[n] = p * sky->radiance[bin];
   }
   return equations;
 }
@@ -132,15 +157,14 @@ Solution Solve(const Equations& equations) {
   return solution;
 }
 
-DaylightFit SolveBins(const std::vector<DaylightSample>& samples, const Spectrum& brdf,
-                      bool has_sun, const SpectralBins& bins, const std::vector<double>& weights) {
+DaylightFit SolveBins(const DaylightObservations& observed) {
   DaylightFit fit;
   for (Spectrum* part : {&fit.sun_radiance, &fit.ambient_radiance, &fit.sky_radiance,
                          &fit.sun_sigma, &fit.ambient_sigma, &fit.sky_sigma}) {
     part->setZero();
   }
-  for (int bin = 0; bin < bins.count; ++bin) {
-    const Solution x = Solve(SetUp(samples, brdf[bin], has_sun, bin, weights));
+  for (int bin = 0; bin < observed.bins.count; ++bin) {
+    const Solution x = Solve(SetUp(observed, bin));
     fit.sun_radiance[bin] = x.radiance[0];
     fit.ambient_radiance[bin] = x.radiance[1];
     fit.sky_radiance[bin] = x.radiance[2];
@@ -207,6 +231,52 @@ void SpreadSurroundings(const std::vector<DaylightSample>& samples, DaylightFit*
   fit->sky_radiance -= fit->ambient_radiance;
 }
 
+// How large the residuals are, in sigma; at least 1.
+double VarianceScale(const std::vector<double>& residuals, const std::vector<double>& weights,
+                     int unknowns) {
+  double squares = 0, count = 0;
+  for (size_t i = 0; i < residuals.size(); ++i) {
+    squares += weights[i] * residuals[i] * residuals[i];
+    count += weights[i];
+  }
+  return std::sqrt(std::max(1.0, squares / std::max(1.0, count - unknowns)));
+}
+
+// Root mean square over the bins.
+double SkyOverSigma(const DaylightFit& fit, const SkyObservation& sky, const SpectralBins& bins) {
+  const Spectrum residual = (fit.sky_radiance - sky.radiance) / sky.sigma;
+  return std::sqrt(residual.head(bins.count).square().mean());
+}
+
+// Robust: weights and solution take turns.
+DaylightFit FitRobustly(DaylightObservations* observed) {
+  observed->weights.assign(observed->samples.size(), 1.0);
+  DaylightFit fit = SolveBins(*observed);
+  for (int pass = 0; pass < kRobustPasses; ++pass) {
+    observed->weights =
+        HuberWeights(ResidualMagnitudes(observed->samples, fit, observed->brdf, observed->bins));
+    fit = SolveBins(*observed);
+  }
+  return fit;
+}
+
+// `observed` as FitRobustly left it, and `fit` what it found without the sky.
+DaylightFit FitWithSky(const SkyObservation& sky, DaylightFit fit, DaylightObservations* observed) {
+  const auto magnitudes = [&] {
+    return ResidualMagnitudes(observed->samples, fit, observed->brdf, observed->bins);
+  };
+  const double scale = VarianceScale(magnitudes(), observed->weights, observed->has_sun ? 2 : 1);
+  observed->sky = WeighedSky{sky.radiance, sky.sigma / scale};
+  for (int pass = 0; pass < kRobustPasses; ++pass) {
+    fit = SolveBins(*observed);
+    observed->weights = HuberWeights(magnitudes());
+    observed->sky->weight =
+        std::min(1.0, kFarOff / std::max(SkyOverSigma(fit, sky, observed->bins), 1e-300));
+  }
+  fit.sky_over_sigma = SkyOverSigma(fit, sky, observed->bins);
+  return fit;
+}
+
 bool HaveSurroundings(const std::vector<DaylightSample>& samples) {
   const auto with = std::count_if(samples.begin(), samples.end(),
                                   [](const auto& sample) { return sample.surroundings; });
@@ -224,12 +294,9 @@ DaylightFit FitDaylight(const std::vector<DaylightSample>& samples, const Spectr
     INSITU_CHECK((sample.sigma.head(bins.count) > 0).all());
   }
   const bool has_surroundings = HaveSurroundings(samples);
-  std::vector<double> weights(samples.size(), 1.0);
-  DaylightFit fit = SolveBins(samples, brdf, has_sun, bins, weights);
-  for (int pass = 0; pass < kRobustPasses; ++pass) {
-    weights = HuberWeights(ResidualMagnitudes(samples, fit, brdf, bins));
-    fit = SolveBins(samples, brdf, has_sun, bins, weights);
-  }
+  DaylightObservations observed{samples, brdf, has_sun, bins, {}, {}};
+  DaylightFit fit = FitRobustly(&observed);
+  if (has_surroundings && options.sky) fit = FitWithSky(*options.sky, fit, &observed);
   SetResiduals(samples, brdf, bins, &fit);
   if (has_surroundings) SpreadSurroundings(samples, &fit);
   if (options.average_over_wavelength) {

@@ -21,9 +21,15 @@ struct DaylightSample {
   Spectrum relative_sky = Spectrum::Ones();
 };
 
+// The open sky as the photographs show it, as bright for level ground as a uniform one.
+struct SkyObservation {
+  Spectrum radiance, sigma;  // > 0 in used bins
+};
+
 struct DaylightFitOptions {
   bool average_over_wavelength = false;  // the paper's one spectrum for all three components
   std::optional<Spectrum> relative_spectrum = std::nullopt;  // that one; nullopt: D65
+  std::optional<SkyObservation> sky = std::nullopt;          // counts with `surroundings` alone
 };
 
 struct DaylightFit {
@@ -33,6 +39,8 @@ struct DaylightFit {
   double rms = 0;                  // of the residuals over their sigma
   std::vector<double> residuals;   // one a sample: (measured - model) / measured, bins averaged
   std::vector<double> over_sigma;  // one a sample: its RMS over the bins, in units of sigma
+  // The same of the photographed sky, fitted minus observed; nullopt: it did not count.
+  std::optional<double> sky_over_sigma = std::nullopt;
 };
 
 // Solves [Durisch92, Eq. (9)] per bin by non-negative weighted least squares for the radiances
@@ -40,6 +48,10 @@ struct DaylightFit {
 // `has_sun` false (overcast): the sun stays zero. Components without influence on any sample stay
 // zero. Samples that contradict the others count less (robust_weights.h). Needs as many samples as
 // components (INSITU_CHECK). rms and residuals are those of the solution per wavelength.
+//
+// The photographed sky is one more observation of the sky's radiance: against its own sigma, while
+// the samples' are multiplied by their residuals' size, for texture is more than noise. Five sigmas
+// off it counts less, too.
 //
 // Departure: weights are kept per wavelength unless averaging is asked for; one spectrum for sun
 // and sky cannot make bluish shadows.

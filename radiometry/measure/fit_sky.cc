@@ -15,9 +15,10 @@ namespace {
 
 constexpr double kDegree = std::numbers::pi / 180;
 constexpr double kSkyCell = 5 * kDegree;
-constexpr double kSunCosine = 0.985;  // of ten degrees
-constexpr double kSigmaOfLog = 0.01;  // of ln radiance, at least: cameras and lenses differ
-constexpr double kGrossOutlier = 5;   // robust standard deviations
+constexpr double kSunCosine = 0.985;    // of ten degrees
+constexpr double kSigmaOfLog = 0.01;    // of ln radiance, at least: cameras and lenses differ
+constexpr double kSigmaOfLevel = 0.03;  // of ln of the level, at least: neither is a sky smooth
+constexpr double kGrossOutlier = 5;     // robust standard deviations
 constexpr size_t kFewestCells = 6;
 constexpr double kSurely = 3, kLeastEffect = 0.03, kVague = 0.3;
 constexpr double kLeastGradation = -1.7, kMostGradation = 1.1, kMostGlow = 1.5;
@@ -75,6 +76,7 @@ std::vector<LogRow> LogRows(const std::vector<SkyPlace>& cells, const Eigen::Vec
 // Least squares for some of the terms.
 struct LogFit {
   std::array<Spectrum, 3> value, sigma;  // by Term; zero of those left out
+  Spectrum variance = Spectrum::Zero();  // of unit weight
   double rms = 0;
   std::vector<double> residuals;  // of each row, over kSigmaOfLog, root mean square over the bins
 };
@@ -99,6 +101,7 @@ LogFit SolveLog(const std::vector<LogRow>& rows, const std::vector<Term>& terms,
   for (int bin = 0; bin < bins; ++bin) {
     const double variance =
         std::max(kSigmaOfLog * kSigmaOfLog, V.col(bin).cwiseAbs2().dot(w) / freedom);
+    fit.variance[bin] = variance;
     for (Eigen::Index j = 0; j < k; ++j) {
       fit.value[terms[j]][bin] = X(j, bin);
       fit.sigma[terms[j]][bin] = std::sqrt(variance * cofactor(j, j));
@@ -175,6 +178,50 @@ void KeepPlausible(const std::vector<LogRow>& rows, int bins, LogFit* fit) {
   }
 }
 
+// How ln of the level follows each term, ln radiance as it is: from two shapes beside the fitted
+// one.
+Spectrum LevelBy(Term term, const SkyShape& shape, const Eigen::Vector3d& zenith,
+                 const Eigen::Vector3d& sun) {
+  constexpr double kStep = 0.05;
+  const auto log_scale = [&](double step) {
+    SkyShape beside = shape;
+    (term == kGradation ? beside.gradation : beside.glow) += step;
+    return Spectrum(RelativeSky(beside, zenith, sun).scale().log());
+  };
+  return (log_scale(kStep) - log_scale(-kStep)) / (2 * kStep);
+}
+
+// Of ln of the level: both powers are taken for unknown, to within what the CIE's skies have,
+// whichever were kept; a sky of another form than theirs misses a part of what they carry the level
+// from what is seen; and what is about the fit, clouds, may be elsewhere, too.
+Spectrum LevelSigma(const LogFit& fit, const std::vector<LogRow>& rows, const Spectrum& level,
+                    const Eigen::Vector3d& zenith, const std::optional<Eigen::Vector3d>& sun,
+                    int bins) {
+  constexpr double kGradationOfSkies = 0.7, kGlowOfSkies = 0.5;  // standard deviations
+  constexpr double kOfCarried = 1 / 3.0;
+  Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
+  Spectrum seen = Spectrum::Zero();
+  for (const LogRow& row : rows) {
+    seen += row.log_radiance / static_cast<double>(rows.size());
+    const Eigen::Vector3d terms = Eigen::Map<const Eigen::Vector3d>(row.terms.data());
+    normal += terms * terms.transpose();
+  }
+  const Eigen::Vector3d before(0, std::pow(kGradationOfSkies, -2), std::pow(kGlowOfSkies, -2));
+  const SkyShape shape = {fit.value[kGradation], fit.value[kGlow]};
+  const Spectrum by_gradation = LevelBy(kGradation, shape, zenith, sun.value_or(zenith));
+  const Spectrum by_glow = sun ? LevelBy(kGlow, shape, zenith, *sun) : Spectrum(Spectrum::Zero());
+  Spectrum sigma = Spectrum::Zero();
+  for (int bin = 0; bin < bins; ++bin) {
+    const Eigen::Vector3d a(1, by_gradation[bin], by_glow[bin]);
+    Eigen::Matrix3d weights = normal / fit.variance[bin];
+    weights.diagonal() += before;
+    const double of_shape = a.dot(weights.ldlt().solve(a));
+    const double of_form = std::pow(kOfCarried * (std::log(level[bin]) - seen[bin]), 2);
+    sigma[bin] = std::sqrt(std::pow(kSigmaOfLevel, 2) + std::pow(fit.rms, 2) + of_shape + of_form);
+  }
+  return sigma;
+}
+
 }  // namespace
 
 SkyFit FitSky(const std::vector<SkyPlace>& places, const Eigen::Vector3d& zenith,
@@ -202,6 +249,7 @@ SkyFit FitSky(const std::vector<SkyPlace>& places, const Eigen::Vector3d& zenith
   const RelativeSky sky(result.shape, zenith, sun.value_or(zenith));
   result.level = Spectrum::Zero();
   result.level->head(bins) = fit.value[kLevel].head(bins).exp() * sky.scale().head(bins);
+  result.level_sigma = *result.level * LevelSigma(fit, rows, *result.level, zenith, sun, bins);
   return result;
 }
 

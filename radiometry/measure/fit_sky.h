@@ -18,9 +18,10 @@ struct SkyFit {
   // Radiance of a uniform sky as bright for open level ground as what is seen and the shape make
   // it; nullopt: no sky is seen.
   std::optional<Spectrum> level;
-  double rms = 0;                  // of ln radiance about the fit
-  int cells = 0;                   // places, 5 degrees apart at least
-  double lowest = 0, highest = 0;  // heights above the horizon of what is seen [rad]
+  Spectrum level_sigma = Spectrum::Zero();  // of `level`, with what is not seen of the sky's shape
+  double rms = 0;                           // of ln radiance about the fit
+  int cells = 0;                            // places, 5 degrees apart at least
+  double lowest = 0, highest = 0;           // heights above the horizon of what is seen [rad]
 };
 
 // Fits ln L = ln L_0 + p G + q H (light/sky.h) per bin by least squares, places that contradict the

@@ -63,6 +63,20 @@ TEST_F(RenderSiteTest, NeedsTheDescriptionsAndTheImagesAlone) {
   EXPECT_THAT(ReadWhole(site_.montages() / "photo.uncertainty.csv"), HasSubstr("sigma_major_px"));
 }
 
+TEST_F(RenderSiteTest, HoldsNoPictureThatIsWrittenUnlessAskedTo) {
+  RenderSiteOptions options;
+  const RenderResult kept = RenderSite(site_, options)[0].result;
+  options.keeps_pictures = false;
+  const RenderSiteReport report = RenderSite(site_, options)[0];
+  EXPECT_EQ(report.pixels, 64 * 48);
+  for (const Raster* picture :
+       {&report.result.linear, &report.result.layers, &report.result.unseen}) {
+    EXPECT_TRUE(picture->data.empty());
+  }
+  EXPECT_EQ(report.result.building_pixels, kept.building_pixels);
+  EXPECT_EQ(ReadPhotograph(site_.montages() / "photo.exr").linear.data, kept.linear.data);
+}
+
 // In the frame of the pinhole a montage is made of the input image, as that camera sees it.
 TEST_F(RenderSiteTest, ThePinholesFrameShowsTheInputImage) {
   for (size_t i = 0; i < small_.photo.data.size(); ++i) {

@@ -221,5 +221,64 @@ TEST(FitDaylight, RefusesTooFewSamples) {
   EXPECT_NO_THROW(FitDaylight(samples, kBrdf, false, {}));
 }
 
+// Samples under a sky of which they see little, on an uneven material.
+class FitDaylightUnderASky : public testing::Test {
+ protected:
+  FitDaylightUnderASky() {
+    light_.ambient_radiance.setZero();
+    MakeSamples(0.1);
+  }
+  // `unevenness`: standard deviation of their reflectance, relative.
+  void MakeSamples(double unevenness) {
+    std::mt19937 random(5);
+    std::normal_distribution<double> texture(1, unevenness);
+    samples_ = ExactSamples(light_);
+    for (DaylightSample& sample : samples_) {
+      sample.geometry.sky *= 0.2;
+      sample.surroundings = Spectrum::Constant(0.5);
+      sample.true_color = texture(random) * kBrdf *
+                          (light_.sun_radiance * sample.geometry.sun +
+                           light_.sky_radiance * sample.geometry.sky + *sample.surroundings);
+      sample.sigma = 0.003 * sample.true_color;  // of the mean over a few pixels
+    }
+  }
+  DaylightFit Fit(const std::optional<SkyObservation>& sky) const {
+    return FitDaylight(samples_, kBrdf, true, {}, {.sky = sky});
+  }
+  // Of the open sky.
+  double SkyError(const DaylightFit& fit) const {
+    return RelativeError(fit.sky_radiance + fit.ambient_radiance, light_.sky_radiance);
+  }
+
+  Daylight light_ = Truth();
+  std::vector<DaylightSample> samples_;
+};
+
+TEST_F(FitDaylightUnderASky, ThePhotographedSkyIsAnObservation) {
+  const SkyObservation sky = {light_.sky_radiance, 0.05 * light_.sky_radiance};
+  const DaylightFit without = Fit(std::nullopt), with = Fit(sky);
+  EXPECT_FALSE(without.sky_over_sigma);
+  EXPECT_GT(SkyError(without), 0.08);
+  EXPECT_LT(SkyError(with), 0.05);
+  EXPECT_TRUE((with.sky_sigma < 0.8 * without.sky_sigma).all());
+  ASSERT_TRUE(with.sky_over_sigma);
+  EXPECT_LT(*with.sky_over_sigma, 1);
+}
+
+TEST_F(FitDaylightUnderASky, AVagueSkyChangesNothing) {
+  const DaylightFit without = Fit(std::nullopt),
+                    with = Fit(SkyObservation{2 * light_.sky_radiance, 50 * light_.sky_radiance});
+  EXPECT_LT(RelativeError(with.sun_radiance, without.sun_radiance), 1e-3);
+  EXPECT_LT(RelativeError(with.sky_radiance, without.sky_radiance), 1e-3);
+}
+
+TEST_F(FitDaylightUnderASky, ASkyThatContradictsTheSamplesCountsLess) {
+  MakeSamples(
+      0.03);  // which tell the sky to 9 %; believed, the other would make it twice as bright
+  const SkyObservation other = {6 * light_.sky_radiance, 0.15 * light_.sky_radiance};
+  EXPECT_LT(SkyError(Fit(other)), 0.5);
+  EXPECT_GT(*Fit(other).sky_over_sigma, 10);
+}
+
 }  // namespace
 }  // namespace insitu

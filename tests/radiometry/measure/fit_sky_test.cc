@@ -69,6 +69,32 @@ TEST(FitSky, AClearSkyIsFoundWithItsGlow) {
   EXPECT_NEAR(Mean(fit.shape.glow), 0.9, 0.05);
 }
 
+// Told beyond doubt, but it changes what is seen by 2 %: lenses do as much.
+TEST(FitSky, AGradationThatHardlyShowsIsNotBelieved) {
+  const SkyFit fit =
+      FitSky(Seen(Shape(0.03, 0), 2, 35, 0.001), kZenith, std::nullopt, SpectralBasis());
+  EXPECT_LT(3 * Mean(fit.sigma.gradation), 0.03);
+  EXPECT_TRUE(fit.shape.IsUniform());
+}
+
+// The level for level ground is told as well as the shape tells what is not seen.
+TEST(FitSky, TheLevelIsLessCertainTheLessIsSeen) {
+  const auto relative_sigma = [](const std::vector<SkyPlace>& places, bool has_sun) {
+    const auto sun = has_sun ? std::optional(kSun) : std::nullopt;
+    const SkyFit fit = FitSky(places, kZenith, sun, SpectralBasis());
+    return Mean(fit.level_sigma / *fit.level);
+  };
+  const double half = relative_sigma(Seen(Shape(1, 0), 2, 45), false);
+  const double even = relative_sigma(Seen(Shape(0, 0), 2, 45), false);
+  EXPECT_GT(even, 0.03);
+  EXPECT_LT(even, 0.04);
+  EXPECT_GT(half, 1.5 * even);  // whose shape carries it far from what is seen
+  const double strip = relative_sigma(Seen(Shape(0.3, 0), 3, 6, 0.02), false);
+  EXPECT_GT(strip, 2 * even);
+  EXPECT_GT(relative_sigma(Seen(Shape(0.3, 0), 3, 6, 0.02), true), strip);      // its glow, too
+  EXPECT_GT(relative_sigma(Seen(Shape(1, 0), 2, 45, 0.3), false), 1.2 * half);  // clouds
+}
+
 // Sky that is blue on top and white at the horizon.
 TEST(FitSky, EachWavelengthHasItsOwn) {
   const RelativeSky red(Shape(-1.2, 0), kZenith, kSun), blue(Shape(-0.4, 0), kZenith, kSun);
