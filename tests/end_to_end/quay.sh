@@ -12,6 +12,10 @@ if [[ ! -d $shared/data/$name ]]; then
   printf 'SKIPPED: no shared data in %s\n' "$shared"
   exit 77
 fi
+if [[ ${CI:-} == true ]]; then
+  printf 'SKIPPED: ten minutes of figures, which CI has not: scripts/test end_to_end/%s\n' "$name"
+  exit 77
+fi
 
 # Linear photographs: the noise of JPEG would hide the smaller changes.
 site=$temporary/$name
