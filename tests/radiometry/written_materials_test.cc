@@ -27,8 +27,11 @@ TEST(WrittenMaterials, AreRead) {
   const size_t begin = text.find('\n', text.find("```", heading)) + 1;
   WriteWhole(site.survey() / "materials.json", text.substr(begin, text.find("```", begin) - begin));
   const auto materials = ReadNaturalMaterials(site);
-  ASSERT_EQ(materials.size(), 2u);
+  ASSERT_EQ(materials.size(), 3u);
   EXPECT_NEAR(materials.at("water").specular->roughness.slope, 0.05, 1e-12);
+  ASSERT_TRUE(materials.at("river").bumps);
+  EXPECT_EQ(materials.at("river").bumps->rms_slope, 0.08);
+  EXPECT_EQ(materials.at("river").bumps->longest, 1.5);
 }
 
 }  // namespace
