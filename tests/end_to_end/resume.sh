@@ -61,13 +61,16 @@ goes_on() { render >/dev/null && [[ $(cd "$site" && checksums montages) == "$exp
 check 'then it goes on to the same bytes' goes_on
 
 two_at_a_time() {
-  local pid output
+  local pid output status=0
   anew
   "$INSITU_BIN/insitu-render" "$site" --photo "$name" >/dev/null 2>&1 &
   pid=$!
   while [[ ! -s $partial ]]; do sleep 0.02; done
-  output=$(render 2>&1) && return 1
+  kill -STOP "$pid" # else it may have ended before the other has begun
+  output=$(render 2>&1) || status=$?
+  kill -CONT "$pid"
   wait "$pid"
+  [[ $status -ne 0 ]] || return 1
   [[ $output == *'another program is rendering this picture'* ]]
 }
 check 'two programs do not render one picture at a time' two_at_a_time
@@ -76,6 +79,7 @@ check 'two programs do not render one picture at a time' two_at_a_time
 if mkdir -- "$temporary/disk" && mount -t tmpfs -o size=80m tmpfs "$temporary/disk" 2>/dev/null; then
   trap 'umount -l "$temporary/disk" 2>/dev/null; rm -rf -- "$temporary"' EXIT
   anew
+  rm -rf -- "$site/work/render" # its light alone would fill the disk
   cp -r -- "$site"/{photos,survey,building,work} "$temporary/disk"
   full=$temporary/disk
   fill() { head -c "$(($(df --output=avail -B1 "$full" | tail -n 1) - $1))" /dev/zero >"$full/filled"; }
