@@ -16,8 +16,8 @@ render_with_threads() {
 }
 
 single=$(render_with_threads 1)
-check 'EXR, layers, shadows, PNG, JPEG and the uncertainty of the building, of the one that is asked for' \
-  test "$(wc -l <<<"$single")" -eq 6
+check 'EXR, layers, shadows, what is unseen, PNG, JPEG and the uncertainty of the building, of the one that is asked for' \
+  test "$(wc -l <<<"$single")" -eq 7
 for threads in 2 3; do
   check "$threads threads: the same bytes" test "$(render_with_threads "$threads")" = "$single"
 done

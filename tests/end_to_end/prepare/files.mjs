@@ -73,10 +73,10 @@ const take = async bytes => {
   await person.press("Escape");
   await person.settled();
 };
-await take(Buffer.from("name;x;y;z\nT\u00fcrm;1,5;2;3\n", "latin1"));
-await take(Buffer.from("\ufeffname\tx\ty\tz\nZ\u00fcrich\t4\t5\t6\n", "utf16le"));
+await take(Buffer.from("name;x;y;z\nT\u00fcrm;2600371,5;1200130;431\n", "latin1"));
+await take(Buffer.from("\ufeffname\tx\ty\tz\nZ\u00fcrich\t2600380\t1200140\t432\n", "utf16le"));
 const points = fs.readFileSync(`${site}/survey/control_points.csv`, "utf8");
-report("points of a file are taken, whatever its letters", points.includes("T\u00fcrm,1.5,2,3,") && points.includes("Z\u00fcrich,4,5,6,"),
+report("points of a file are taken, whatever its letters", points.includes("T\u00fcrm,2600371.5,1200130,431,") && points.includes("Z\u00fcrich,2600380,1200140,432,"),
   points.trim().split("\n").slice(-2).join(" | "));
 await person.browser.close();
 await server.stop();
