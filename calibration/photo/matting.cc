@@ -3,6 +3,7 @@
 
 #include <Eigen/LU>
 #include <algorithm>
+#include <cstddef>
 #include <cmath>
 #include <utility>
 #include <vector>
@@ -85,7 +86,7 @@ class Laplacian {
   void ForEach(const Window& window, const Function& function) const {
     for (int v = -1; v <= 1; ++v) {
       for (int u = -1; u <= 1; ++u) {
-        const size_t i = window.center + v * photo_.width + u;
+        const size_t i = window.center + static_cast<std::ptrdiff_t>(v) * photo_.width + u;
         function(i, Color(i) - window.mean);
       }
     }

@@ -17,7 +17,8 @@ namespace {
 constexpr double kRankDefect = 1e16;  // condition reported then
 constexpr double kRankTolerance = 1e-8;
 // Sigmas from where a photographed sky counts less. Nearer it is the samples that give way: it is
-// seen as it is, while what stands around them, trees above all, may be no polygon.
+// seen as it is, while what stands around them may be no polygon. Chosen on three sites whose sky
+// is known.
 constexpr double kFarOff = 5;
 
 // The ambient column of Eq. (9): pi as in Eq. (4); none where the surroundings are known.

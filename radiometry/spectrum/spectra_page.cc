@@ -67,13 +67,11 @@ Json::Value BasesJson(const RgbPrimaries& primaries, const SpectralBins& bins) {
 // Over all colours of a cube of steps: the worst error of a channel, and the lowest radiance there
 // is relative to the spectrum's peak, 0 where none is negative.
 Json::Value RoundTripJson(const SpectralBasis& basis) {
-  constexpr int kCubeSteps = 16;
+  constexpr int kCubeSteps = 16, kSide = kCubeSteps + 1;
   double worst = 0, lowest = 0;
-  for (int index = 1; index < (kCubeSteps + 1) * (kCubeSteps + 1) * (kCubeSteps + 1); ++index) {
-    const Eigen::Vector3d rgb =
-        Eigen::Vector3d(index % (kCubeSteps + 1), index / (kCubeSteps + 1) % (kCubeSteps + 1),
-                        index / (kCubeSteps + 1) / (kCubeSteps + 1)) /
-        kCubeSteps;
+  for (int index = 1; index < kSide * kSide * kSide; ++index) {
+    const Eigen::Vector3i steps(index % kSide, index / kSide % kSide, index / kSide / kSide);
+    const Eigen::Vector3d rgb = steps.cast<double>() / kCubeSteps;
     const Spectrum spectrum = basis.SpectrumFromRgb(rgb);
     worst = std::max(worst, (basis.RgbFromSpectrum(spectrum) - rgb).cwiseAbs().maxCoeff());
     lowest = std::min(lowest, spectrum.minCoeff() / spectrum.maxCoeff());
