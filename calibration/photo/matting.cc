@@ -3,8 +3,8 @@
 
 #include <Eigen/LU>
 #include <algorithm>
-#include <cstddef>
 #include <cmath>
+#include <cstddef>
 #include <utility>
 #include <vector>
 
