@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <iostream>
 #include <map>
@@ -66,18 +67,25 @@ void PrintQuality(FILE* out, const RenderSiteReport& report, const RenderSiteOpt
 
 constexpr int kStopped = 3;  // exit status
 
+template <typename Value>
+std::string NameOf(Value value, const std::map<std::string, Value>& named) {
+  return std::ranges::find(named, value, &std::pair<const std::string, Value>::second)->first;
+}
+
 struct RenderCommand {
   SitePaths site;
   RenderSiteOptions options;
-  std::string frame = "photo", sharpness = "measured", tev;
+  std::string frame = NameOf(options.frame, kFrames);
+  std::string sharpness = NameOf(options.sharpness, kSharpness);
+  std::string tev;
   bool no_building = false, streams = false, base64 = false, timing = false;
 };
 
 void AddPhotoOptions(ProgramOptions* program, RenderCommand* command) {
   program->Value("--photo", &command->options.photos, "only this photograph (may be repeated)");
-  program->Value("--frame", &command->frame,
-                 "pixel grid: the photograph's, or that of its input image",
-                 {.one_of = {"photo", "pinhole"}, .text = "photo|pinhole [photo]"});
+  program->Value(
+      "--frame", &command->frame, "pixel grid: the photograph's, or that of its input image",
+      {.one_of = {"photo", "pinhole"}, .text = "photo|pinhole [" + command->frame + "]"});
   program->Flag("--no-building", &command->no_building, "render the empty site");
 }
 
@@ -96,7 +104,7 @@ void AddRenderOptions(ProgramOptions* program, RenderCommand* command) {
   program->Value(
       "--sharpness", &command->sharpness,
       "edges as sharp as insitu-light measured those of the photograph, or as a pixel's square",
-      {.one_of = {"measured", "ideal"}, .text = "measured|ideal [measured]"});
+      {.one_of = {"measured", "ideal"}, .text = "measured|ideal [" + command->sharpness + "]"});
   program->Flag("--grain", &options.with_grain, "computed pixels get the photograph's grain");
   program->Value("--bounces", &options.bounces,
                  "bounces of light among surfaces; 0: sun and sky alone; without: all",

@@ -55,9 +55,10 @@ check 'a stream that is cut is told, what came of it shown' a_stream_that_is_cut
 in_tev() {
   /usr/bin/python3 "$tests/tev_viewer.py" "$temporary/port" "$temporary/viewed.json" &
   local viewer=$!
-  while [[ ! -s $temporary/port ]]; do sleep 0.05; done
+  while [[ ! -s $temporary/port ]] && kill -0 "$viewer"; do sleep 0.05; done
   rm -rf -- "$site/montages"
-  "$INSITU_BIN/insitu-render" "$site" --photo "$name" --tev "127.0.0.1:$(<"$temporary/port")" >/dev/null || return 1
+  "$INSITU_BIN/insitu-render" "$site" --photo "$name" --tev "127.0.0.1:$(<"$temporary/port")" >/dev/null ||
+    { kill "$viewer" && return 1; }
   wait "$viewer" || return 1
   [[ $(sums) == "$expected" ]] || return 1
   oiiotool --stats "$site/montages/$name.exr" | grep 'Stats Avg' >"$temporary/stats"
