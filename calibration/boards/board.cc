@@ -70,7 +70,7 @@ void CheckKeys(const fs::path& path, const std::map<std::string, BoardLine>& lin
   for (const auto& [key, line] : lines) {
     if (key == "type" || key == "note" || std::ranges::count(keys->second, key) > 0) continue;
     std::string expected = "type";
-    for (const std::string& known : keys->second) expected += ", " + known;
+    for (const std::string& known : keys->second) expected.append(", ").append(known);
     throw InputError(path, line.line,
                      "\"" + key + "\" is unknown, expected " + expected + " or note");
   }

@@ -4,6 +4,7 @@
 #include <OpenImageIO/imagecache.h>
 
 #include <algorithm>
+#include <cstddef>
 #include <stdexcept>
 
 #include "calibration/files/error.h"
@@ -59,7 +60,7 @@ Eigen::Vector3d TiledImage::Rgb(int x, int y) const {
   if (pixels == nullptr) {
     throw std::runtime_error(file_.string() + ": cannot be read any more: " + tiles.geterror());
   }
-  const int row = y % tile_height_, column = x % tile_width_;
+  const std::ptrdiff_t row = y % tile_height_, column = x % tile_width_;
   const float* at = static_cast<const float*>(pixels) + 3 * (row * tile_width_ + column);
   const Eigen::Vector3f rgb = Eigen::Map<const Eigen::Vector3f>(at).cwiseProduct(factor_);
   tiles.release_tile(tile);
