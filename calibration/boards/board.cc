@@ -58,6 +58,13 @@ const std::map<std::string, std::vector<std::string>>& KeysOfTypes() {
   return keys;
 }
 
+InputError UnknownKey(const fs::path& path, int line, const std::string& key,
+                      const std::vector<std::string>& known_keys) {
+  std::string expected = "type";
+  for (const std::string& known : known_keys) expected += ", " + known;
+  return {path, line, "\"" + key + "\" is unknown, expected " + expected + " or note"};
+}
+
 void CheckKeys(const fs::path& path, const std::map<std::string, BoardLine>& lines) {
   if (!lines.contains("type")) throw InputError(path, "type is missing");
   const BoardLine& type = lines.at("type");
@@ -69,10 +76,7 @@ void CheckKeys(const fs::path& path, const std::map<std::string, BoardLine>& lin
   }
   for (const auto& [key, line] : lines) {
     if (key == "type" || key == "note" || std::ranges::count(keys->second, key) > 0) continue;
-    std::string expected = "type";
-    for (const std::string& known : keys->second) expected.append(", ").append(known);
-    throw InputError(path, line.line,
-                     "\"" + key + "\" is unknown, expected " + expected + " or note");
+    throw UnknownKey(path, line.line, key, keys->second);
   }
   for (const std::string& key : keys->second) {
     if (!lines.contains(key)) throw InputError(path, key + " is missing");
