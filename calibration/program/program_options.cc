@@ -109,7 +109,7 @@ std::string ProgramOptions::CommandLine() const {
 }
 
 std::optional<int> ProgramOptions::Parse(int argc, char** argv) {
-  constexpr int kBadInput = 2;
+  constexpr int kBadOptions = 2;
   CLI::App& app = parser_->app;
   app.set_version_flag("--version", name_ + " " INSITU_VERSION);
   if (argc == 2 && std::string_view(argv[1]) == kListOptions) {
@@ -122,7 +122,7 @@ std::optional<int> ProgramOptions::Parse(int argc, char** argv) {
     return app.exit(help_or_version);
   } catch (const CLI::ParseError& error) {
     std::cerr << name_ << ": " << error.what() << " (see --help)\n";
-    return kBadInput;
+    return kBadOptions;
   }
   return std::nullopt;
 }
