@@ -26,9 +26,12 @@ run() { "$INSITU_BIN/insitu-$1" "$site" "${@:2}" >/dev/null; }
 site=$base
 for program in calibrate reconstruct undistort light convert; do check "gallery, $program" run "$program"; done
 
-# montage_of ENDING: renders the photograph; where $building is set, with the building.
+# montage_of ENDING: renders the photograph; where $building is set, with the building, in direct light:
+# colours are looked at, not light.
 montage_of() {
-  run undistort && run render "${building:---no-building}" --photo "$name" &&
+  local options=(--no-building)
+  [[ -z ${building:-} ]] || options=(--no-shadow-search --bounces 0)
+  run undistort && run render "${options[@]}" --photo "$name" &&
     [[ -s $site/montages/$name.$1 ]]
 }
 # new_site FILE: $site is the gallery with this as its photograph.
@@ -110,9 +113,9 @@ montages_in() {
   new_site "$gallery/photos/$name.jpg"
   rm -- "$photo"
   "$WRITE_PHOTOGRAPH" "$1" "$gallery/photos_linear/$name.exr" "$site/photos/$name.$2"
-  building=--no-building montage_of "$2" &&
+  montage_of "$2" &&
     mv -- "$site/montages/$name.$2" "$temporary/$1.without.$2" &&
-    building=--no-shadow-search montage_of "$2" &&
+    building=seen montage_of "$2" &&
     mv -- "$site/montages/$name.$2" "$temporary/$1.with.$2"
 }
 check 'sRGB, montages' montages_in srgb png
