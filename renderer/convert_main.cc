@@ -15,6 +15,7 @@ namespace {
 struct ConvertCommand {
   std::filesystem::path input;   // a site folder, or a model
   std::filesystem::path output;  // of a model: its description; empty: none is written
+  std::string variant;           // of a site
   std::string report;
   bool list = false, preview = false;
   ConvertOptions options;
@@ -32,20 +33,24 @@ void Write(const ConvertCommand& command, const SitePaths& site, const Conversio
 }
 
 void ConvertSite(const ConvertCommand& command) {
-  const SitePaths site{command.input};
+  const SitePaths site{command.input, command.variant};
+  RequireVariant(site);
   if (!command.output.empty()) throw InputError(command.input, "is a site: -o is of a model alone");
   if (command.list) {
     std::cout << MaterialsTemplate(site, command.options);
     return;
   }
   const Conversion conversion = ConvertBuilding(site, command.options);
-  Write(command, site, conversion, site.root / "work/building_preview");
+  Write(command, site, conversion, site.design() / "building_preview");
   WriteArtificialEnvironment(site, conversion.environment);
 }
 
 // Without a site: no materials.json, placement or lamps; images inside the model go beside the
 // output, or nowhere.
 void ConvertModel(ConvertCommand command) {
+  if (!command.variant.empty()) {
+    throw InputError(command.input, "is a model alone: --variant is of a site");
+  }
   const TemporaryFolder folder;
   const bool kept = !command.output.empty();
   const SitePaths site{kept ? std::filesystem::absolute(command.output).parent_path()
@@ -79,6 +84,8 @@ int RunConvert(int argc, char** argv) {
   ConvertCommand command;
   program.Value("SITE", &command.input, "site folder, or a model's file",
                 {.is_required = true, .check = OptionCheck::kPath});
+  program.Value("--variant", &command.variant,
+                "of a site, the design in variants/VARIANT; to work/variants/VARIANT");
   program.Value("-o,--output", &command.output, "write a model alone as FILE.json and FILE.bin");
   program.Value("--model", &command.options.models, "read this model instead of those in building/",
                 {.takes_all = true, .check = OptionCheck::kFile});

@@ -27,7 +27,9 @@ struct MontageCommand {
 
 void AddOptions(ProgramOptions* program, MontageCommand* command) {
   program->Site(&command->request.site);
-  program->Flag("--no-building", &command->no_building, "render the empty site");
+  program->Value("--variant", &command->request.site.variant,
+                 "the design in variants/VARIANT instead of building/; to montages/VARIANT");
+  program->Flag("--no-building", &command->no_building, "render the empty site", "--variant");
   program->Value("--frame", &command->frame, "pixel grid of the montages: photo or pinhole",
                  {.one_of = {"photo", "pinhole"}});
   program->Flag("--tie-points", &command->request.with_tie_points,
@@ -57,6 +59,12 @@ void AddOptions(ProgramOptions* program, MontageCommand* command) {
 void Complete(MontageCommand* command) {
   MontageRequest& request = command->request;
   request.with_building = !command->no_building;
+  RequireVariant(request.site);
+  if (!request.site.variant.empty()) {
+    for (const char* stage : {"convert", "render"}) {
+      request.options[stage].push_back("--variant=" + request.site.variant);
+    }
+  }
   if (command->no_building) request.options["render"].push_back("--no-building");
   if (!command->frame.empty()) request.options["render"].push_back("--frame=" + command->frame);
   for (const char* stage : {"light", "render"}) {

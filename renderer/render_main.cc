@@ -86,7 +86,9 @@ void AddPhotoOptions(ProgramOptions* program, RenderCommand* command) {
   program->Value(
       "--frame", &command->frame, "pixel grid: the photograph's, or that of its input image",
       {.one_of = {"photo", "pinhole"}, .text = "photo|pinhole [" + command->frame + "]"});
-  program->Flag("--no-building", &command->no_building, "render the empty site");
+  program->Value("--variant", &command->site.variant,
+                 "the design in variants/VARIANT instead of building/; to montages/VARIANT");
+  program->Flag("--no-building", &command->no_building, "render the empty site", "--variant");
 }
 
 // What decides on the pixels.
@@ -126,6 +128,7 @@ void AddRunOptions(ProgramOptions* program, RenderCommand* command) {
 
 void RenderAndReport(const RenderCommand& command) {
   RenderSiteOptions options = command.options;
+  RequireVariant(command.site);
   options.frame = kFrames.at(command.frame);
   options.sharpness = kSharpness.at(command.sharpness);
   options.with_building = !command.no_building;

@@ -178,7 +178,7 @@ void WriteRenderRecord(const SitePaths& site, const std::string& photo,
   record["frame"] = FrameName(options.frame);
   record["with_building"] = options.with_building;
   record["most_rays"] = options.render.most_rays;
-  WriteJson(site.root / "work/render" / (photo + ".json"), record);
+  WriteJson(site.render_record(photo), record);
 }
 
 // All photographs of a run, each of which may go on where an earlier run was stopped.
@@ -258,7 +258,7 @@ class SiteRender {
   }
 
  private:
-  std::filesystem::path LightCache() const { return site_.root / "work/render/light.cache"; }
+  std::filesystem::path LightCache() const { return site_.design() / "render/light.cache"; }
 
   long GatheredPoints() const {
     return scene_.interreflected->on_site.points() + scene_.interreflected->on_building.points();
@@ -285,7 +285,7 @@ class SiteRender {
     const Raster& photo = InUnit(view);
     const std::string name = photograph.stem().string();
     partials_.push_back(std::make_unique<PartialRender>(
-        site_.root / "work/render" / (name + ".partial"),
+        site_.partial_render(name),
         PartialHeader{photo.width, photo.height, FrameName(options_.frame),
                       PhotographInputsSha256(site_, inputs_, photograph)}));
     PartialRender& partial = *partials_.back();

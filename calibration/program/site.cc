@@ -5,6 +5,7 @@
 #include <array>
 #include <cctype>
 #include <map>
+#include <set>
 
 #include "calibration/files/error.h"
 #include "calibration/files/raw_ending.h"
@@ -30,6 +31,22 @@ void RequireResult(const fs::path& result, const std::string& program) {
   if (!fs::exists(result)) {
     throw InputError(result, "is not there, expected the result of " + program + "; run it first");
   }
+}
+
+void RequireVariant(const SitePaths& site) {
+  if (site.variant.empty()) return;
+  std::set<std::string> names;
+  std::error_code none;
+  for (const fs::directory_entry& entry : fs::directory_iterator(site.variants(), none)) {
+    const std::string name = entry.path().filename().string();
+    if (entry.is_directory() && !name.starts_with('.')) names.insert(name);
+  }
+  if (names.contains(site.variant)) return;
+  std::string known;
+  for (const std::string& name : names) known += (known.empty() ? "" : ", ") + name;
+  throw InputError(site.variants(),
+                   "has no folder \"" + site.variant + "\", expected " +
+                       (known.empty() ? "one, with the content of building/" : "one of " + known));
 }
 
 std::vector<fs::path> ListPhotographs(const SitePaths& site) {

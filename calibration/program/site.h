@@ -10,13 +10,24 @@ namespace insitu {
 
 struct SitePaths {
   std::filesystem::path root;
+  // The design that is put into the photographs: a folder of variants/; "": that in building/.
+  std::string variant = {};
 
   std::filesystem::path photos() const { return root / "photos"; }
   std::filesystem::path boards() const { return root / "calibration"; }
   std::filesystem::path brought_camera() const { return root / "calibration/camera.cameramodel"; }
   std::filesystem::path survey() const { return root / "survey"; }
-  std::filesystem::path building() const { return root / "building"; }
-  std::filesystem::path montages() const { return root / "montages"; }
+  std::filesystem::path variants() const { return root / "variants"; }
+  std::filesystem::path building() const {
+    return variant.empty() ? root / "building" : variants() / variant;
+  }
+  std::filesystem::path montages() const {
+    return variant.empty() ? root / "montages" : root / "montages" / variant;
+  }
+  // What is made of this design and of nothing else: its description, renders at work.
+  std::filesystem::path design() const {
+    return variant.empty() ? root / "work" : root / "work/variants" / variant;
+  }
 
   std::filesystem::path description() const { return root / "site.json"; }
 
@@ -54,11 +65,21 @@ struct SitePaths {
   }
   std::filesystem::path points_csv() const { return root / "work/reconstruction/points.csv"; }
   std::filesystem::path lock() const { return root / "work/.lock"; }
-  // What insitu-montage keeps of its stages.
-  std::filesystem::path stages() const { return root / "work/stages"; }
+  // What insitu-montage keeps of its stages; of those that make the building, by design.
+  std::filesystem::path stages() const { return design() / "stages"; }
   std::filesystem::path environment() const { return root / "work/environment.json"; }
-  std::filesystem::path artificial() const { return root / "work/building.json"; }
+  std::filesystem::path artificial() const { return design() / "building.json"; }
+  std::filesystem::path render_record(const std::string& photo) const {
+    return design() / "render" / (photo + ".json");
+  }
+  std::filesystem::path partial_render(const std::string& photo) const {
+    return design() / "render" / (photo + ".partial");
+  }
 };
+
+// Throws InputError, naming those there are: the site has no such variant, or its name is no
+// folder's.
+void RequireVariant(const SitePaths& site);
 
 // Whether a name ends as the photographs do that we read, in any case: JPEG, PNG, TIFF, EXR and
 // raw.

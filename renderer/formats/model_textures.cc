@@ -26,7 +26,7 @@ std::string WrittenImage(const SitePaths& site, const fs::path& file, const std:
   const auto image = model.images.find(name);
   const std::string ending = image == model.images.end() ? "" : EndingOf(image->second);
   if (ending.empty()) return "";
-  const fs::path folder = fs::absolute(site.root / "work/building_textures").lexically_normal();
+  const fs::path folder = fs::absolute(site.design() / "building_textures").lexically_normal();
   const fs::path path = folder / (file.filename().string() + "_" + name.substr(1) + ending);
   WriteWhole(path, image->second);
   return path.string();

@@ -197,14 +197,16 @@ std::vector<MontageStage> MakeStages() {
        ConversionInputs,
        Building,
        NoReports,
-       [](const MontageRequest& request) { return request.with_building; }},
+       [](const MontageRequest& request) { return request.with_building; },
+       true},
       {"render",
        "the building in the photographs",
        {"undistort", "light", "convert"},
        RenderInputs,
        Montages,
        NoReports,
-       Always},
+       Always,
+       true},
   };
 }
 
@@ -213,6 +215,10 @@ std::vector<MontageStage> MakeStages() {
 const std::vector<MontageStage>& MontageStages() {
   static const std::vector<MontageStage> stages = MakeStages();
   return stages;
+}
+
+SitePaths RecordsOf(const MontageStage& stage, const MontageRequest& request) {
+  return stage.is_of_design ? request.site : SitePaths{request.site.root};
 }
 
 size_t StageNamed(const std::string& name) {

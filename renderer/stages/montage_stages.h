@@ -34,7 +34,11 @@ struct MontageStage {
   std::function<std::vector<std::filesystem::path>(const MontageRequest&)> reports;
   // Whether there is anything for it to do.
   std::function<bool(const MontageRequest&)> is_needed;
+  bool is_of_design = false;  // reads the building: one record a variant
 };
+
+// Where the records of a stage are kept.
+SitePaths RecordsOf(const MontageStage& stage, const MontageRequest& request);
 
 const std::vector<MontageStage>& MontageStages();
 

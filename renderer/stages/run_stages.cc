@@ -144,7 +144,7 @@ class Run {
         stages_(MontageStages()),
         states_(stages_.size(), State::kWaiting),
         outcomes_(stages_.size()),
-        hashes_(request.site.stages() / "hashes.json") {
+        hashes_(SitePaths{request.site.root}.stages() / "hashes.json") {
     for (size_t i = 0; i < stages_.size(); ++i) {
       if (i < options.first || i > options.last) states_[i] = State::kDone;
       outcomes_[i].stage = stages_[i].name;
@@ -228,7 +228,7 @@ class Run {
     }
     const fs::path program = FindProgram(options_.programs, stage.name);
     StageRecord now = CurrentState(stage, program);
-    const std::optional<StageRecord> then = ReadStageRecord(request_.site, stage.name);
+    const std::optional<StageRecord> then = ReadStageRecord(RecordsOf(stage, request_), stage.name);
     const std::vector<std::string> reasons =
         then ? WhatChanged(*then, now) : std::vector<std::string>{"it has not run yet"};
     if (reasons.empty()) {
@@ -259,10 +259,10 @@ class Run {
     const std::string expected =
         last_seconds < 2 ? "…" : "… (" + DurationText(last_seconds) + " last time)";
     console_.SetRunning(i, Line(i, expected));
-    RemoveStageRecord(request_.site, stage.name);
+    RemoveStageRecord(RecordsOf(stage, request_), stage.name);
     const auto start = std::chrono::steady_clock::now();
     const StageRun run = RunStageProgram(
-        command, StageLog(request_.site, stage.name),
+        command, StageLog(RecordsOf(stage, request_), stage.name),
         [&](const std::string& progress) { console_.SetRunning(i, Line(i, progress)); },
         [&](const std::string& line) { console_.Error(line); });
     if (run.status != 0) {
@@ -288,7 +288,7 @@ class Run {
     }
     record->outputs = StatesOf(request_.site, stage.outputs(request_), &hashes_);
     std::erase_if(record->outputs, [](const auto& file) { return file.second.empty(); });
-    WriteStageRecord(request_.site, stage.name, *record);
+    WriteStageRecord(RecordsOf(stage, request_), stage.name, *record);
   }
 
   int StatusOf(size_t i, int status) {
@@ -297,7 +297,7 @@ class Run {
     const std::string how = status > 128 ? "was ended by signal " + std::to_string(status - 128)
                                          : "ended with status " + std::to_string(status);
     console_.Error("insitu-" + stages_[i].name + " " + how + "; what it printed is in " +
-                   StageLog(request_.site, stages_[i].name).string());
+                   StageLog(RecordsOf(stages_[i], request_), stages_[i].name).string());
     return 1;
   }
 

@@ -166,8 +166,7 @@ std::vector<Json::Value> RunningRenders::Poll(
     const std::lock_guard lock(mutex_);
     Followed& followed = followed_[name];
     if (!followed.reader) {
-      followed.reader =
-          std::make_unique<PartialRenderReader>(site_.root / "work/render" / (name + ".partial"));
+      followed.reader = std::make_unique<PartialRenderReader>(site_.partial_render(name));
     }
     PartialRenderReader::News news = followed.reader->Read();
     const std::string state = !news.header ? "none" : news.is_running ? "running" : "waiting";

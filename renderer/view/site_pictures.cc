@@ -85,10 +85,10 @@ Json::Value SitePictures::Described(int id, const std::string& kind,
   return json;
 }
 
-// As insitu-render noted it; of variants and other hours nothing is noted.
+// As insitu-render noted it; of other hours nothing is noted.
 std::string SitePictures::FrameOf(const std::string& photo, const std::string& variant) const {
-  const fs::path record = site_.root / "work/render" / (photo + ".json");
-  if (!variant.empty() || !fs::exists(record)) return "photo";
+  const fs::path record = SitePaths{site_.root, variant}.render_record(photo);
+  if (!fs::exists(record)) return "photo";
   try {
     return ReadJson(record)["frame"].asString();
   } catch (const std::exception&) {

@@ -116,6 +116,25 @@ check 'kill ends all' ends_on TERM 143
 check 'leaving nothing' leaves_nothing
 check 'then the stage runs again' runs 'calibrate'
 
+# A further design, in direct light and one photograph: it has its own results and records.
+mkdir -- "$site/variants"
+cp -r -- "$site/building" "$site/variants/other"
+variant() {
+  "$INSITU_BIN/insitu" montage "$site" --variant other --render.photo left --bounces 0 --from convert "$@"
+}
+variant_ran() { variant | sed -n 's/^\[[0-9]\/[0-9]\] \([a-z-]*\) .* s$/\1/p' | xargs; }
+check 'a variant is converted and rendered' test "$(variant_ran)" = 'convert render'
+check 'to montages of its own' test -s "$site/montages/other/left.png"
+check 'once' test -z "$(variant_ran)"
+check 'the site'\''s own stay as they are' runs ''
+names_variants() {
+  local error
+  ! error=$("$INSITU_BIN/insitu" montage "$site" --variant othr 2>&1) || return 1
+  printf '%s' "$error"
+  [[ $error == *'variants: has no folder "othr", expected one of other' ]]
+}
+check 'a variant that is not there' names_variants
+
 programs=$temporary/programs
 cp -r -- "$INSITU_BIN" "$programs"
 with_programs() { # STATUS PATTERN

@@ -25,6 +25,33 @@ TEST(IsPhotograph, IsAFileThatIsThereAndNotHidden) {
   EXPECT_FALSE(IsPhotograph(folder.path() / "c.jpg"));
 }
 
+TEST(SitePaths, AVariantHasWhatIsOfItsDesignApart) {
+  const SitePaths site{"site"}, tall{"site", "tall"};
+  EXPECT_EQ(site.building(), "site/building");
+  EXPECT_EQ(tall.building(), "site/variants/tall");
+  EXPECT_EQ(tall.montages(), "site/montages/tall");
+  EXPECT_EQ(tall.artificial(), "site/work/variants/tall/building.json");
+  EXPECT_NE(tall.partial_render("a"), site.partial_render("a"));
+  EXPECT_EQ(tall.environment(), site.environment());
+  EXPECT_EQ(tall.lock(), site.lock());
+}
+
+TEST(RequireVariant, NamesThoseThereAre) {
+  const ScratchFolder folder;
+  EXPECT_NO_THROW(RequireVariant({folder.path()}));
+  EXPECT_EQ(InputErrorOf([&] { RequireVariant({folder.path(), "tal"}); }),
+            (folder.path() / "variants").string() +
+                ": has no folder \"tal\", expected one, with the content of building/");
+  folder.Write("variants/tall/a.dxf", "");
+  folder.Write("variants/low/a.dxf", "");
+  EXPECT_NO_THROW(RequireVariant({folder.path(), "tall"}));
+  for (const std::string name : {"tal", "..", "tall/", "../building"}) {
+    EXPECT_EQ(InputErrorOf([&] { RequireVariant({folder.path(), name}); }),
+              (folder.path() / "variants").string() + ": has no folder \"" + name +
+                  "\", expected one of low, tall");
+  }
+}
+
 TEST(ListPhotographs, OfARawAndItsJpegTakesTheJpeg) {
   const ScratchFolder folder;
   const auto raw = folder.Write("photos/b.dng", ""), alone = folder.Write("photos/a.cr2", "");
