@@ -64,11 +64,17 @@ Vector3d ShownColor(const Vector3d& rgb) {
 TurntableLayers LayersOf(const ModelMesh& mesh) {
   TurntableLayers layers;
   std::map<std::string, int> index_of_name;
-  for (const int surface : mesh.surface_of_triangle) {
+  const auto layer_of = [&](int surface) {
     const auto [found, is_new] = index_of_name.try_emplace(mesh.surfaces[surface].layer,
                                                            static_cast<int>(layers.names.size()));
     if (is_new) layers.names.push_back(found->first);
-    layers.layer_of_triangle.push_back(found->second);
+    return found->second;
+  };
+  for (const int surface : mesh.surface_of_triangle) {
+    layers.layer_of_triangle.push_back(layer_of(surface));
+  }
+  for (const ModelSphere& sphere : mesh.spheres) {
+    layers.layer_of_sphere.push_back(layer_of(sphere.surface));
   }
   return layers;
 }
@@ -138,7 +144,9 @@ void Converter::Add(const fs::path& path) {
   report.format = model.format;
   report.metres_per_unit = model.metres_per_unit;
   report.triangles = static_cast<int>(model.mesh.triangles.size());
-  for (const Vector3d& vertex : model.mesh.vertices) report.box_in_units.extend(vertex / unit);
+  report.spheres = static_cast<int>(model.mesh.spheres.size());
+  const Eigen::AlignedBox3d box = BoxOf(model.mesh);
+  if (!box.isEmpty()) report.box_in_units = {box.min() / unit, box.max() / unit};
   report.placement = ReadPlacement(site_, path.filename().string(), unit);
   report.entities = model.entities;
   report.skipped = model.skipped;
@@ -208,7 +216,7 @@ int Converter::MaterialOf(const SurfaceNames& names) {
   return known->second;
 }
 
-// Triangles of materials that are said to be hidden go; the others get their material's index.
+// Faces of materials that are said to be hidden go; the others get their material's index.
 void Converter::ResolveMaterials() {
   std::vector<std::optional<int>> material_of_surface(mesh_.surfaces.size());
   for (size_t s = 0; s < mesh_.surfaces.size(); ++s) {
@@ -239,13 +247,22 @@ void Converter::DropHidden(const std::vector<std::optional<int>>& material_of_su
       }
     }
     shown.vertices = std::move(mesh_.vertices);
+    shown.spheres = std::move(mesh_.spheres);
     mesh_ = std::move(shown);
   }
-  for (const int surface : mesh_.surface_of_triangle) {
+  const auto count = [&](int surface) {
     const int material = *material_of_surface[surface];
-    environment.material_of_triangle.push_back(material);
     ++conversion_.triangles_of_layer[mesh_.surfaces[surface].layer];
     ++conversion_.triangles_of_material[environment.materials[material].name];
+    return material;
+  };
+  for (const int surface : mesh_.surface_of_triangle) {
+    environment.material_of_triangle.push_back(count(surface));
+  }
+  std::erase_if(mesh_.spheres,
+                [&](const ModelSphere& s) { return !material_of_surface[s.surface]; });
+  for (const ModelSphere& sphere : mesh_.spheres) {
+    environment.spheres.push_back({sphere.center, sphere.radius, count(sphere.surface)});
   }
 }
 
@@ -293,7 +310,7 @@ Conversion Converter::Finish() {
   WarnOfSolids();
   DropUnused(&mesh_);
   conversion_.elements = MeasuresByLayer(mesh_);
-  for (const Vector3d& vertex : mesh_.vertices) conversion_.box.extend(vertex);
+  conversion_.box = BoxOf(mesh_);
   const int raised = RaiseOverlaidFaces(&mesh_);
   if (raised > 0) {
     Warn(place_, std::to_string(raised) +
@@ -359,7 +376,10 @@ Conversion ConvertBuilding(const SitePaths& site, const ConvertOptions& options)
 }
 
 void RequireSurface(const SitePaths& site, const Conversion& conversion) {
-  if (!conversion.environment.triangles.empty()) return RequireSize(site, conversion);
+  const ArtificialEnvironment& building = conversion.environment;
+  if (!building.triangles.empty() || !building.spheres.empty()) {
+    return RequireSize(site, conversion);
+  }
   std::map<std::string, int> entities, reasons;
   for (const ModelReport& model : conversion.models) {
     for (const auto& [kind, count] : model.entities) entities[kind] += count;

@@ -32,7 +32,7 @@ struct ModelReport {
   std::filesystem::path file;
   std::string format;
   std::optional<double> metres_per_unit;  // as the file names it; nullopt: taken as metres
-  int triangles = 0;
+  int triangles = 0, spheres = 0;
   Eigen::AlignedBox3d box_in_units;  // of the file's own coordinates, z up; may be empty
   Placement placement;
   std::map<std::string, int> entities;  // kind -> count
@@ -48,7 +48,7 @@ struct Conversion {
   std::map<std::string, ElementMeasures> elements;  // by layer, as shown
   double chord_tolerance = 0;                       // [m], of what the drawings' arcs became
   TurntableLayers layers;                           // of the environment's triangles
-  std::map<std::string, int> triangles_of_layer;
+  std::map<std::string, int> triangles_of_layer;    // a sphere counts as one
   std::map<std::string, int> triangles_of_material;
   // What materials.json does not list: label -> what the model itself says of its colour.
   std::map<std::string, std::optional<Eigen::Vector3d>> unlisted;

@@ -86,6 +86,7 @@ Json::Value ModelJson(const ModelReport& model) {
       model.placement.metres_per_unit ? model.placement.metres_per_unit : model.metres_per_unit;
   json["metres_per_unit"] = unit ? Json::Value(*unit) : Json::Value();
   json["triangles"] = model.triangles;
+  json["spheres"] = model.spheres;
   AddBox(model.box_in_units, "_in_units", &json);
   json["entities"] = CountsJson(model.entities);
   json["skipped"] = SkippedJson(model.skipped);
@@ -165,6 +166,13 @@ std::string FilesTable(const Conversion& conversion) {
   return table + "</table></section>\n";
 }
 
+// "12 triangles, 1 spheres, 0 lights"
+std::string Counts(const ArtificialEnvironment& building) {
+  std::string text = std::to_string(building.triangles.size()) + " triangles, ";
+  if (!building.spheres.empty()) text += std::to_string(building.spheres.size()) + " spheres, ";
+  return text + std::to_string(building.lights.size()) + " lights";
+}
+
 std::string BoxTable(const Eigen::AlignedBox3d& box) {
   if (box.isEmpty()) return "<p>There is no surface.</p>\n";
   std::string table =
@@ -202,9 +210,8 @@ constexpr char kPageHead[] = R"(<!DOCTYPE html>
 std::string Page(const std::string& picture, const Conversion& conversion) {
   const Sums sums = SumOver(conversion.models);
   std::string page = kPageHead;
-  page += "<p>" + std::to_string(conversion.environment.triangles.size()) + " triangles, " +
-          std::to_string(conversion.environment.lights.size()) +
-          " lights. Arcs of drawings are within " + Number("%.3f", conversion.chord_tolerance) +
+  page += "<p>" + Counts(conversion.environment) + ". Arcs of drawings are within " +
+          Number("%.3f", conversion.chord_tolerance) +
           " m of their facets. Seen from the south-west, z up; material colours.</p>\n";
   page += Turntable(conversion.environment, conversion.layers);
   page += "<img src=\"" + HtmlText(picture) + "\" alt=\"three-quarter view of the building\">\n";
@@ -232,8 +239,7 @@ std::string Written(const Vector3d& point) {
 }  // namespace
 
 std::string Conversion::BriefReport() const {
-  std::string report = std::to_string(environment.triangles.size()) + " triangles, " +
-                       std::to_string(environment.lights.size()) + " lights\n";
+  std::string report = Counts(environment) + "\n";
   if (!box.isEmpty()) {
     report += "  from " + Written(box.min()) + " to " + Written(box.max()) + " m\n";
   }
@@ -258,6 +264,7 @@ void WriteConvertReport(const std::filesystem::path& path, const Conversion& con
   json["format"] = "insitu convert report";
   json["version"] = 1;
   json["triangles"] = Json::Value::Int64(conversion.environment.triangles.size());
+  json["spheres"] = Json::Value::Int64(conversion.environment.spheres.size());
   json["chord_tolerance"] = conversion.chord_tolerance;
   json["lights"] = Json::Value::Int64(conversion.environment.lights.size());
   AddBox(conversion.box, "", &json);

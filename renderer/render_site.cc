@@ -108,7 +108,7 @@ bool IsWithinBuilding(const MontageScene& scene, const PosedCamera& camera) {
   for (const double side : {1.0, -1.0}) {
     for (const Eigen::Vector3d& direction : directions.About(side * Eigen::Vector3d::UnitZ())) {
       const auto hit = scene.artificial_rays.Nearest({center, direction});
-      backs += hit && scene.artificial_normals[hit->triangle].dot(direction) > 0;
+      backs += hit && scene.NormalOf(*hit).dot(direction) > 0;
     }
   }
   return backs > kNearlyAll * 2 * kDirections;

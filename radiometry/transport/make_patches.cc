@@ -129,7 +129,7 @@ class PatchMaker {
   bool IsWithinPlanned(const SurfacePoint& point) const {
     const Ray ray = {point.position + kSurveyClearance * point.normal, point.normal};
     const auto hit = planned_.rays.Nearest(ray);
-    return hit && planned_.normals[hit->triangle].dot(ray.direction) > 0;
+    return hit && planned_.NormalOf(*hit).dot(ray.direction) > 0;
   }
 
   void AddSun(const SurfacePoint& point, Patch* patch) const {
@@ -176,10 +176,11 @@ Patches MakePatches(const PhotographedSite& site, const TriangleMesh& natural,
     }
   }
   for (size_t t = 0; t < planned.mesh.triangles.size(); ++t) {
-    const Eigen::Vector3d& normal = planned.normals[t];
     ForParts(grid, CornersOf(planned.mesh, t), [&](const Eigen::Vector3d& position, double area) {
-      maker.AddPlannedPart({position, normal}, area);
-      maker.AddPlannedPart({position, -normal}, area);
+      const SurfacePoint front =
+          PointOnFace(planned.mesh, planned.normals, static_cast<int>(t), position);
+      maker.AddPlannedPart(front, area);
+      maker.AddPlannedPart({front.position, -front.normal}, area);
     });
   }
   return maker.Finish();

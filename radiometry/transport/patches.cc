@@ -41,6 +41,14 @@ uint64_t FaceLooking(const Eigen::Vector3d& normal) {
 
 }  // namespace
 
+SurfacePoint PointOnFace(const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& normals,
+                         int triangle, const Eigen::Vector3d& flat) {
+  const MeshSphere* sphere = mesh.SphereOf(triangle);
+  if (!sphere) return {flat, normals[triangle]};
+  const Eigen::Vector3d out = (flat - sphere->center).normalized();
+  return {sphere->center + sphere->radius * out, out};
+}
+
 int PatchGrid::LevelAt(const Eigen::Vector3d& position) const {
   double squared = std::numeric_limits<double>::infinity();
   for (const Eigen::AlignedBox3d& focus : foci) {

@@ -38,7 +38,16 @@ struct PlannedFaces {
   const std::vector<int>& material_of_triangle;
   const std::vector<Spectrum>& brdf_of_material;  // diffuse [1/sr]
   const ClearFaces* clear = nullptr;              // nullptr: nothing is of glass
+
+  const Eigen::Vector3d& NormalOf(const RayHit& hit) const {
+    return hit.sphere_normal ? *hit.sphere_normal : normals[hit.triangle];
+  }
 };
+
+// The point of a face below or above `flat`, a point of its triangle [m], on the normal's side: on
+// a sphere where the radius passes.
+SurfacePoint PointOnFace(const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& normals,
+                         int triangle, const Eigen::Vector3d& flat);
 
 struct Patch {
   SurfacePoint point;                        // where its light is gathered

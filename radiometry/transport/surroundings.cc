@@ -60,7 +60,7 @@ void Surroundings::MeetSite(const Ray& ray, const std::optional<RayHit>& hit,
 }
 
 void Surroundings::MeetPlanned(const Ray& ray, const RayHit& hit, Meeting* meeting) const {
-  const Eigen::Vector3d& normal = scene_.planned.normals[hit.triangle];
+  const Eigen::Vector3d& normal = scene_.planned.NormalOf(hit);
   meeting->is_back = normal.dot(ray.direction) > 0;
   meeting->distance = hit.distance;
   meeting->material = scene_.planned.material_of_triangle[hit.triangle];

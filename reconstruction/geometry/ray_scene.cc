@@ -4,6 +4,7 @@
 #include <embree3/rtcore.h>
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -40,6 +41,14 @@ void* NewBuffer(RTCGeometry geometry, RTCBufferType type, RTCFormat format, size
   return data;
 }
 
+constexpr unsigned kTriangles = 0, kSpheres = 1;  // geometries
+
+// Of those that are no facets.
+size_t FlatTriangles(const TriangleMesh& mesh) {
+  if (mesh.spheres.empty()) return mesh.triangles.size();
+  return static_cast<size_t>(mesh.spheres.front().first_facet);
+}
+
 void AttachTriangles(RTCScene scene, const TriangleMesh& mesh) {
   const std::unique_ptr<RTCGeometryTy, decltype(&rtcReleaseGeometry)> owner(
       rtcNewGeometry(Device(), RTC_GEOMETRY_TYPE_TRIANGLE), &rtcReleaseGeometry);
@@ -52,14 +61,44 @@ void AttachTriangles(RTCScene scene, const TriangleMesh& mesh) {
   }
   auto* indices =
       static_cast<unsigned*>(NewBuffer(geometry, RTC_BUFFER_TYPE_INDEX, RTC_FORMAT_UINT3,
-                                       3 * sizeof(unsigned), mesh.triangles.size()));
-  for (const Eigen::Vector3i& triangle : mesh.triangles) {
+                                       3 * sizeof(unsigned), FlatTriangles(mesh)));
+  for (size_t t = 0; t < FlatTriangles(mesh); ++t) {
+    const Eigen::Vector3i& triangle = mesh.triangles[t];
     INSITU_CHECK(triangle.minCoeff() >= 0 &&
                  triangle.maxCoeff() < static_cast<int>(mesh.vertices.size()));
     indices = std::copy_n(triangle.data(), 3, indices);
   }
   rtcCommitGeometry(geometry);
-  rtcAttachGeometry(scene, geometry);
+  rtcAttachGeometryByID(scene, geometry, kTriangles);
+}
+
+void AttachSpheres(RTCScene scene, const std::vector<MeshSphere>& spheres) {
+  const std::unique_ptr<RTCGeometryTy, decltype(&rtcReleaseGeometry)> owner(
+      rtcNewGeometry(Device(), RTC_GEOMETRY_TYPE_SPHERE_POINT), &rtcReleaseGeometry);
+  RTCGeometry geometry = owner.get();
+  if (geometry == nullptr) ThrowOnError(Device());
+  auto* values = static_cast<float*>(NewBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT4,
+                                               4 * sizeof(float), spheres.size()));
+  for (const MeshSphere& sphere : spheres) {
+    const Eigen::Vector3f center = sphere.center.cast<float>();
+    values = std::copy_n(center.data(), 3, values);
+    *values++ = static_cast<float>(sphere.radius);
+  }
+  rtcCommitGeometry(geometry);
+  rtcAttachGeometryByID(scene, geometry, kSpheres);
+}
+
+// Embree's distance is single: of both places where the ray meets the sphere the nearer to it.
+RayHit SphereHit(const MeshSphere& sphere, const Eigen::Vector3d& origin,
+                 const Eigen::Vector3d& direction, double distance) {
+  const Eigen::Vector3d to_center = sphere.center - origin;
+  const double along = to_center.dot(direction);
+  const double across2 = (to_center - along * direction).squaredNorm();
+  const double half = std::sqrt(std::max(0.0, sphere.radius * sphere.radius - across2));
+  const double exact = distance < along ? along - half : along + half;
+  const Eigen::Vector3d normal = (exact * direction - to_center).normalized();
+  const SpherePlace place = FacetTowards(normal, kSphereLevel);
+  return {exact, sphere.first_facet + place.facet, place.uv, normal};
 }
 
 RTCRay EmbreeRay(const Ray& ray) {
@@ -84,12 +123,21 @@ struct RayScene::Embree {
   Embree(const Embree&) = delete;
   Embree& operator=(const Embree&) = delete;
   RTCScene scene;
+  std::vector<MeshSphere> spheres;
+
+  RayHit HitOf(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction, double distance,
+               unsigned geometry, unsigned primitive, const Eigen::Vector2d& uv) const {
+    if (geometry == kSpheres) return SphereHit(spheres[primitive], origin, direction, distance);
+    return {distance, static_cast<int>(primitive), uv};
+  }
 };
 
 RayScene::RayScene(const TriangleMesh& mesh) : embree_(std::make_unique<Embree>()) {
   rtcSetSceneFlags(embree_->scene, RTC_SCENE_FLAG_ROBUST);
   rtcSetSceneBuildQuality(embree_->scene, RTC_BUILD_QUALITY_MEDIUM);
-  if (!mesh.triangles.empty()) AttachTriangles(embree_->scene, mesh);
+  embree_->spheres = mesh.spheres;
+  if (FlatTriangles(mesh) > 0) AttachTriangles(embree_->scene, mesh);
+  if (!mesh.spheres.empty()) AttachSpheres(embree_->scene, mesh.spheres);
   rtcCommitScene(embree_->scene);
   ThrowOnError(Device());
 }
@@ -106,7 +154,8 @@ std::optional<RayHit> RayScene::Nearest(const Ray& ray) const {
   rtcInitIntersectContext(&context);
   rtcIntersect1(embree_->scene, &context, &query);
   if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
-  return RayHit{query.ray.tfar, static_cast<int>(query.hit.primID), {query.hit.u, query.hit.v}};
+  return embree_->HitOf(ray.origin, ray.direction, query.ray.tfar, query.hit.geomID,
+                        query.hit.primID, {query.hit.u, query.hit.v});
 }
 
 bool RayScene::IsOccluded(const Ray& ray) const {
@@ -142,8 +191,8 @@ std::array<std::optional<RayHit>, kPacketSize> RayScene::NearestOfPacket(
   std::array<std::optional<RayHit>, kPacketSize> hits;
   for (size_t i = 0; i < directions.size(); ++i) {
     if (query.hit.geomID[i] == RTC_INVALID_GEOMETRY_ID) continue;
-    hits[i] = RayHit{
-        query.ray.tfar[i], static_cast<int>(query.hit.primID[i]), {query.hit.u[i], query.hit.v[i]}};
+    hits[i] = embree_->HitOf(origin, directions[i], query.ray.tfar[i], query.hit.geomID[i],
+                             query.hit.primID[i], {query.hit.u[i], query.hit.v[i]});
   }
   return hits;
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Rays against triangles, by Embree: nearest hit and occlusion. Geometry only, no light, so that
-// radiometry can ask for visibility too.
+// Rays against triangles and spheres, by Embree: nearest hit and occlusion. Geometry only, no
+// light, so that radiometry can ask for visibility too.
 #pragma once
 
 #include <Eigen/Core>
@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "reconstruction/geometry/scene_geometry.h"
+#include "reconstruction/geometry/sphere_facets.h"
 
 namespace insitu {
 
@@ -25,14 +26,33 @@ struct Ray {
 
 struct RayHit {
   double distance = 0;  // [m]
-  int triangle = 0;     // index into the triangles given
+  int triangle = 0;     // index into the triangles given; on a sphere: the facet below
   Eigen::Vector2d uv;   // barycentric weights of the triangle's second and third corner
+  std::optional<Eigen::Vector3d> sphere_normal = {};  // of a sphere that was met: unit, outwards
 };
+
+// Facets stand for it where places are counted by triangles; rays meet the sphere itself.
+struct MeshSphere {
+  Eigen::Vector3d center;  // [m], local
+  double radius = 0;       // [m]
+  int first_facet = 0;     // index of the first of its kSphereFacets triangles
+};
+
+constexpr int kSphereLevel = 3;
+constexpr int kSphereFacets = SphereFacetCount(kSphereLevel);
 
 // Triangles as three corners each, about a local origin so that single precision suffices.
 struct TriangleMesh {
   std::vector<Eigen::Vector3f> vertices;  // [m], local
   std::vector<Eigen::Vector3i> triangles;
+  std::vector<MeshSphere> spheres =
+      {};  // in the order of their facets, which are the last triangles
+
+  // The sphere that a triangle is a facet of; nullptr: none.
+  const MeshSphere* SphereOf(int triangle) const {
+    if (spheres.empty() || triangle < spheres.front().first_facet) return nullptr;
+    return &spheres[static_cast<size_t>((triangle - spheres.front().first_facet) / kSphereFacets)];
+  }
 };
 
 constexpr int kPacketSize = 16;

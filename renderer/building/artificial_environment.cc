@@ -7,9 +7,11 @@
 #include <cstdint>
 #include <cstring>
 #include <numbers>
+#include <set>
 
 #include "calibration/files/json_file.h"
 #include "calibration/files/whole_file.h"
+#include "reconstruction/geometry/sphere_facets.h"
 
 namespace insitu {
 namespace {
@@ -17,7 +19,7 @@ namespace {
 using Eigen::Vector3d;
 using Eigen::Vector3i;
 
-constexpr int kVersion = 3;
+constexpr int kVersion = 4, kWithoutSpheres = 3;  // both are read
 static_assert(std::endian::native == std::endian::little, "building.bin is written as in memory");
 
 std::filesystem::path MeshPath(std::filesystem::path file) {
@@ -213,6 +215,24 @@ Json::Value MeshJson(const std::filesystem::path& file, const ArtificialEnvironm
   return json;
 }
 
+Json::Value SphereJson(const EnvironmentSphere& sphere) {
+  Json::Value json;
+  json["center"] = ToJson(Eigen::VectorXd(sphere.center));
+  json["radius"] = sphere.radius;
+  json["material"] = sphere.material;
+  return json;
+}
+
+EnvironmentSphere SphereOf(const JsonNode& node, size_t materials) {
+  const EnvironmentSphere sphere{node.At("center").Vector3(), node.At("radius").Number(),
+                                 node.At("material").Integer()};
+  if (!(sphere.radius > 0)) throw node.At("radius").Error("is not above 0");
+  if (sphere.material < 0 || static_cast<size_t>(sphere.material) >= materials) {
+    throw node.At("material").Error("names a material that is not there");
+  }
+  return sphere;
+}
+
 int CountOf(const JsonNode& node) {
   if (node.Integer() < 0) throw node.Error("is negative, expected a count");
   return node.Integer();
@@ -264,6 +284,8 @@ void WriteArtificialEnvironmentFile(const std::filesystem::path& file,
   json["materials"] = Json::arrayValue;
   for (const auto& material : environment.materials)
     json["materials"].append(MaterialJson(material));
+  json["spheres"] = Json::arrayValue;
+  for (const auto& sphere : environment.spheres) json["spheres"].append(SphereJson(sphere));
   json["lights"] = Json::arrayValue;
   for (const auto& light : environment.lights) json["lights"].append(LightJson(light));
   WriteWhole(MeshPath(file), bytes);
@@ -277,7 +299,8 @@ void WriteArtificialEnvironment(const SitePaths& site, const ArtificialEnvironme
 ArtificialEnvironment ReadArtificialEnvironment(const SitePaths& site) {
   RequireResult(site.artificial(), "insitu-convert");
   const JsonNode root = JsonNode::Load(site.artificial());
-  if (root.At("version").Integer() != kVersion) {
+  const int version = root.At("version").Integer();
+  if (version != kVersion && version != kWithoutSpheres) {
     throw root.At("version").Error("is not a version this program reads, expected " +
                                    std::to_string(kVersion));
   }
@@ -285,11 +308,40 @@ ArtificialEnvironment ReadArtificialEnvironment(const SitePaths& site) {
   for (const JsonNode& node : root.At("materials").Items()) {
     environment.materials.push_back(MaterialOf(node));
   }
+  if (version == kVersion) {
+    for (const JsonNode& node : root.At("spheres").Items()) {
+      environment.spheres.push_back(SphereOf(node, environment.materials.size()));
+    }
+  }
   for (const JsonNode& node : root.At("lights").Items()) {
     environment.lights.push_back(LightOf(node));
   }
   ReadMesh(site, root.At("mesh"), &environment);
   CheckIndices(site.artificial(), environment);
+  return environment;
+}
+
+ArtificialEnvironment Faceted(ArtificialEnvironment environment, int level) {
+  if (environment.spheres.empty()) return environment;
+  const SphereFacets unit = UnitSphereFacets(level);
+  const bool has_normals = !environment.corner_normals.empty();
+  for (const EnvironmentSphere& sphere : environment.spheres) {
+    const int first = static_cast<int>(environment.vertices.size());
+    for (const Vector3d& vertex : unit.vertices) {
+      environment.vertices.push_back(sphere.center + sphere.radius * vertex);
+    }
+    for (const Vector3i& facet : unit.triangles) {
+      environment.triangles.push_back(facet + Vector3i::Constant(first));
+      environment.material_of_triangle.push_back(sphere.material);
+      for (const int corner : facet) {
+        if (has_normals) environment.corner_normals.push_back(unit.vertices[corner].cast<float>());
+      }
+    }
+  }
+  if (!environment.corner_uvs.empty()) {
+    environment.corner_uvs.resize(3 * environment.triangles.size(), Eigen::Vector2f(0, 0));
+  }
+  environment.spheres.clear();
   return environment;
 }
 
@@ -358,6 +410,13 @@ std::vector<std::string> NotShown(const ArtificialEnvironment& environment) {
                       "faces without texture coordinates show the mean colour of its texture: "
                       "state \"texture_size_m\": [width, height] of a repeat");
     }
+  }
+  std::set<int> on_spheres;
+  for (const EnvironmentSphere& sphere : environment.spheres) on_spheres.insert(sphere.material);
+  for (const int material : on_spheres) {
+    if (environment.materials[material].texture.empty()) continue;
+    lines.push_back("material \"" + environment.materials[material].name +
+                    "\": spheres show the mean colour of its texture");
   }
   for (const PointLight& light : environment.lights) {
     if (light.candela == 0 || light.intensity_rgb.maxCoeff() > 0) continue;

@@ -63,6 +63,13 @@ struct PointLight {
   bool is_visible = false;  // the luminous surface itself
 };
 
+// The paper's third kind of object: exact, whatever looks at it.
+struct EnvironmentSphere {
+  Eigen::Vector3d center;  // [m], world
+  double radius = 0;       // > 0 [m]
+  int material = 0;        // index into materials
+};
+
 struct ArtificialEnvironment {
   std::vector<SurfaceMaterial> materials;
   std::vector<Eigen::Vector3d> vertices;        // [m], world
@@ -70,12 +77,18 @@ struct ArtificialEnvironment {
   std::vector<int> material_of_triangle;        // index into materials
   std::vector<Eigen::Vector3f> corner_normals;  // empty, or three a triangle: unit
   std::vector<Eigen::Vector2f> corner_uvs;      // empty, or three a triangle
-  std::vector<PointLight> lights;
+  std::vector<EnvironmentSphere> spheres = {};
+  std::vector<PointLight> lights = {};
 };
 
-// work/building.json (readable, versioned) and building.bin beside it (the mesh: little-endian
-// doubles and 32-bit indices, as the JSON states). Reading throws InputError, also when the two
-// files do not belong together.
+// The same with facets in the place of the spheres, behind its triangles, SphereFacetCount(level)
+// each, for what asks for places on them or draws them small. Their UVs are alike: no texture.
+constexpr int kDrawnSphereLevel = 4;  // of pictures of a few hundred pixels
+ArtificialEnvironment Faceted(ArtificialEnvironment environment, int level);
+
+// work/building.json (readable, versioned; its spheres) and building.bin beside it (the mesh:
+// little-endian doubles and 32-bit indices, as the JSON states). Reading throws InputError, also
+// when the two files do not belong together.
 void WriteArtificialEnvironment(const SitePaths& site, const ArtificialEnvironment& environment);
 // The same as any FILE.json and FILE.bin.
 void WriteArtificialEnvironmentFile(const std::filesystem::path& file,
@@ -90,7 +103,7 @@ std::optional<std::array<Eigen::Vector2d, 3>> TextureCoordinates(
     const ArtificialEnvironment& environment, int triangle);
 
 // What the description holds and this version's renderer does not show, a line each: rough glass,
-// textures of faces without a place on them, lamps of unknown strength.
+// textures of spheres and of faces without a place on them, lamps of unknown strength.
 std::vector<std::string> NotShown(const ArtificialEnvironment& environment);
 
 }  // namespace insitu

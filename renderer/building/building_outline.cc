@@ -13,6 +13,7 @@ namespace {
 
 constexpr double kSamePoint = 1e-3;  // [m]
 constexpr double kSharp = std::numbers::pi / 6;
+constexpr int kCornersOfSphere = 16, kSidesOfSilhouette = 128;
 
 // Which point each vertex is; the points come in the vertices' order.
 std::vector<int> JoinedPoints(const std::vector<Eigen::Vector3d>& vertices,
@@ -40,7 +41,46 @@ struct FaceSide {
 
 }  // namespace
 
-BuildingEdges::BuildingEdges(const ArtificialEnvironment& building) {
+namespace {
+
+// `stretch`: of its radius.
+std::vector<Eigen::Vector3d> CircleOf(const Eigen::Vector3d& eye, const EnvironmentSphere& sphere,
+                                      int corners, double stretch) {
+  const Eigen::Vector3d to_eye = eye - sphere.center;
+  const double sine = sphere.radius / to_eye.norm();  // of the cone of lines that touch it
+  if (!(sine < 1)) return {};
+  const Eigen::Vector3d axis = to_eye.normalized();
+  const Eigen::Vector3d u = axis.unitOrthogonal(), v = axis.cross(u);
+  const double across = stretch * sphere.radius * std::sqrt(1 - sine * sine);
+  std::vector<Eigen::Vector3d> circle;
+  for (int i = 0; i < corners; ++i) {
+    const double angle = 2 * std::numbers::pi * i / corners;
+    circle.emplace_back(sphere.center + sphere.radius * sine * axis +
+                        across * (std::cos(angle) * u + std::sin(angle) * v));
+  }
+  return circle;
+}
+
+}  // namespace
+
+std::vector<Eigen::Vector3d> SilhouetteFrom(const Eigen::Vector3d& eye,
+                                            const EnvironmentSphere& sphere, int corners) {
+  return CircleOf(eye, sphere, corners, 1);
+}
+
+// About the circle, not within it: what lies within is hidden behind the sphere itself.
+std::vector<OutlineEdge> SilhouetteEdges(const Eigen::Vector3d& eye,
+                                         const EnvironmentSphere& sphere) {
+  const double stretch = 1 / std::cos(std::numbers::pi / kSidesOfSilhouette);
+  const std::vector<Eigen::Vector3d> circle = CircleOf(eye, sphere, kSidesOfSilhouette, stretch);
+  std::vector<OutlineEdge> edges;
+  for (size_t i = 0; i < circle.size(); ++i) {
+    edges.emplace_back(circle[i], circle[(i + 1) % circle.size()]);
+  }
+  return edges;
+}
+
+BuildingEdges::BuildingEdges(const ArtificialEnvironment& building) : spheres_(building.spheres) {
   const std::vector<int> joined = JoinedPoints(building.vertices, &points_);
   AddFaces(building, joined);
   FindSharpCorners();
@@ -94,7 +134,7 @@ void BuildingEdges::FindSharpCorners() {
   }
 }
 
-std::vector<EdgeEnds> BuildingEdges::OutlineFrom(const Eigen::Vector3d& eye) const {
+std::vector<EdgeEnds> BuildingEdges::MeshOutlineFrom(const Eigen::Vector3d& eye) const {
   std::vector<EdgeEnds> outline;
   for (const Edge& edge : edges_) {
     const Eigen::Vector3d to_eye = eye - points_[edge.ends.first];
@@ -106,12 +146,26 @@ std::vector<EdgeEnds> BuildingEdges::OutlineFrom(const Eigen::Vector3d& eye) con
   return outline;
 }
 
+std::vector<OutlineEdge> BuildingEdges::OutlineFrom(const Eigen::Vector3d& eye) const {
+  std::vector<OutlineEdge> outline;
+  for (const auto& [a, b] : MeshOutlineFrom(eye)) outline.emplace_back(points_[a], points_[b]);
+  for (const EnvironmentSphere& sphere : spheres_) {
+    const std::vector<OutlineEdge> circle = SilhouetteEdges(eye, sphere);
+    outline.insert(outline.end(), circle.begin(), circle.end());
+  }
+  return outline;
+}
+
 std::vector<Eigen::Vector3d> BuildingEdges::CornersSeenFrom(const Eigen::Vector3d& eye) const {
   std::vector<char> is_wanted = is_sharp_;
-  for (const auto& [a, b] : OutlineFrom(eye)) is_wanted[a] = is_wanted[b] = 1;
+  for (const auto& [a, b] : MeshOutlineFrom(eye)) is_wanted[a] = is_wanted[b] = 1;
   std::vector<Eigen::Vector3d> corners;
   for (size_t i = 0; i < points_.size(); ++i) {
     if (is_wanted[i]) corners.push_back(points_[i]);
+  }
+  for (const EnvironmentSphere& sphere : spheres_) {
+    const std::vector<Eigen::Vector3d> about = SilhouetteFrom(eye, sphere, kCornersOfSphere);
+    corners.insert(corners.end(), about.begin(), about.end());
   }
   return corners;
 }

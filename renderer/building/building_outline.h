@@ -10,7 +10,17 @@
 
 namespace insitu {
 
-using EdgeEnds = std::pair<int, int>;  // indices of points
+using EdgeEnds = std::pair<int, int>;                             // indices of points
+using OutlineEdge = std::pair<Eigen::Vector3d, Eigen::Vector3d>;  // its ends [m], world
+
+// The circle in which lines of sight from `eye` touch a sphere, as a polygon of `corners` points of
+// it; empty: the eye is within the sphere. [m], world
+std::vector<Eigen::Vector3d> SilhouetteFrom(const Eigen::Vector3d& eye,
+                                            const EnvironmentSphere& sphere, int corners);
+
+// Its sides: within 0.3 per mille of the radius.
+std::vector<OutlineEdge> SilhouetteEdges(const Eigen::Vector3d& eye,
+                                         const EnvironmentSphere& sphere);
 
 class BuildingEdges {
  public:
@@ -20,11 +30,11 @@ class BuildingEdges {
   const std::vector<Eigen::Vector3d>& points() const { return points_; }  // [m], world
 
   // Edges beside which one face is seen from `eye` [m] and one is not, and open ones; hidden ones
-  // too.
-  std::vector<EdgeEnds> OutlineFrom(const Eigen::Vector3d& eye) const;
+  // too. Of spheres their silhouettes.
+  std::vector<OutlineEdge> OutlineFrom(const Eigen::Vector3d& eye) const;
 
-  // Ends of the outline's edges, and wherever edges of over 30 degrees end, meet or bend. [m], in
-  // the mesh's order
+  // Ends of the outline's edges, and wherever edges of over 30 degrees end, meet or bend, in the
+  // mesh's order; then sixteen points about each sphere. [m]
   std::vector<Eigen::Vector3d> CornersSeenFrom(const Eigen::Vector3d& eye) const;
 
  private:
@@ -34,10 +44,12 @@ class BuildingEdges {
   };
   void AddFaces(const ArtificialEnvironment& building, const std::vector<int>& point_of_vertex);
   void FindSharpCorners();
+  std::vector<EdgeEnds> MeshOutlineFrom(const Eigen::Vector3d& eye) const;
 
   std::vector<Eigen::Vector3d> points_;
   std::vector<Edge> edges_;
   std::vector<char> is_sharp_;  // of a point
+  std::vector<EnvironmentSphere> spheres_;
 };
 
 }  // namespace insitu

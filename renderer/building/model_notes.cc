@@ -3,19 +3,42 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
+#include <cstdint>
 
 #include "calibration/files/error.h"
 
 namespace insitu {
 namespace {
 
+constexpr double kMuch = 1.5;
+
 // Whether it is much longer along y than along x and z, as a tower that lies on its back is.
-bool SeemsToLie(const ModelMesh& mesh) {
-  constexpr double kMuch = 1.5;
-  Eigen::AlignedBox3d box;
-  for (const Eigen::Vector3d& vertex : mesh.vertices) box.extend(vertex);
-  const Eigen::Vector3d size = box.sizes();
+bool IsLongestAlongY(const ModelMesh& mesh) {
+  const Eigen::Vector3d size = BoxOf(mesh).sizes();
   return size.y() > kMuch * std::max(size.x(), size.z());
+}
+
+// Whether most faces look along y, at several places along it, as floors and ceilings do.
+bool HasFloorsAlongY(const ModelMesh& mesh) {
+  constexpr double kAlong = 0.98, kStep = 0.1, kLevel = 0.1;  // cosine; [m]; share of the area
+  constexpr int kFewestLevels = 4;
+  Eigen::Vector3d areas = Eigen::Vector3d::Zero();
+  std::map<int64_t, double> area_at;
+  for (const Eigen::Vector3i& t : mesh.triangles) {
+    const Eigen::Vector3d& a = mesh.vertices[t[0]];
+    const Eigen::Vector3d area = (mesh.vertices[t[1]] - a).cross(mesh.vertices[t[2]] - a) / 2;
+    const double size = area.norm();
+    for (int axis = 0; axis < 3; ++axis) {
+      if (std::abs(area[axis]) > kAlong * size) areas[axis] += size;
+    }
+    const bool is_floor = std::abs(area.y()) > kAlong * size && std::abs(a.y()) < 1e9;
+    if (is_floor) area_at[std::llround(a.y() / kStep)] += size;
+  }
+  if (areas.y() <= kMuch * std::max(areas.x(), areas.z())) return false;
+  const auto levels = std::ranges::count_if(
+      area_at, [&](const auto& level) { return level.second > kLevel * areas.y(); });
+  return levels >= kFewestLevels;
 }
 
 // Empty: both are known. OBJ, PLY and STL have no word for either.
@@ -26,7 +49,11 @@ std::string UnitAndAxis(const Model& model, const Placement& placement) {
   std::string axis =
       "no vertical axis: z taken as up (\"up\": \"y\" in placement.json if it lies "
       "on its side";
-  if (no_axis && SeemsToLie(model.mesh)) axis += ", as it seems: it is longest along y";
+  if (no_axis && IsLongestAlongY(model.mesh)) {
+    axis += ", as it seems: it is longest along y";
+  } else if (no_axis && HasFloorsAlongY(model.mesh)) {
+    axis += ", as it seems: most of its faces look along y, as floors do";
+  }
   axis += ")";
   if (no_unit) return "names no unit: taken as metres" + (no_axis ? "; and " + axis : "");
   return no_axis ? "names " + axis : "";
@@ -49,7 +76,7 @@ std::vector<std::string> NotesOnModel(const std::filesystem::path& file, const M
   const auto note = [&](const std::string& text) {
     notes.emplace_back(InputError(file, text).what());
   };
-  const bool empty = model.mesh.triangles.empty();
+  const bool empty = model.mesh.IsEmpty();
   const std::string assumed = empty ? "" : UnitAndAxis(model, placement);
   if (!assumed.empty()) note(assumed);
   std::map<std::string, std::map<std::string, int>> kinds_of_reason;

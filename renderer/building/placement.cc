@@ -146,6 +146,29 @@ Placement PlacementOf(const SitePaths& site, const JsonNode& node, double metres
   return placement;
 }
 
+// A sphere by its centre and the ends of three radii, which stay alike but for a map's distortion.
+std::vector<Vector3d> PlacesOf(const std::vector<ModelSphere>& spheres) {
+  std::vector<Vector3d> places;
+  for (const ModelSphere& sphere : spheres) {
+    places.push_back(sphere.center);
+    for (int axis = 0; axis < 3; ++axis) {
+      places.emplace_back(sphere.center + sphere.radius * Vector3d::Unit(axis));
+    }
+  }
+  return places;
+}
+
+void SetPlaces(const std::vector<Vector3d>& places, std::vector<ModelSphere>* spheres) {
+  for (size_t i = 0; i < spheres->size(); ++i) {
+    ModelSphere& sphere = (*spheres)[i];
+    sphere.center = places[4 * i];
+    sphere.radius = 0;
+    for (size_t end = 4 * i + 1; end < 4 * i + 4; ++end) {
+      sphere.radius += (places[end] - sphere.center).norm() / 3;
+    }
+  }
+}
+
 // Vertices are metres by now: PROJ would take them for what the system counts in.
 CoordinateSystem MetricSystem(const std::filesystem::path& file, const std::string& name) {
   const auto system = CoordinateSystem::FromText(name);
@@ -162,10 +185,11 @@ CoordinateSystem MetricSystem(const std::filesystem::path& file, const std::stri
                              "metres, such as EPSG:2056");
 }
 
-void Convert(const std::filesystem::path& file, const Placement& placement, ModelMesh* mesh) {
+void Convert(const std::filesystem::path& file, const Placement& placement,
+             std::vector<Vector3d>* points) {
   const CoordinateConversion convert(MetricSystem(file, placement.model_crs),
                                      MetricSystem(file, placement.survey_crs));
-  for (Vector3d& vertex : mesh->vertices) {
+  for (Vector3d& vertex : *points) {
     const auto converted = convert.WithHeight(vertex);
     if (!converted) {
       throw InputError(file, "PROJ cannot take (" + std::to_string(vertex.x()) + ", " +
@@ -188,33 +212,44 @@ Placement ReadPlacement(const SitePaths& site, const std::string& name, double m
   return PlacementOf(site, root, metres_per_unit);
 }
 
+namespace {
+
+void PlacePoints(const SitePaths& site, const Placement& placement, double metres_per_unit,
+                 std::vector<Vector3d>* points) {
+  const double unit = placement.metres_per_unit.value_or(metres_per_unit) / metres_per_unit;
+  for (Vector3d& point : *points) {
+    point = placement.world_from_model * ZUp(placement.y_up, unit * point);
+  }
+  if (!placement.model_crs.empty()) Convert(PlacementPath(site), placement, points);
+}
+
+}  // namespace
+
 void Place(const SitePaths& site, const Placement& placement, double metres_per_unit,
            ModelMesh* mesh) {
-  const double unit = placement.metres_per_unit.value_or(metres_per_unit) / metres_per_unit;
   const Eigen::Quaterniond& rotation = placement.world_from_model.rotation;
-  for (Vector3d& vertex : mesh->vertices) {
-    vertex = placement.world_from_model * ZUp(placement.y_up, unit * vertex);
-  }
+  PlacePoints(site, placement, metres_per_unit, &mesh->vertices);
+  std::vector<Vector3d> on_spheres = PlacesOf(mesh->spheres);
+  PlacePoints(site, placement, metres_per_unit, &on_spheres);
+  SetPlaces(on_spheres, &mesh->spheres);
   for (Eigen::Vector3f& normal : mesh->corner_normals) {
     normal = (rotation * ZUp(placement.y_up, normal.cast<double>())).cast<float>();
   }
-  if (placement.model_crs.empty()) return;
-  Convert(PlacementPath(site), placement, mesh);
 }
 
 // Each by its place and a point along its direction.
 void PlaceLamps(const SitePaths& site, const Placement& placement, double metres_per_unit,
                 std::vector<ModelLamp>* lamps) {
-  ModelMesh places;
+  std::vector<Vector3d> places;
   for (const ModelLamp& lamp : *lamps) {
-    places.vertices.push_back(lamp.position);
-    places.vertices.push_back(lamp.position + lamp.direction);
+    places.push_back(lamp.position);
+    places.emplace_back(lamp.position + lamp.direction);
   }
-  Place(site, placement, metres_per_unit, &places);
+  PlacePoints(site, placement, metres_per_unit, &places);
   for (size_t i = 0; i < lamps->size(); ++i) {
     ModelLamp& lamp = (*lamps)[i];
-    lamp.position = places.vertices[2 * i];
-    lamp.direction = (places.vertices[2 * i + 1] - lamp.position).normalized();
+    lamp.position = places[2 * i];
+    lamp.direction = (places[2 * i + 1] - lamp.position).normalized();
   }
 }
 

@@ -7,6 +7,7 @@
 #include <tuple>
 
 #include "calibration/files/error.h"
+#include "renderer/dxf/dxf_body.h"
 #include "renderer/dxf/dxf_color.h"
 #include "renderer/dxf/dxf_drawing.h"
 #include "renderer/dxf/dxf_path.h"
@@ -47,6 +48,7 @@ class Assembly {
   void AddContent(const DxfBlock& block, const Affine3d& world_from_block, const Holder& holder);
   void AddTriangles(const DxfBlock& block, int first, bool mirrored, const ResolvedLooks& looks);
   void AddPath(const DxfPath& path, const Affine3d& world_from_block, const ResolvedLooks& looks);
+  void AddBody(const DxfBody& body, const Affine3d& world_from_block, const ResolvedLooks& looks);
   void AddTriangle(const Vector3i& corners, int surface);
   void AddInsert(const DxfInsert& insert, const Affine3d& world_from_holder, const Holder& holder);
   void CountOnce(const DxfBlock& block);
@@ -162,6 +164,29 @@ void Assembly::AddPath(const DxfPath& path, const Affine3d& world_from_block,
   }
 }
 
+void Assembly::AddBody(const DxfBody& body, const Affine3d& world_from_block,
+                       const ResolvedLooks& looks) {
+  const std::optional<int> surface = looks.surfaces[body.look];
+  if (!surface) return;
+  const auto known = drawing_.body_of_handle.find(DxfHandle(body.handle));
+  const std::string sab = known == drawing_.body_of_handle.end() ? "" : known->second;
+  const FacetedBody facets = Facet(body, sab, world_from_block, options_.chord_tolerance);
+  std::vector<Vector3d>& all = model.mesh.vertices;
+  const int first = static_cast<int>(all.size());
+  if (static_cast<double>(all.size()) > options_.most_pieces * 2) {
+    throw InputError(path_, "bodies come to too many facets");
+  }
+  all.insert(all.end(), facets.vertices.begin(), facets.vertices.end());
+  for (const Vector3i& triangle : facets.triangles) {
+    AddTriangle(triangle + Vector3i::Constant(first), *surface);
+  }
+  for (ModelSphere sphere : facets.spheres) {
+    sphere.surface = *surface;
+    model.mesh.spheres.push_back(sphere);
+  }
+  for (const auto& [what, count] : facets.skipped) model.skipped[what] += count;
+}
+
 void Assembly::CountOnce(const DxfBlock& block) {
   if (!seen_.insert(&block).second) return;
   for (const auto& [what, count] : block.skipped) model.skipped[what] += count;
@@ -182,6 +207,7 @@ void Assembly::AddContent(const DxfBlock& block, const Affine3d& world_from_bloc
   for (size_t i = first; i < all.size(); ++i) all[i] = world_from_block * all[i];
   AddTriangles(block, static_cast<int>(first), mirrored, looks);
   for (const DxfPath& path : block.paths) AddPath(path, world_from_block, looks);
+  for (const DxfBody& body : block.bodies) AddBody(body, world_from_block, looks);
 }
 
 void Assembly::Add(const DxfBlock& block, const Affine3d& world_from_block, const Holder& holder) {

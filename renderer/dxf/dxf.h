@@ -9,7 +9,7 @@
 namespace insitu {
 
 struct DxfOptions {
-  double chord_tolerance = 0.002;  // [m], > 0: of arcs and circles
+  double chord_tolerance = 0.002;  // [m], > 0: of arcs, circles and bodies
   double most_pieces = 20e6;       // copies of blocks come to no more vertices and entities
 
   void Check() const;  // throws CheckError that names the field that is wrong
@@ -17,13 +17,14 @@ struct DxfOptions {
 
 // DXF, ASCII or binary, R9 to 2018: 3DFACE; SOLID and TRACE (with thickness); MESH (smoothed);
 // POLYLINE as polyface, as polygon mesh and, with thickness or width, as a line; LWPOLYLINE, LINE,
-// CIRCLE and ARC with thickness or width; INSERT (nested, scaled, mirrored, rotated, in rows and
-// columns, extruded). Layer 0, BYLAYER and BYBLOCK take after the INSERT. What CAD programs do not
-// show or print is left out and counted: layers frozen, off or not to be plotted (DEFPOINTS
-// never is), invisible entities, paper space.
-// Throws InputError at the line (of a binary file, the byte): cut in half (no EOF), a group code
-// that is no number, a face that names a vertex out of range, an unknown block, blocks that insert
-// themselves, coordinates that are not finite, an unknown unit.
+// CIRCLE and ARC with thickness or width; 3DSOLID, BODY, REGION and surfaces as FacetedAcis has
+// their faces, those that are left out by the entity's handle; INSERT (nested, scaled, mirrored,
+// rotated, in rows and columns, extruded). Layer 0, BYLAYER and BYBLOCK take after the INSERT. What
+// CAD programs do not show or print is left out and counted: layers frozen, off or not to be
+// plotted (DEFPOINTS never is), invisible entities, paper space. Throws InputError at the line (of
+// a binary file, the byte): cut in half (no EOF), a group code that is no number, a face that names
+// a vertex out of range, an unknown block, blocks that insert themselves, coordinates that are not
+// finite, an unknown unit.
 Model ReadDxf(const std::filesystem::path& path, const DxfOptions& options = {});
 
 }  // namespace insitu

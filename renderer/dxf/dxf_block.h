@@ -37,6 +37,13 @@ struct DxfInsert {
   Eigen::Vector3d column_step, row_step;  // between copies, in the holder's coordinates
 };
 
+// An ACIS body: 3DSOLID, BODY, REGION, a surface.
+struct DxfBody {
+  int look = 0;
+  std::string kind, handle;
+  std::string text;  // SAT; empty: the drawing holds it as SAB under its handle
+};
+
 // Coordinates are the block's own, in drawing units.
 struct DxfBlock {
   std::string name;                                // empty: model space
@@ -46,6 +53,7 @@ struct DxfBlock {
   std::vector<Eigen::Vector3i> triangles;
   std::vector<int> look_of_triangle;
   std::vector<DxfPath> paths;
+  std::vector<DxfBody> bodies;
   std::vector<DxfInsert> inserts;
   std::map<std::pair<int, std::string>, int> kinds_of_look;  // (look, kind) -> entities read
   std::map<std::string, int> entities;                       // kind -> count, read or not

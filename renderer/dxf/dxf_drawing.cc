@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "renderer/dxf/dxf_body.h"
 #include "renderer/dxf/dxf_color.h"
 #include "renderer/dxf/dxf_entity_reader.h"
 #include "renderer/dxf/dxf_reader.h"
@@ -80,6 +81,7 @@ class SectionReader {
       if (name == "TABLES") ReadTableEntry(*record, drawing_);
       if (name == "BLOCKS") ReadBlockRecord(*record);
       if (name == "ENTITIES") entities.Add(*record);
+      if (name == "ACDSDATA") ReadDxfBodyData(*record, &drawing_->body_of_handle);
     }
     throw place.Error("section " + name + " is not closed, expected an ENDSEC");
   }

@@ -26,6 +26,7 @@ struct DxfDrawing {
   std::map<std::string, DxfBlock> blocks;  // by NameKey
   DxfBlock model_space;
   std::map<std::string, std::string> block_of_handle;  // of the table of blocks
+  std::map<std::string, std::string> body_of_handle;   // SAB of entities, by DxfHandle
   // A state of a dynamic block, "*U3" by NameKey -> handle of the block that a user named.
   std::map<std::string, std::string> dynamic_block;
 };

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "calibration/files/wording.h"
+#include "renderer/dxf/dxf_body.h"
 #include "renderer/dxf/dxf_surfaces.h"
 
 namespace insitu {
@@ -62,9 +63,6 @@ DxfLook LookOf(const DxfRecord& record) {
 // else may be a roof.
 std::string ReasonFor(std::string_view kind) {
   using Kinds = std::set<std::string_view>;
-  static const Kinds kAcis = {"3DSOLID",         "BODY",          "REGION",       "SURFACE",
-                              "EXTRUDEDSURFACE", "LOFTEDSURFACE", "PLANESURFACE", "REVOLVEDSURFACE",
-                              "SWEPTSURFACE",    "NURBSURFACE"};
   static const Kinds kLines = {"ELLIPSE", "SPLINE", "HELIX", "MLINE",
                                "XLINE",   "RAY",    "POINT", "3DLINE"};
   static const Kinds kLettering = {
@@ -76,9 +74,6 @@ std::string ReasonFor(std::string_view kind) {
                               "OLE2FRAME",        "LIGHT",       "CAMERA",      "SUN",
                               "SECTIONOBJECT",    "PDFUNDERLAY", "DWFUNDERLAY", "DGNUNDERLAY",
                               "GEOPOSITIONMARKER"};
-  if (kAcis.contains(kind)) {
-    return "an ACIS solid, which no free library facets: save it as MESH, polyface or 3DFACE";
-  }
   if (kLines.contains(kind)) return "a line or point, no surface";
   if (kLettering.contains(kind)) return "lettering, symbol or flat filling, no surface";
   if (kAids.contains(kind)) return "a view, picture or lamp of the drawing, no surface";
@@ -151,6 +146,9 @@ bool DxfEntityReader::ReadSurface(const DxfRecord& record, int look) {
     AddDxfSolid(record, look, block_);
   } else if (kind == "MESH") {
     AddDxfMesh(record, look, block_);
+  } else if (IsDxfBody(kind)) {
+    block_->bodies.push_back(DxfBodyOf(record));
+    block_->bodies.back().look = look;
   } else if ((kind == "LINE" || kind == "CIRCLE" || kind == "ARC") && !HasThickness(record)) {
     Skip(kind, kNoThickness);
     return false;

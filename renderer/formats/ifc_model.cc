@@ -96,6 +96,11 @@ Model ModelIn(const fs::path& path, const fs::path& stem) {
     model.mesh.surfaces.push_back(NamesOf(node));
   }
   ReadMesh(stem.string() + ".bin", root, &model);
+  for (const JsonNode& node : root.At("spheres").Items()) {
+    const std::vector<double> s = node.Numbers();  // place, radius, surface
+    model.mesh.spheres.push_back(
+        {Vector3d(s.at(0), s.at(1), s.at(2)), s.at(3), static_cast<int>(s.at(4))});
+  }
   for (const auto& [kind, count] : root.At("entities").Members()) {
     model.entities[kind] = count.Integer();
   }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Reads an IFC file with web-ifc: node ifc_model.js WEB_IFC_FOLDER MODEL.ifc OUT
 // Writes OUT.json (names, counts, warnings) and OUT.bin (vertices as float64 in metres, z up;
-// triangles as uint32: three vertices and a surface). Vertices are placed in double precision.
+// triangles as uint32: three vertices and a surface; whole spheres in OUT.json). Vertices are placed in double precision.
 'use strict';
 const fs = require('fs');
 const path = require('path');
@@ -13,12 +13,12 @@ const valueOf = (attribute) => (attribute && attribute.value !== undefined ? att
 
 class Reader {
   constructor(api, model) {
-    Object.assign(this, {api, model, vertices: [], triangles: [], surfaces: [], indexOf: new Map()});
+    Object.assign(this, {api, model, vertices: [], triangles: [], spheres: [], surfaces: [], indexOf: new Map()});
     this.entities = {};
     this.skipped = [];
     this.warnings = [];
     this.shown = new Set();
-    this.partsOf = new Map();  // element -> [from, to) in triangles
+    this.partsOf = new Map();  // element -> [from, to) in triangles, spheres
   }
 
   ids(type) {
@@ -62,11 +62,11 @@ class Reader {
     this.api.StreamAllMeshes(this.model, (mesh) => {
       const kind = this.kindOf(mesh.expressID);
       const name = valueOf(this.line(mesh.expressID).Name);
-      const before = this.triangles.length;
+      const before = this.triangles.length + this.spheres.length;
       for (let i = 0; i < mesh.geometries.size(); ++i) {
         this.addGeometry(mesh.expressID, name ? kind + '_' + name : kind, mesh.geometries.get(i));
       }
-      if (this.triangles.length > before) this.entities[kind] = (this.entities[kind] || 0) + 1;
+      if (this.triangles.length + this.spheres.length > before) this.entities[kind] = (this.entities[kind] || 0) + 1;
     });
   }
   addGeometry(element, layer, placed) {
@@ -81,6 +81,15 @@ class Reader {
     const first = this.vertices.length / 3;
     const start = this.triangles.length;
     const m = placed.flatTransformation;
+    if (!this.partsOf.has(element)) this.partsOf.set(element, {layer, ranges: [], spheres: []});
+    const sphere = this.sphereOf(placed.geometryExpressID, data, m);
+    if (sphere) {
+      this.spheres.push([...sphere, surface]);
+      this.partsOf.get(element).spheres.push(sphere[3]);
+      this.shown.add(element);
+      geometry.delete();
+      return;
+    }
     for (let i = 0; i < data.length; i += 6) {
       const at = (row) => m[row] * data[i] + m[row + 4] * data[i + 1] + m[row + 8] * data[i + 2] + m[row + 12];
       this.vertices.push(at(0), -at(2), at(1));  // web-ifc turns models y up
@@ -89,9 +98,32 @@ class Reader {
       this.triangles.push(first + indices[i], first + indices[i + 1], first + indices[i + 2], surface);
     }
     if (indices.length > 0) this.shown.add(element);
-    if (!this.partsOf.has(element)) this.partsOf.set(element, {layer, ranges: []});
     this.partsOf.get(element).ranges.push([start, this.triangles.length]);
     geometry.delete();
+  }
+  // x, y, z, radius of a whole one: all its corners are as far from the middle of its box, and no
+  // opening has cut any off. null: another kind, cut, or stretched.
+  sphereOf(item, data, m) {
+    if (this.api.GetLineType(this.model, item) !== typeCode('IfcSphere') || data.length === 0) return null;
+    const low = [Infinity, Infinity, Infinity];
+    const high = [-Infinity, -Infinity, -Infinity];
+    for (let i = 0; i < data.length; i += 6) {
+      for (let c = 0; c < 3; ++c) {
+        low[c] = Math.min(low[c], data[i + c]);
+        high[c] = Math.max(high[c], data[i + c]);
+      }
+    }
+    const radius = (high[0] - low[0]) / 2;
+    const middle = low.map((value, c) => (value + high[c]) / 2);
+    const isOff = (value, expected) => Math.abs(value - expected) > 1e-5 * expected;
+    if (high.some((value, c) => isOff((value - low[c]) / 2, radius))) return null;
+    for (let i = 0; i < data.length; i += 6) {
+      if (isOff(Math.hypot(...middle.map((value, c) => data[i + c] - value)), radius)) return null;
+    }
+    const scales = [0, 4, 8].map((c) => Math.hypot(m[c], m[c + 1], m[c + 2]));
+    if (scales.some((scale) => isOff(scale, scales[0]))) return null;
+    const at = (row) => m[row] * middle[0] + m[row + 4] * middle[1] + m[row + 8] * middle[2] + m[row + 12];
+    return [at(0), -at(2), at(1), radius * scales[0]];
   }
   surface(names) {
     const key = JSON.stringify(names);
@@ -124,59 +156,99 @@ class Reader {
     }
   }
 
-  // Net volumes that the file states, held against those of the faces.
-  compareVolumes() {
+  // Net volumes and areas that the file states, held against those of the faces.
+  compareQuantities() {
+    this.compare('volume', 'm3', 0.02, 1e-4, this.stated('VolumeValue', 'VOLUMEUNIT', 3, /^(net ?)?volume$/i),
+      (element) => this.volumeOf(this.partsOf.get(element)));
+    this.compare('surface area', 'm2', 0.02, 1e-3,
+      this.stated('AreaValue', 'AREAUNIT', 2, /^(net|total) ?surface ?area$/i),
+      (element) => this.areaOf(this.partsOf.get(element)));
+    this.compare('side area', 'm2', 0.02, 1e-3,
+      this.stated('AreaValue', 'AREAUNIT', 2, /^net ?(side ?)?area$/i, /^Ifc(Wall|Slab|Plate|Roof|Covering)/),
+      (element) => this.sideAreaOf(this.partsOf.get(element)));
+  }
+  // `find`: null where it cannot be said.
+  compare(what, unit, share, least, stated, find) {
     const off = [];
     const open = [];
-    const stated = this.statedVolumes();
-    for (const [element, volume] of stated) {
-      const found = this.volumeOf(this.partsOf.get(element).ranges);
+    for (const [element, expected] of stated) {
+      const found = find(element);
       const {layer} = this.partsOf.get(element);
       if (found === null) {
-        open.push({volume, text: layer});
-      } else if (Math.abs(found - volume) > Math.max(0.02 * volume, 1e-4)) {
-        off.push({volume: Math.abs(found - volume), text: layer + ' ' + found.toFixed(3) + ' m3, stated ' + volume.toFixed(3)});
+        open.push({size: expected, text: layer});
+      } else if (Math.abs(found - expected) > Math.max(share * expected, least)) {
+        const text = layer + ' ' + found.toFixed(3) + ' ' + unit + ', stated ' + expected.toFixed(3);
+        off.push({size: Math.abs(found - expected), text});
       }
     }
-    const listed = (items) => items.sort((a, b) => b.volume - a.volume).slice(0, 8).map((item) => item.text).join('; ') +
+    const listed = (items) => items.sort((a, b) => b.size - a.size).slice(0, 8).map((item) => item.text).join('; ') +
       (items.length > 8 ? '; and ' + (items.length - 8) + ' more' : '');
-    if (off.length > 0) {
-      this.warnings.push(off.length + ' of ' + stated.size + ' elements that state their volume have another: ' + listed(off));
-    }
-    if (open.length > 0) {
-      this.warnings.push(open.length + ' of ' + stated.size + ' elements that state their volume are open: ' + listed(open));
-    }
+    const of = ' of ' + stated.size + ' elements that state their ' + what;
+    if (off.length > 0) this.warnings.push(off.length + of + ' have another: ' + listed(off));
+    if (open.length > 0 && what === 'volume') this.warnings.push(open.length + of + ' are open: ' + listed(open));
   }
-  statedVolumes() {
+  // Element -> quantity [m2, m3], of those shown.
+  stated(value, unitType, power, name, kind = /^/) {
     const stated = new Map();
-    const unit = this.volumeUnit();
+    const unit = this.unitOf(unitType, power);
     for (const relation of this.lines('IfcRelDefinesByProperties')) {
       const set = relation.RelatingPropertyDefinition && this.line(relation.RelatingPropertyDefinition.value);
       for (const reference of (set && set.Quantities) || []) {
         const quantity = this.line(reference.value);
-        const volume = Number(valueOf(quantity.VolumeValue));
-        if (!/^(net ?)?volume$/i.test(String(valueOf(quantity.Name))) || !(volume > 0)) continue;
+        const size = Number(valueOf(quantity[value]));
+        if (!name.test(String(valueOf(quantity.Name))) || !(size > 0)) continue;
         for (const object of relation.RelatedObjects || []) {
-          if (this.shown.has(object.value)) stated.set(object.value, volume * unit);
+          if (this.shown.has(object.value) && kind.test(this.kindOf(object.value))) stated.set(object.value, size * unit);
         }
       }
     }
     return stated;
   }
-  volumeUnit() {
+  unitOf(type, power) {
     const prefixes = {CENTI: 1e-2, DECI: 1e-1, MILLI: 1e-3, KILO: 1e3};
     for (const unit of this.lines('IfcSIUnit')) {
-      if (valueOf(unit.UnitType) === 'VOLUMEUNIT') return (prefixes[valueOf(unit.Prefix)] || 1) ** 3;
+      if (valueOf(unit.UnitType) === type) return (prefixes[valueOf(unit.Prefix)] || 1) ** power;
     }
     for (const unit of this.lines('IfcConversionBasedUnit')) {
       const factor = unit.ConversionFactor && this.line(unit.ConversionFactor.value);
-      if (valueOf(unit.UnitType) === 'VOLUMEUNIT') return Number(valueOf(factor.ValueComponent)) || 1;
+      if (valueOf(unit.UnitType) === type) return Number(valueOf(factor.ValueComponent)) || 1;
     }
     return 1;
   }
+  // visit(x, y, z) with half the cross product of each triangle's sides.
+  forAreas(ranges, visit) {
+    const {vertices: v, triangles: t} = this;
+    for (const [from, to] of ranges) {
+      for (let i = from; i < to; i += 4) {
+        const side = (corner) => [0, 1, 2].map((c) => v[3 * t[i + corner] + c] - v[3 * t[i] + c]);
+        const [p, q] = [side(1), side(2)];
+        visit((p[1] * q[2] - p[2] * q[1]) / 2, (p[2] * q[0] - p[0] * q[2]) / 2, (p[0] * q[1] - p[1] * q[0]) / 2);
+      }
+    }
+  }
+  areaOf({ranges, spheres}) {
+    let area = spheres.reduce((sum, radius) => sum + 4 * Math.PI * radius * radius, 0);
+    this.forAreas(ranges, (x, y, z) => { area += Math.hypot(x, y, z); });
+    return area;
+  }
+  // Of the larger side of what is flat and of one piece; null: it is not.
+  sideAreaOf({ranges, spheres}) {
+    if (spheres.length > 0 || ranges.length !== 1) return null;
+    const areas = new Map();
+    let whole = 0;
+    this.forAreas(ranges, (x, y, z) => {
+      const size = Math.hypot(x, y, z);
+      whole += size;
+      const key = [x, y, z].map((value) => Math.round(value / (size || 1) * 200) + 0).join();
+      areas.set(key, (areas.get(key) || 0) + size);
+    });
+    const largest = Math.max(0, ...areas.values());
+    return largest > 0.3 * whole ? largest : null;
+  }
   // By Gauss's theorem about a vertex of each part; null: an edge without a partner of the other direction.
-  volumeOf(ranges) {
+  volumeOf({ranges, spheres}) {
     let volume = 0;
+    const balls = spheres.reduce((sum, radius) => sum + 4 / 3 * Math.PI * radius ** 3, 0);
     const {vertices: v, triangles: t} = this;
     for (const [from, to] of ranges) {
       const edges = new Map();
@@ -196,7 +268,7 @@ class Reader {
       }
       for (const count of edges.values()) if (count !== 0) return null;
     }
-    return Math.abs(volume);
+    return Math.abs(volume) + balls;
   }
 
   // Where the file says the model stands: told, not applied, since placement.json decides.
@@ -233,14 +305,14 @@ async function main() {
   reader.readStyles();
   reader.readMeshes();
   reader.countLost();
-  reader.compareVolumes();
+  reader.compareQuantities();
   reader.readMapConversion();
   fs.writeFileSync(out + '.bin', Buffer.from(new Float64Array(reader.vertices).buffer));
   fs.appendFileSync(out + '.bin', Buffer.from(new Uint32Array(reader.triangles).buffer));
-  const {surfaces, entities, skipped, warnings} = reader;
+  const {surfaces, spheres, entities, skipped, warnings} = reader;
   const counts = {vertices: reader.vertices.length / 3, triangles: reader.triangles.length / 4};
   fs.writeFileSync(out + '.json', JSON.stringify(
-    {schema: api.GetModelSchema(model), ...counts, surfaces, entities, skipped, warnings}));
+    {schema: api.GetModelSchema(model), ...counts, surfaces, spheres, entities, skipped, warnings}));
 }
 
 main().catch((error) => {

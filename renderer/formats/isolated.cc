@@ -138,6 +138,7 @@ void Send(const Model& model, Sender* out) {
   out->Array(model.mesh.surface_of_triangle);
   out->Array(model.mesh.corner_normals);
   out->Array(model.mesh.corner_uvs);
+  out->Array(model.mesh.spheres);
   out->Text(model.format);
   out->Plain(model.metres_per_unit.has_value());
   out->Plain(model.metres_per_unit.value_or(1));
@@ -174,6 +175,7 @@ Model ReceiveModel(Receiver* in) {
   model.mesh.surface_of_triangle = in->Array<int>();
   model.mesh.corner_normals = in->Array<Eigen::Vector3f>();
   model.mesh.corner_uvs = in->Array<Eigen::Vector2f>();
+  model.mesh.spheres = in->Array<ModelSphere>();
   model.format = in->Text();
   const bool has_unit = in->Plain<bool>();
   const auto unit = in->Plain<double>();
@@ -211,6 +213,10 @@ bool IsSound(const Model& model) {
   }
   for (const int surface : mesh.surface_of_triangle) {
     if (surface < 0 || surface >= static_cast<int>(mesh.surfaces.size())) return false;
+  }
+  for (const ModelSphere& sphere : mesh.spheres) {
+    if (sphere.surface < 0 || sphere.surface >= static_cast<int>(mesh.surfaces.size()))
+      return false;
   }
   return mesh.surface_of_triangle.size() == mesh.triangles.size() &&
          (mesh.corner_normals.empty() || mesh.corner_normals.size() == corners) &&

@@ -8,6 +8,7 @@
 #include "renderer/formats/isolated.h"
 #include "renderer/formats/model_format.h"
 #include "renderer/formats/obj_model.h"
+#include "renderer/formats/objects_model.h"
 #include "renderer/formats/stl_model.h"
 #include "renderer/gltf/gltf_extensions.h"
 #include "renderer/gltf/gltf_model.h"
@@ -52,6 +53,8 @@ Model ReadModel(const std::filesystem::path& path, const ImportOptions& options)
       return ReadPly(path);
     case ModelFormat::kStl:
       return ReadStl(path);
+    case ModelFormat::kObjects:
+      return ReadObjects(path);
   }
   throw InputError(path, "is of no format that is read");
 }

@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "calibration/files/error.h"
+#include "renderer/formats/objects_model.h"
 #include "renderer/formats/stl_model.h"
 
 namespace insitu {
@@ -128,6 +129,7 @@ std::optional<ModelFormat> DetectModelFormat(const fs::path& path) {
       Trimmed(head.substr(std::min(head.find_first_not_of(" \t\r\n"), head.size())));
   if (head.starts_with("glTF")) return ModelFormat::kGltf;
   if (text.starts_with("ISO-10303-21")) return ModelFormat::kIfc;
+  if (text.starts_with("{") && IsObjectsFile(path, head)) return ModelFormat::kObjects;
   if (text.starts_with("{") && head.find("\"asset\"") != head.npos) return ModelFormat::kGltf;
   if (text.starts_with("<") && head.find("<COLLADA") != head.npos) return ModelFormat::kCollada;
   if (head.starts_with("ply\n") || head.starts_with("ply\r")) return ModelFormat::kPly;
@@ -154,10 +156,12 @@ ModelFormat RequireModelFormat(const fs::path& path) {
   // For their readers' messages.
   if (LowerEnding(path) == ".dxf") return ModelFormat::kDxf;
   if (LowerEnding(path) == ".stl") return ModelFormat::kStl;
+  if (IsObjectsFile(path, "")) return ModelFormat::kObjects;
   std::string advice = NameOfUnread(HeadOf(path), "");
   if (advice.empty()) advice = NameOfUnread("", LowerEnding(path));
   if (advice.empty()) advice = "no model that is read";
-  throw InputError(path, "is " + advice + "; read are DXF, IFC, OBJ, glTF, COLLADA, PLY and STL");
+  throw InputError(
+      path, "is " + advice + "; read are DXF, IFC, OBJ, glTF, COLLADA, PLY, STL and objects.json");
 }
 
 }  // namespace insitu

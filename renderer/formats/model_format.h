@@ -8,7 +8,7 @@
 
 namespace insitu {
 
-enum class ModelFormat { kDxf, kIfc, kGltf, kCollada, kObj, kPly, kStl };
+enum class ModelFormat { kDxf, kIfc, kGltf, kCollada, kObj, kPly, kStl, kObjects };
 
 // What a file is by its content, whatever its name ends in; nullopt: nothing that is read. Throws
 // InputError: unreadable.

@@ -31,6 +31,8 @@ int Rank(const fs::path& path) {
       return 5;
     case ModelFormat::kStl:
       return 6;
+    case ModelFormat::kObjects:
+      return 8;
   }
   return 7;
 }
@@ -65,7 +67,10 @@ ModelList ListModels(const SitePaths& site) {
       continue;
     }
     if (!entry.is_regular_file() || path.filename().string().starts_with('.')) continue;
-    if (IsNamedLikeAModel(path) || DetectModelFormat(path)) {
+    const auto format = DetectModelFormat(path);
+    if (format == ModelFormat::kObjects) {
+      files_of_name[path.filename().string()].push_back(path);  // a model of its own
+    } else if (format || IsNamedLikeAModel(path)) {
       files_of_name[path.stem().string()].push_back(path);
     } else if (const std::string advice = AdviceOnUnread(path); !advice.empty()) {
       list.warnings.push_back(InputError(path, "not read: it is " + advice).what());
@@ -83,8 +88,10 @@ ModelList ListModels(const SitePaths& site) {
   if (list.files.empty()) {
     std::string found;
     for (const std::string& warning : list.warnings) found += "\n  " + warning;
-    throw InputError(site.building(),
-                     "no model, expected a DXF, IFC, OBJ, glTF, COLLADA, PLY or STL file" + found);
+    throw InputError(
+        site.building(),
+        "no model, expected a DXF, IFC, OBJ, glTF, COLLADA, PLY or STL file, or objects.json" +
+            found);
   }
   std::ranges::sort(list.files);
   return list;

@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "reconstruction/geometry/lens_view.h"
-#include "renderer/building/artificial_environment.h"
+#include "renderer/building/building_outline.h"
 #include "renderer/building/building_uncertainty.h"
 
 namespace insitu {
@@ -64,8 +64,14 @@ void KeepLongest(std::vector<Edge>* edges) {
   edges->resize(kMostEdges);
 }
 
-Json::Value LinesJson(const std::vector<Edge>& edges, const PosedCamera& posed) {
+// The edges, and of the spheres what this camera sees as their outline.
+Json::Value LinesJson(const BuildingWireframe& building, const PosedCamera& posed) {
   const LensView view(posed.camera);
+  std::vector<Edge> edges = building.edges;
+  for (const EnvironmentSphere& sphere : building.spheres) {
+    const std::vector<Edge> circle = SilhouetteEdges(Center(posed.cam_from_world), sphere);
+    edges.insert(edges.end(), circle.begin(), circle.end());
+  }
   Json::Value lines(Json::arrayValue);
   for (const Edge& edge : edges) {
     for (const Polyline& line : ImageOfArc(view, posed.cam_from_world * edge.first,
@@ -102,7 +108,9 @@ Json::Value CornersJson(const std::vector<CornerUncertainty>& corners) {
 
 BuildingWireframe ReadBuildingWireframe(const SitePaths& site) {
   BuildingWireframe wireframe;
-  wireframe.edges = CreasesOf(ReadArtificialEnvironment(site));
+  const ArtificialEnvironment building = ReadArtificialEnvironment(site);
+  wireframe.edges = CreasesOf(building);
+  wireframe.spheres = building.spheres;
   KeepLongest(&wireframe.edges);
   const size_t step = 1 + 2 * wireframe.edges.size() / kMostCorners;
   for (size_t i = 0; i < wireframe.edges.size(); i += step) {
@@ -117,7 +125,7 @@ Json::Value LiveBuilding(const BuildingWireframe& building, const SceneGeometry&
   message["images"] = message["corners"] = Json::Value(Json::objectValue);
   for (size_t i = 0; i < scene.cameras.size(); ++i) {
     const std::string& photo = scene.cameras[i].photo;
-    message["images"][photo] = LinesJson(building.edges, scene.cameras[i]);
+    message["images"][photo] = LinesJson(building, scene.cameras[i]);
     const auto corners = BuildingUncertainty(scene, i, building.corners);
     if (corners) message["corners"][photo] = CornersJson(*corners);
   }

@@ -10,6 +10,7 @@
 
 #include "calibration/program/site.h"
 #include "reconstruction/geometry/scene_geometry.h"
+#include "renderer/building/artificial_environment.h"
 
 namespace insitu {
 
@@ -18,6 +19,7 @@ struct BuildingWireframe {
   std::vector<std::pair<Eigen::Vector3d, Eigen::Vector3d>>
       edges;                             // creases and open edges [m], world
   std::vector<Eigen::Vector3d> corners;  // some of the edges' ends
+  std::vector<EnvironmentSphere> spheres = {};
 };
 
 // Of work/building.json. Throws InputError: its files cannot be read.

@@ -3,6 +3,7 @@
 
 #include <Eigen/Geometry>
 #include <cstdint>
+#include <numbers>
 #include <unordered_map>
 #include <vector>
 
@@ -15,6 +16,7 @@ using Eigen::Vector3d;
 struct MeasureSums {
   std::optional<Vector3d> origin;
   double area = 0, volume = 0;
+  double sphere_area = 0, sphere_volume = 0;
   std::unordered_map<uint64_t, int> edges;  // smaller vertex first -> passes one way less the other
 };
 
@@ -38,6 +40,12 @@ void AddTriangle(const ModelMesh& mesh, const Eigen::Vector3i& triangle, Measure
   for (int i = 0; i < 3; ++i) AddEdge(triangle[i], triangle[(i + 1) % 3], sums);
 }
 
+void AddSphere(const ModelSphere& sphere, MeasureSums* sums) {
+  const double area = 4 * std::numbers::pi * sphere.radius * sphere.radius;
+  sums->sphere_area += area;
+  sums->sphere_volume += area * sphere.radius / 3;
+}
+
 }  // namespace
 
 std::map<std::string, ElementMeasures> MeasuresByLayer(const ModelMesh& mesh) {
@@ -47,12 +55,13 @@ std::map<std::string, ElementMeasures> MeasuresByLayer(const ModelMesh& mesh) {
   for (size_t t = 0; t < mesh.triangles.size(); ++t) {
     AddTriangle(mesh, mesh.triangles[t], sums_of_surface[mesh.surface_of_triangle[t]]);
   }
+  for (const ModelSphere& sphere : mesh.spheres) AddSphere(sphere, sums_of_surface[sphere.surface]);
   std::map<std::string, ElementMeasures> elements;
   for (const auto& [layer, sum] : sums) {
-    if (!sum.origin) continue;
+    if (!sum.origin && sum.sphere_area == 0) continue;
     ElementMeasures& element = elements[layer];
-    element.area = sum.area;
-    if (sum.edges.empty()) element.volume = sum.volume;
+    element.area = sum.area + sum.sphere_area;
+    if (sum.edges.empty()) element.volume = sum.volume + sum.sphere_volume;
   }
   return elements;
 }

@@ -80,6 +80,17 @@ std::string NameKey(const std::string& name) {
   return key;
 }
 
+Eigen::AlignedBox3d BoxOf(const ModelMesh& mesh) {
+  Eigen::AlignedBox3d box;
+  for (const Eigen::Vector3d& vertex : mesh.vertices) box.extend(vertex);
+  for (const ModelSphere& sphere : mesh.spheres) {
+    const Eigen::Vector3d radii = Eigen::Vector3d::Constant(sphere.radius);
+    box.extend(sphere.center - radii);
+    box.extend(sphere.center + radii);
+  }
+  return box;
+}
+
 int SurfaceIndex::IndexOf(const SurfaceNames& names) {
   const auto [found, is_new] =
       index_of_key_.try_emplace(KeyOf(names), static_cast<int>(surfaces_->size()));
@@ -93,6 +104,7 @@ void DropUnused(ModelMesh* mesh) {
     for (int& corner : triangle) corner = vertices.Keep(corner);
   }
   for (int& surface : mesh->surface_of_triangle) surface = surfaces.Keep(surface);
+  for (ModelSphere& sphere : mesh->spheres) sphere.surface = surfaces.Keep(sphere.surface);
   mesh->vertices = vertices.Kept(mesh->vertices);
   mesh->surfaces = surfaces.Kept(mesh->surfaces);
 }
@@ -112,6 +124,10 @@ void Append(const ModelMesh& other, ModelMesh* mesh) {
   for (const SurfaceNames& names : other.surfaces) surfaces.push_back(index.IndexOf(names));
   for (const int surface : other.surface_of_triangle) {
     mesh->surface_of_triangle.push_back(surfaces[surface]);
+  }
+  for (ModelSphere sphere : other.spheres) {
+    sphere.surface = surfaces[sphere.surface];
+    mesh->spheres.push_back(sphere);
   }
   AppendCornerNormals(other, triangles_before, mesh);
   AppendCornerUvs(other, triangles_before, mesh);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <compare>
 #include <map>
 #include <optional>
@@ -32,6 +33,13 @@ struct SurfaceNames {
 // Names that differ in case alone mean the same, as in a drawing: their common key.
 std::string NameKey(const std::string& name);
 
+// A whole one, exact; it never becomes facets of the mesh.
+struct ModelSphere {
+  Eigen::Vector3d center;  // [m]
+  double radius = 0;       // > 0 [m]
+  int surface = 0;         // index into surfaces
+};
+
 struct ModelMesh {
   std::vector<SurfaceNames> surfaces;
   std::vector<Eigen::Vector3d> vertices;
@@ -39,7 +47,13 @@ struct ModelMesh {
   std::vector<int> surface_of_triangle;         // index into surfaces
   std::vector<Eigen::Vector3f> corner_normals;  // empty, or three a triangle: unit
   std::vector<Eigen::Vector2f> corner_uvs;      // empty, or three a triangle
+  std::vector<ModelSphere> spheres = {};
+
+  bool IsEmpty() const { return triangles.empty() && spheres.empty(); }
 };
+
+// About all that triangles may use and all spheres; may be empty.
+Eigen::AlignedBox3d BoxOf(const ModelMesh& mesh);
 
 // Kind and reason -> how many.
 using SkippedEntities = std::map<std::pair<std::string, std::string>, int>;
@@ -77,12 +91,12 @@ class SurfaceIndex {
   std::unordered_map<std::string, int> index_of_key_;
 };
 
-// Vertices and surfaces that no triangle uses are removed: they would widen the model's box and
-// ask for materials.
+// Vertices and surfaces that no triangle or sphere uses are removed: they would widen the model's
+// box and ask for materials.
 void DropUnused(ModelMesh* mesh);
 
-// `triangles` of `other`, with what they use, appended. Corner attributes of a mesh that has none
-// become facet normals and zero UV.
+// Triangles and spheres of `other`, with what they use, appended. Corner attributes of a mesh that
+// has none become facet normals and zero UV.
 void Append(const ModelMesh& other, ModelMesh* mesh);
 
 }  // namespace insitu

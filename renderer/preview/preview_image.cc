@@ -138,6 +138,9 @@ class Canvas {
 }  // namespace
 
 Raster PreviewImage(const ArtificialEnvironment& building, int width, int height) {
+  if (!building.spheres.empty()) {
+    return PreviewImage(Faceted(building, kDrawnSphereLevel), width, height);
+  }
   Canvas canvas(building, width * kOversampling, height * kOversampling);
   canvas.DrawAll();
   Raster picture(width, height);

@@ -15,6 +15,7 @@
 #include "calibration/files/json_file.h"
 #include "calibration/files/whole_file.h"
 #include "calibration/program/html_text.h"
+#include "reconstruction/geometry/sphere_facets.h"
 #include "renderer/preview/turntable_script.h"
 
 namespace insitu {
@@ -103,6 +104,15 @@ Json::Value BuildingJson(const ArtificialEnvironment& building, const TurntableL
   return json;
 }
 
+TurntableLayers LayersOfFacets(TurntableLayers layers) {
+  constexpr size_t kFacets = SphereFacetCount(kDrawnSphereLevel);
+  for (const int layer : layers.layer_of_sphere) {
+    layers.layer_of_triangle.insert(layers.layer_of_triangle.end(), kFacets, layer);
+  }
+  layers.layer_of_sphere.clear();
+  return layers;
+}
+
 // "</script>" in a name would end the script.
 std::string Escaped(std::string json) {
   for (size_t at = json.find("</"); at != json.npos; at = json.find("</", at + 3)) {
@@ -150,6 +160,10 @@ std::optional<fs::path> ThreeFolder() {
 
 std::string Turntable(const ArtificialEnvironment& building, const TurntableLayers& layers) {
   INSITU_CHECK(layers.layer_of_triangle.size() == building.triangles.size());
+  INSITU_CHECK(layers.layer_of_sphere.size() == building.spheres.size());
+  if (!building.spheres.empty()) {
+    return Turntable(Faceted(building, kDrawnSphereLevel), LayersOfFacets(layers));
+  }
   const std::optional<fs::path> three = ThreeFolder();
   if (!three || building.triangles.empty()) return "";
   Json::StreamWriterBuilder compact;

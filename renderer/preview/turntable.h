@@ -14,7 +14,8 @@ namespace insitu {
 // What a page tells of the faces besides their materials.
 struct TurntableLayers {
   std::vector<std::string> names;
-  std::vector<int> layer_of_triangle;  // index into names, one a triangle of the building
+  std::vector<int> layer_of_triangle;     // index into names, one a triangle of the building
+  std::vector<int> layer_of_sphere = {};  // the same, one a sphere
 };
 
 // The folder of three.js: INSITU_THREE of the environment, else share/insitu/three beside the
@@ -24,7 +25,8 @@ std::optional<std::filesystem::path> ThreeFolder();
 // A section of a page with all it needs, three.js too: the building turned, moved and enlarged by
 // the mouse, layers switched, the distance between two points clicked, open edges in red, backs of
 // faces in magenta. Coordinates are single precision about the box's centre; what is read off is
-// exact to 1e-7 of the building's size. Empty: there is no three.js, or no triangle.
+// exact to 1e-7 of the building's size; spheres are drawn by facets. Empty: there is no three.js,
+// or no face.
 std::string Turntable(const ArtificialEnvironment& building, const TurntableLayers& layers);
 
 }  // namespace insitu

@@ -147,8 +147,27 @@ struct IrradianceMap::Tree {
     return shard.points.try_emplace(key, std::move(gathered)).first->second.get();
   }
 
-  Eigen::Vector3d NormalOf(const FacePlace& place) const {
-    return place.is_back ? Eigen::Vector3d(-normals[place.triangle]) : normals[place.triangle];
+  // `flat` on the triangle of the place.
+  SurfacePoint PointOn(const FacePlace& place, const Eigen::Vector3d& flat) const {
+    SurfacePoint point = PointOnFace(mesh, normals, place.triangle, flat);
+    if (place.is_back) point.normal = -point.normal;
+    return point;
+  }
+
+  // A point of the face, put back onto its triangle.
+  Eigen::Vector3d FlatOf(const FacePlace& place, const Eigen::Vector3d& position) const {
+    const MeshSphere* sphere = mesh.SphereOf(place.triangle);
+    if (!sphere) return position;
+    const Eigen::Vector3d corner =
+        mesh.vertices[mesh.triangles[place.triangle][0]].cast<double>() - sphere->center;
+    const Eigen::Vector3d out = position - sphere->center;
+    const Eigen::Vector3d& normal = normals[place.triangle];
+    return sphere->center + corner.dot(normal) / out.dot(normal) * out;
+  }
+
+  SurfacePoint Middle(const FacePlace& place, const GatheredPoint& a,
+                      const GatheredPoint& b) const {
+    return PointOn(place, (FlatOf(place, a.position) + FlatOf(place, b.position)) / 2);
   }
 
   Node& RootOf(const FacePlace& place) {
@@ -158,7 +177,7 @@ struct IrradianceMap::Tree {
     for (int i = 0; i < 3; ++i) {
       const Eigen::Vector3d corner =
           mesh.vertices[mesh.triangles[place.triangle][i]].cast<double>();
-      node->corners[i] = PointAt({corner, NormalOf(place)});
+      node->corners[i] = PointAt(PointOn(place, corner));
     }
     const std::lock_guard lock(rooting);
     if (Node* known = root.load(std::memory_order_acquire)) return *known;
@@ -172,7 +191,7 @@ struct IrradianceMap::Tree {
   }
 
   // Decides whether it is a leaf; if not, halves it.
-  void Grow(Node& node, const Eigen::Vector3d& normal) {
+  void Grow(Node& node, const FacePlace& place) {
     double longest = -1;
     int from = 0;
     for (int i = 0; i < 3; ++i) {
@@ -186,9 +205,9 @@ struct IrradianceMap::Tree {
     const GatheredPoint* middle = nullptr;
     bool is_leaf = longest < options.smallest || (IsApart(node, longest) && IsEven(node, longest));
     if (!is_leaf) {
-      middle = PointAt({(a.position + b.position) / 2, normal});
+      middle = PointAt(Middle(place, a, b));
       is_leaf = IsApart(node, longest) && IsCalm(node, *middle, longest, a, b) &&
-                IsStraight(node, from, normal);
+                IsStraight(node, from, place);
     }
     const std::lock_guard lock(
         growing[reinterpret_cast<uintptr_t>(&node) / sizeof(Node) % kShards]);
@@ -235,7 +254,7 @@ struct IrradianceMap::Tree {
 
   // Whether the steepest edge but the longest is, too, where it is steep: a corner may lie in the
   // dark of another face.
-  bool IsStraight(const Node& node, int longest, const Eigen::Vector3d& normal) {
+  bool IsStraight(const Node& node, int longest, const FacePlace& place) {
     int steepest = 0;
     double difference = kSteep;
     for (int i = 0; i < 3; ++i) {
@@ -247,18 +266,18 @@ struct IrradianceMap::Tree {
     }
     if (difference <= kSteep) return true;
     const GatheredPoint &a = *node.corners[steepest], &b = *node.corners[(steepest + 1) % 3];
-    const GatheredPoint& middle = *PointAt({(a.position + b.position) / 2, normal});
+    const GatheredPoint& middle = *PointAt(Middle(place, a, b));
     return middle.is_open && LargestError(a, b, middle) < options.tolerance;
   }
 
   SmoothLight Interpolate(const Node& node, const Eigen::Vector3d& weights,
-                          const Eigen::Vector3d& normal) {
+                          const FacePlace& place) {
     SmoothLight light_there;
     light_there.matters = node.matters;
     double total = 0;
     Eigen::Vector3d position = Eigen::Vector3d::Zero();
     for (int i = 0; i < 3; ++i) {
-      position += weights[i] * node.corners[i]->position;
+      position += weights[i] * FlatOf(place, node.corners[i]->position);
       if (!node.corners[i]->is_open) continue;
       total += weights[i];
       light_there.before += weights[i] * node.corners[i]->before;
@@ -270,7 +289,7 @@ struct IrradianceMap::Tree {
       return light_there;
     }
     // All corners lie within solids; the point asked for is what a ray sees.
-    const GatheredPoint& alone = *PointAt({position, normal});
+    const GatheredPoint& alone = *PointAt(PointOn(place, position));
     return {alone.before, alone.change, Matters(alone)};
   }
 };
@@ -296,11 +315,10 @@ SmoothLight IrradianceMap::At(const FacePlace& place) const {
   for (;;) {
     Node::Kind kind = node->kind.load(std::memory_order_acquire);
     if (kind == Node::Kind::kUnknown) {
-      tree_->Grow(*node, tree_->NormalOf(place));
+      tree_->Grow(*node, place);
       kind = node->kind.load(std::memory_order_acquire);
     }
-    if (kind == Node::Kind::kLeaf)
-      return tree_->Interpolate(*node, weights, tree_->NormalOf(place));
+    if (kind == Node::Kind::kLeaf) return tree_->Interpolate(*node, weights, place);
     // A point w_f F + w_t T + ..., with M = (F + T) / 2, is (w_f - w_t) F + 2 w_t M + ...
     const bool near_from = weights[node->from] >= weights[node->to];
     const int kept = near_from ? node->from : node->to, left = near_from ? node->to : node->from;

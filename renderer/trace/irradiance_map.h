@@ -28,7 +28,7 @@ struct IrradianceMapOptions {
   void Check() const;  // throws CheckError that names the field that is wrong
 };
 
-// A point of a triangle, on the side of its normal or at its back.
+// A point of a triangle, or of a sphere above its facet, on the side of its normal or at its back.
 struct FacePlace {
   int triangle = 0;
   Eigen::Vector2d uv;  // barycentric weights of the second and third corner

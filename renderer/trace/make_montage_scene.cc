@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 #include "calibration/files/error.h"
 #include "radiometry/spectrum/spectral_table.h"
@@ -18,6 +19,17 @@ TriangleMesh LocalMesh(const ArtificialEnvironment& building, const Eigen::Vecto
   mesh.vertices.reserve(building.vertices.size());
   for (const Eigen::Vector3d& vertex : building.vertices) {
     mesh.vertices.push_back((vertex - origin).cast<float>());
+  }
+  return mesh;
+}
+
+// Of the building's own triangles, then the spheres'.
+TriangleMesh WithSpheres(TriangleMesh mesh, const ArtificialEnvironment& building,
+                         const Eigen::Vector3d& origin) {
+  int first = static_cast<int>(building.triangles.size());
+  for (const EnvironmentSphere& sphere : building.spheres) {
+    mesh.spheres.push_back({sphere.center - origin, sphere.radius, first});
+    first += kSphereFacets;
   }
   return mesh;
 }
@@ -82,7 +94,14 @@ SpectralGlass GlassOf(const SpectralBasis& spectra, const Glass& glass) {
 
 FaceSubset SubsetOf(const TriangleMesh& mesh, std::vector<int> triangles) {
   TriangleMesh part{mesh.vertices, {}};
-  for (int triangle : triangles) part.triangles.push_back(mesh.triangles[triangle]);
+  for (int triangle : triangles) {
+    const MeshSphere* sphere = mesh.SphereOf(triangle);
+    if (sphere && sphere->first_facet == triangle) {  // all its facets are of one material
+      part.spheres.push_back(*sphere);
+      part.spheres.back().first_facet = static_cast<int>(part.triangles.size());
+    }
+    part.triangles.push_back(mesh.triangles[triangle]);
+  }
   RayScene rays(part);
   return {std::move(part), std::move(rays), std::move(triangles)};
 }
@@ -122,7 +141,10 @@ void AddLamp(const PointLight& lamp, MontageScene* scene) {
 MontageScene WithoutImages(NaturalEnvironment natural, const ArtificialEnvironment& artificial) {
   const Eigen::Vector3d origin = natural.scene.origin;
   PolygonMesh polygons = MeshOfPolygons(natural.scene);
-  TriangleMesh building = LocalMesh(artificial, origin);
+  std::optional<ArtificialEnvironment> with_facets;  // a large mesh is copied for spheres alone
+  if (!artificial.spheres.empty()) with_facets = Faceted(artificial, kSphereLevel);
+  const ArtificialEnvironment& faceted = with_facets ? *with_facets : artificial;
+  TriangleMesh building = WithSpheres(LocalMesh(faceted, origin), artificial, origin);
   RayScene natural_rays(polygons.mesh), artificial_rays(building);
   const InfluenceBox box = BoxAround(building);
   MontageScene scene{.natural = std::move(natural),
@@ -133,8 +155,8 @@ MontageScene WithoutImages(NaturalEnvironment natural, const ArtificialEnvironme
                      .ground = {},
                      .artificial_mesh = std::move(building),
                      .artificial_rays = std::move(artificial_rays),
-                     .artificial_normals = TriangleNormals(artificial),
-                     .material_of_triangle = artificial.material_of_triangle,
+                     .artificial_normals = TriangleNormals(faceted),
+                     .material_of_triangle = faceted.material_of_triangle,
                      .artificial_materials = {},
                      .split_faces = {},
                      .building_box = box,

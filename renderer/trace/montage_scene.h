@@ -129,6 +129,10 @@ struct MontageScene {
   const SpectralMaterial& MaterialOfTriangle(int triangle) const {
     return artificial_materials[material_of_triangle[triangle]];
   }
+  // Of the building where a ray of artificial_rays meets it: unit, outwards.
+  const Eigen::Vector3d& NormalOf(const RayHit& hit) const {
+    return hit.sphere_normal ? *hit.sphere_normal : artificial_normals[hit.triangle];
+  }
   const RayScene& OpaqueRays() const {
     return split_faces ? split_faces->opaque.rays : artificial_rays;
   }

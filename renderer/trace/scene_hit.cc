@@ -57,7 +57,7 @@ std::optional<SceneHit> FindHit(const MontageScene& scene, Ray ray, World world)
   std::optional<SceneHit> found;
   if (world == World::kWithBuilding && IsTowardsBuilding(scene, ray)) {
     if (const auto hit = scene.artificial_rays.Nearest(ray)) {
-      const Eigen::Vector3d& normal = scene.artificial_normals[hit->triangle];
+      const Eigen::Vector3d& normal = scene.NormalOf(*hit);
       found = SceneHit{true, hit->triangle, hit->distance, Facing(ray, hit->distance, normal),
                        FacePlace{hit->triangle, hit->uv, ray.direction.dot(normal) > 0}};
       ray.far = hit->distance - kCoincidence;

@@ -146,6 +146,7 @@ SurfaceTextures::~SurfaceTextures() = default;
 
 std::optional<Eigen::Vector3d> SurfaceTextures::Albedo(const FacePlace& place, double distance,
                                                        const Eigen::Vector3d& direction) const {
+  if (place.triangle >= std::ssize(face_of_triangle_)) return std::nullopt;  // on a sphere
   const int index = face_of_triangle_[place.triangle];
   if (index < 0) return std::nullopt;
   const Face& face = faces_[index];

@@ -36,7 +36,8 @@ Spectrum TransmittanceAlong(const MontageScene& scene, const Ray& ray) {
     if (!hit) return share;
     const int triangle = clear.triangles[hit->triangle];
     const SpectralGlass& glass = *scene.MaterialOfTriangle(triangle).glass;
-    const double along = ray.direction.dot(scene.artificial_normals[triangle]);
+    const double along = ray.direction.dot(hit->sphere_normal ? *hit->sphere_normal
+                                                              : scene.artificial_normals[triangle]);
     const double cosine = std::min(1.0, std::abs(along));
     if (!glass.is_solid) {
       share *= glass.weight *

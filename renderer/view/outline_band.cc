@@ -35,12 +35,17 @@ Json::Value PointJson(const Eigen::Vector2d& point) {
   return json;
 }
 
+// For shadows alone: its spheres have no facets.
 TriangleMesh LocalMesh(const ArtificialEnvironment& building, const Eigen::Vector3d& origin) {
   TriangleMesh mesh;
   for (const Eigen::Vector3d& vertex : building.vertices) {
     mesh.vertices.push_back((vertex - origin).cast<float>());
   }
   mesh.triangles = building.triangles;
+  for (const EnvironmentSphere& sphere : building.spheres) {
+    mesh.spheres.push_back(
+        {sphere.center - origin, sphere.radius, static_cast<int>(building.triangles.size())});
+  }
   return mesh;
 }
 
@@ -85,15 +90,15 @@ struct OutlineBands::Scene {
     return building_rays.IsOccluded(ray) || natural_rays.IsOccluded(ray);
   }
 
-  std::vector<EdgeEnds> LongestEdges(const Eigen::Vector3d& eye) const {
-    std::vector<EdgeEnds> outline = edges.OutlineFrom(eye);
-    const auto& points = edges.points();
+  std::vector<OutlineEdge> LongestEdges(const Eigen::Vector3d& eye) const {
+    std::vector<OutlineEdge> outline = edges.OutlineFrom(eye);
     if (outline.size() <= kMostEdges) return outline;
-    const auto length = [&](const EdgeEnds& edge) {
-      return (points[edge.first] - points[edge.second]).squaredNorm();
+    const auto length = [](const OutlineEdge& edge) {
+      return (edge.first - edge.second).squaredNorm();
     };
-    std::nth_element(outline.begin(), outline.begin() + kMostEdges, outline.end(),
-                     [&](const EdgeEnds& a, const EdgeEnds& b) { return length(a) > length(b); });
+    std::nth_element(
+        outline.begin(), outline.begin() + kMostEdges, outline.end(),
+        [&](const OutlineEdge& a, const OutlineEdge& b) { return length(a) > length(b); });
     outline.resize(kMostEdges);
     return outline;
   }
@@ -225,11 +230,9 @@ Json::Value OutlineBands::Of(const std::string& photo, const std::string& frame)
   message["lines"] = message["corners"] = Json::Value(Json::arrayValue);
   const Eigen::Vector3d eye = Center(view.camera.cam_from_world);
   const LensView lens(view.camera.camera);
-  const auto& points = scene->edges.points();
   for (const auto& [a, b] : scene->LongestEdges(eye)) {
     AppendEdge(
-        view, lens, points[a], points[b],
-        [&](const Eigen::Vector3d& world) { return scene->IsHidden(world, eye); },
+        view, lens, a, b, [&](const Eigen::Vector3d& world) { return scene->IsHidden(world, eye); },
         &message["lines"]);
   }
   if (!view.covariance) return message;

@@ -40,6 +40,10 @@ for name in polygons directions constraints samples materials; do
     "$temporary/$name.json" >"$temporary/wrong.json"
   check "a fault in $name" fits_not "$name" "$temporary/wrong.json"
 done
+example building/objects.json >"$temporary/objects.json"
+check 'example of objects' fits objects "$temporary/objects.json"
+sed 's/"radius_m": 0.5/"radius_m": 0/' "$temporary/objects.json" >"$temporary/wrong.json"
+check 'a fault in objects' fits_not objects "$temporary/wrong.json"
 check 'template of site' fits site "$site/site.json"
 example site.json >"$temporary/site.json"
 check 'example of site' fits site "$temporary/site.json"

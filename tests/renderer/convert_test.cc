@@ -5,9 +5,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <numbers>
 
 #include "calibration/files/error.h"
+#include "calibration/files/json_file.h"
 #include "calibration/photo/photograph.h"
+#include "renderer/convert_report.h"
 #include "tests/calibration/files/scratch_folder.h"
 #include "tests/renderer/dxf/dxf_text.h"
 #include "tests/renderer/formats/model_texts.h"
@@ -15,6 +18,7 @@
 namespace insitu {
 namespace {
 
+namespace fs = std::filesystem;
 using Eigen::Vector3d;
 using testing::Contains;
 using testing::ElementsAre;
@@ -81,6 +85,62 @@ TEST_F(Convert, LayersGetTheirMaterials) {
   EXPECT_EQ(building.materials[1].diffuse_weight, 0.8);
   EXPECT_FALSE(building.materials[1].specular);
   EXPECT_TRUE(building.lights.empty());
+}
+
+const char kObjects[] = R"({"objects": [
+ {"name": "ball", "material": "STEEL", "diffuse_rgb": [0.5, 0.5, 0.5],
+  "sphere": {"center": [2, 3, 1.5], "radius_m": 0.5}},
+ {"name": "sign", "layer": "WALL", "polygon": {"vertices": [[0, 0, 2], [2, 0, 2], [2, 0, 3], [0, 0, 3]],
+  "holes": [[[0.5, 0, 2.25], [1, 0, 2.25], [1, 0, 2.75], [0.5, 0, 2.75]]]}}]})";
+
+TEST_F(Convert, ObjectsTypedByHandAreAModelOfTheirOwn) {
+  Write("objects.json", kObjects);
+  Write("objects.dxf", DrawingText(UnitSquare("GLASS")));
+  Write("materials.json", kMaterials);
+  const Conversion conversion = Converted();
+  ASSERT_EQ(conversion.models.size(), 2u);
+  ASSERT_EQ(conversion.environment.spheres.size(), 1u);
+  const EnvironmentSphere& ball = conversion.environment.spheres[0];
+  EXPECT_EQ(ball.center, Vector3d(2, 3, 1.5));
+  EXPECT_EQ(ball.radius, 0.5);
+  EXPECT_EQ(conversion.environment.materials[ball.material].name, "STEEL");
+  EXPECT_NEAR(conversion.elements.at("ball").area, std::numbers::pi, 1e-12);
+  EXPECT_NEAR(conversion.elements.at("ball").volume.value(), std::numbers::pi / 6, 1e-12);
+  EXPECT_NEAR(conversion.elements.at("WALL").area, 1.75, 1e-12);
+  EXPECT_EQ(conversion.box.max(), Vector3d(2.5, 3.5, 3));
+  EXPECT_THAT(conversion.BriefReport(), HasSubstr("1 spheres"));
+  const fs::path report = folder_.path() / "report.json";
+  WriteConvertReport(report, conversion);
+  EXPECT_EQ(ReadJson(report)["spheres"], 1);
+  EXPECT_NEAR(ReadJson(report)["elements"]["ball"]["area_m2"].asDouble(), std::numbers::pi, 1e-12);
+}
+
+// Three storeys of slabs, y up.
+TEST_F(Convert, FloorsAlongYAreNoticed) {
+  std::string obj;
+  int corner = 0;
+  for (const char* level : {"0", "0.3", "3", "3.3", "6", "6.3"}) {
+    for (const std::string x : {"0", "12"}) {
+      obj += "v " + x + " " + level + " 0\nv " + x + " " + level + " 9\n";
+    }
+    obj += "f";
+    for (const int i : {1, 2, 4, 3}) obj += " " + std::to_string(corner + i);
+    obj += "\n";
+    corner += 4;
+  }
+  Write("house.obj", obj);
+  EXPECT_THAT(Converted().warnings, Contains(HasSubstr("look along y, as floors do")));
+}
+
+TEST_F(Convert, ASphereIsPlacedAndHiddenAsFacesAre) {
+  Write("objects.json", kObjects);
+  Write("placement.json", R"({"scale": 2, "rotation_deg": 90, "shift": [100, 0, 1]})");
+  const Conversion conversion = Converted();
+  const EnvironmentSphere& ball = conversion.environment.spheres.at(0);
+  EXPECT_LT((ball.center - Vector3d(94, 4, 4)).norm(), 1e-12);
+  EXPECT_NEAR(ball.radius, 1, 1e-12);
+  Write("materials.json", R"({"materials": {"STEEL": {"hidden": true}}})");
+  EXPECT_TRUE(Converted().environment.spheres.empty());
 }
 
 TEST_F(Convert, DrawingsJoinInOrderOfTheirNames) {

@@ -4,7 +4,10 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+#include <array>
+#include <cmath>
 #include <random>
+#include <span>
 
 #include "calibration/files/error.h"
 
@@ -44,6 +47,62 @@ TEST(RayScene, HitsAtTheClosedFormPlace) {
   // (0.6, -0.3, 3) = corner 0 + u (2, 0, 0) + v (2, 2, 0)
   EXPECT_NEAR(hit->uv.y(), 0.35, 1e-6);
   EXPECT_NEAR(hit->uv.x(), 0.45, 1e-6);
+}
+
+// The ceiling and a ball before it whose facets are the mesh's last triangles.
+TriangleMesh CeilingAndBall(const Vector3d& center, double radius) {
+  TriangleMesh mesh = Ceiling();
+  mesh.spheres = {{center, radius, static_cast<int>(mesh.triangles.size())}};
+  const int first = static_cast<int>(mesh.vertices.size());
+  const SphereFacets unit = UnitSphereFacets(kSphereLevel);
+  for (const Vector3d& vertex : unit.vertices) {
+    mesh.vertices.push_back((center + radius * vertex).cast<float>());
+  }
+  for (const Eigen::Vector3i& facet : unit.triangles) {
+    mesh.triangles.push_back(facet + Eigen::Vector3i::Constant(first));
+  }
+  return mesh;
+}
+
+TEST(RayScene, SpheresAreMetExactlyFromOutsideAndWithin) {
+  const Vector3d center(0.1, -0.2, 1.7);
+  const RayScene scene(CeilingAndBall(center, 0.4));
+  for (const double across : {0.0, 0.1, 0.3, 0.39, 0.3999}) {
+    const Ray ray{center + Vector3d(across, 0, -1), Vector3d::UnitZ()};
+    const auto hit = scene.Nearest(ray);
+    ASSERT_TRUE(hit && hit->sphere_normal);
+    const double half = std::sqrt(0.16 - across * across);
+    EXPECT_NEAR(hit->distance, 1 - half, 1e-12);
+    EXPECT_LT((*hit->sphere_normal - Vector3d(across, 0, -half) / 0.4).norm(), 1e-12);
+    const auto out = scene.Nearest({center + Vector3d(across, 0, 0), Vector3d::UnitZ()});
+    ASSERT_TRUE(out && out->sphere_normal);
+    EXPECT_NEAR(out->distance, half, 1e-12);
+  }
+  const auto missed = scene.Nearest({center + Vector3d(0.4001, 0, -1), Vector3d::UnitZ()});
+  ASSERT_TRUE(missed);
+  EXPECT_FALSE(missed->sphere_normal);
+  EXPECT_EQ(missed->triangle, 0);
+}
+
+TEST(RayScene, ASpheresHitNamesTheFacetBelow) {
+  const Vector3d center(0, 0, 1.5);
+  const TriangleMesh mesh = CeilingAndBall(center, 1);
+  const RayScene scene(mesh);
+  const Vector3d direction = Vector3d(0.1, 0.2, 1).normalized();
+  const auto hits = scene.NearestOfPacket(Vector3d(0, 0, -2), std::span(&direction, 1),
+                                          std::array<double, 1>{100});
+  ASSERT_TRUE(hits[0] && hits[0]->sphere_normal);
+  ASSERT_EQ(mesh.SphereOf(hits[0]->triangle), &mesh.spheres[0]);
+  EXPECT_EQ(mesh.SphereOf(1), nullptr);
+  const Eigen::Vector3i& t = mesh.triangles[hits[0]->triangle];
+  const Eigen::Vector2d& uv = hits[0]->uv;
+  const Vector3d at =
+      ((1 - uv.sum()) * mesh.vertices[t[0]].cast<double>() +
+       uv.x() * mesh.vertices[t[1]].cast<double>() + uv.y() * mesh.vertices[t[2]].cast<double>()) -
+      center;
+  EXPECT_LT((at.normalized() - *hits[0]->sphere_normal).norm(), 1e-6);
+  const Eigen::Vector3f up = direction.cast<float>();
+  EXPECT_EQ(scene.OcclusionMask(Vector3d(0, 0, -2), std::span(&up, 1), 0), 1);
 }
 
 TEST(RayScene, RespectsNearAndFar) {

@@ -26,6 +26,7 @@ ArtificialEnvironment GlazedTriangle() {
       {2600000.1, 1200000.2, 400.3}, {2600001, 1200000, 1.0 / 3}, {0, -1, 1e-9}};
   environment.triangles = {{0, 1, 2}, {2, 1, 0}};
   environment.material_of_triangle = {2, 0};
+  environment.spheres = {{{2600000.7, 1200000, 400 + 1.0 / 3}, 1.0 / 7, 1}};
   environment.lights = {{"lamp", {1, 2, 3}, {0.5, 0, 1e-7}}};
   return environment;
 }
@@ -66,10 +67,42 @@ TEST(ArtificialEnvironment, ReturnsFromItsFilesToTheLastBit) {
   EXPECT_EQ(read.materials[1].specular->weight, 0.8);
   EXPECT_EQ(read.materials[1].specular->index, 1.52);
   EXPECT_EQ(read.materials[2].specular->index, std::nullopt);
+  ASSERT_EQ(read.spheres.size(), 1u);
+  EXPECT_EQ(read.spheres[0].center, written.spheres[0].center);
+  EXPECT_EQ(read.spheres[0].radius, 1.0 / 7);
+  EXPECT_EQ(read.spheres[0].material, 1);
   ASSERT_EQ(read.lights.size(), 1u);
   EXPECT_EQ(read.lights[0].name, "lamp");
   EXPECT_EQ(read.lights[0].position, written.lights[0].position);
   EXPECT_EQ(read.lights[0].intensity_rgb, written.lights[0].intensity_rgb);
+}
+
+TEST(ArtificialEnvironment, OfTheVersionBeforeHasNoSpheres) {
+  const ScratchFolder folder;
+  const SitePaths site{folder.path()};
+  ArtificialEnvironment written = GlazedTriangle();
+  WriteArtificialEnvironment(site, written);
+  Edit(site, "\"version\" : 4", "\"version\" : 3");
+  EXPECT_TRUE(ReadArtificialEnvironment(site).spheres.empty());
+  written.spheres[0].material = 3;
+  WriteArtificialEnvironment(site, written);
+  EXPECT_THAT(Complaint(site), HasSubstr("names a material that is not there"));
+}
+
+TEST(ArtificialEnvironment, FacetsCanStandForItsSpheres) {
+  ArtificialEnvironment building = GlazedTriangle();
+  building.corner_uvs.assign(6, Eigen::Vector2f(1, 2));
+  building.corner_normals.assign(6, Eigen::Vector3f(0, 0, 1));
+  const ArtificialEnvironment faceted = Faceted(building, 2);
+  EXPECT_TRUE(faceted.spheres.empty());
+  ASSERT_EQ(faceted.triangles.size(), 2u + 128);
+  EXPECT_EQ(faceted.material_of_triangle.back(), 1);
+  EXPECT_EQ(faceted.corner_uvs.size(), 3 * faceted.triangles.size());
+  EXPECT_EQ(faceted.corner_normals.size(), 3 * faceted.triangles.size());
+  for (const int corner : faceted.triangles.back()) {
+    const Eigen::Vector3d out = faceted.vertices[corner] - building.spheres[0].center;
+    EXPECT_NEAR(out.norm(), 1.0 / 7, 1e-9);
+  }
 }
 
 TEST(ArtificialEnvironment, KeepsWhatTheRendererDoesNotShow) {
@@ -154,8 +187,8 @@ TEST(ArtificialEnvironment, BadInput) {
   Edit(site, "\"vertices\" : 3", "\"vertices\" : -3");
   EXPECT_THAT(Complaint(site), HasSubstr("is negative, expected a count"));
   WriteArtificialEnvironment(site, GlazedTriangle());
-  Edit(site, "\"version\" : 3", "\"version\" : 7");
-  EXPECT_THAT(Complaint(site), HasSubstr("is not a version this program reads, expected 3"));
+  Edit(site, "\"version\" : 4", "\"version\" : 7");
+  EXPECT_THAT(Complaint(site), HasSubstr("is not a version this program reads, expected 4"));
 }
 
 TEST(ArtificialEnvironment, IndicesOutOfRange) {

@@ -90,5 +90,28 @@ TEST(BuildingEdges, OfABallOnlyTheOutlineIsLeft) {
   }
 }
 
+// Lines of sight touch a sphere nearer than its middle.
+TEST(BuildingEdges, ASpheresOutlineIsItsSilhouette) {
+  ArtificialEnvironment building;
+  building.spheres = {{kPlace, 2, 0}};
+  const Vector3d eye = kPlace + Vector3d(6, 2, 3);  // 7 m away
+  const BuildingEdges edges(building);
+  const auto corners = edges.CornersSeenFrom(eye);
+  ASSERT_EQ(corners.size(), 16u);
+  for (const Vector3d& corner : corners) {
+    EXPECT_NEAR((corner - kPlace).norm(), 2, 1e-9);
+    EXPECT_NEAR((corner - kPlace).dot(eye - corner), 0, 1e-8);
+  }
+  const auto outline = edges.OutlineFrom(eye);
+  ASSERT_EQ(outline.size(), 128u);
+  double length = 0;
+  for (const auto& [a, b] : outline) {
+    EXPECT_NEAR(((a + b) / 2 - kPlace).norm(), 2, 1e-8);
+    length += (b - a).norm();
+  }
+  EXPECT_NEAR(length, 4 * std::numbers::pi * std::sqrt(1 - 4.0 / 49), 0.003);
+  EXPECT_TRUE(edges.OutlineFrom(kPlace + Vector3d(1, 0, 0)).empty());
+}
+
 }  // namespace
 }  // namespace insitu

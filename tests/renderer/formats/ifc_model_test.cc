@@ -98,5 +98,51 @@ TEST(IfcModel, StatedVolumesAreHeldAgainstTheFaces) {
   EXPECT_THAT(off[0], HasSubstr("5.097 m3, stated 6.000"));
 }
 
+// The kernel's own measures of the box: 216 square feet in all, 60 of its largest side.
+TEST(IfcModel, StatedAreasAreHeldAgainstTheFaces) {
+  if (!WebIfcFolder()) GTEST_SKIP() << "web-ifc is not there: scripts/setup fetches it";
+  const auto warnings = [](const std::string& name, const std::string& area) {
+    const ScratchFolder folder;
+    std::string text = kBox;
+    text.insert(text.rfind("ENDSEC;"),
+                "#90=IFCQUANTITYAREA('" + name + "',$,$," + area +
+                    ");\n#91=IFCELEMENTQUANTITY('a',$,'BaseQuantities',$,$,(#90));\n"
+                    "#92=IFCRELDEFINESBYPROPERTIES('b',$,$,$,(#18),#91);\n");
+    return ReadIfc(folder.Write("a.ifc", text), 60).warnings;
+  };
+  EXPECT_TRUE(warnings("Total Surface Area", "20.067").empty());
+  EXPECT_TRUE(warnings("NetSideArea", "5.574").empty());
+  EXPECT_TRUE(warnings("Footprint Area", "1").empty());
+  const std::vector<std::string> off = warnings("NetSurfaceArea", "25.");
+  ASSERT_EQ(off.size(), 1u);
+  EXPECT_THAT(off[0], HasSubstr("elements that state their surface area have another"));
+  EXPECT_THAT(off[0], HasSubstr("20.067 m2, stated 25.000"));
+  EXPECT_THAT(warnings("NetSideArea", "2.787"), testing::ElementsAre(HasSubstr("5.574 m2")));
+}
+
+// A whole one as an item, placed in feet; one that is part of something else has facets.
+TEST(IfcModel, SpheresStaySpheres) {
+  if (!WebIfcFolder()) GTEST_SKIP() << "web-ifc is not there: scripts/setup fetches it";
+  const ScratchFolder folder;
+  std::string text = kBox;
+  text.insert(text.rfind("ENDSEC;"),
+              "#30=IFCCARTESIANPOINT((1.,2.,30.));\n#31=IFCAXIS2PLACEMENT3D(#30,$,$);\n"
+              "#32=IFCSPHERE(#31,5.);\n#33=IFCCSGSOLID(#32);\n"
+              "#34=IFCSHAPEREPRESENTATION(#3,'Body','CSG',(#33));\n"
+              "#35=IFCPRODUCTDEFINITIONSHAPE($,$,(#34));\n"
+              "#36=IFCBUILDINGELEMENTPROXY('2',$,'Ball',$,$,#10,#35,$,$);\n"
+              "#37=IFCBOOLEANRESULT(.UNION.,#15,#32);\n#38=IFCCSGSOLID(#37);\n"
+              "#39=IFCSHAPEREPRESENTATION(#3,'Body','CSG',(#38));\n"
+              "#40=IFCPRODUCTDEFINITIONSHAPE($,$,(#39));\n"
+              "#41=IFCBUILDINGELEMENTPROXY('3',$,'Both',$,$,#10,#40,$,$);\n");
+  const Model model = ReadIfc(folder.Write("a.ifc", text), 60);
+  ASSERT_EQ(model.mesh.spheres.size(), 1u);
+  const ModelSphere& ball = model.mesh.spheres[0];
+  EXPECT_LT((ball.center - 0.3048 * Eigen::Vector3d(1, 2, 30)).norm(), 1e-6);
+  EXPECT_NEAR(ball.radius, 5 * 0.3048, 1e-6);
+  EXPECT_EQ(model.mesh.surfaces[ball.surface].layer, "IfcBuildingElementProxy_Ball");
+  EXPECT_GT(model.mesh.triangles.size(), 60u);
+}
+
 }  // namespace
 }  // namespace insitu

@@ -29,6 +29,10 @@ void Check(const ModelMesh& mesh) {
   for (const Eigen::Vector3d& vertex : mesh.vertices) {
     if (!vertex.allFinite()) std::abort();
   }
+  for (const ModelSphere& sphere : mesh.spheres) {
+    if (!sphere.center.allFinite() || !(sphere.radius > 0)) std::abort();
+    if (sphere.surface < 0 || sphere.surface >= std::ssize(mesh.surfaces)) std::abort();
+  }
 }
 
 }  // namespace
