@@ -250,7 +250,7 @@ Json::Value AdviceJsonOf(const LightMeasurement& measured) {
   const bool has_sun = measured.environment.scene.sun.has_value();
   if (const auto best = BestFurtherSample(measured.daylight, measured.daylight_fit, measured.brdf,
                                           has_sun, bins)) {
-    advice.append("A further daylight sample would tell most " + best->where +
+    advice.append("A further daylight sample would tell most " + best->where.text() +
                   Number(": it would leave %.0f %% of the sun's", 100 * best->sun_left) +
                   Number(" and %.0f %% of the sky's standard deviation.", 100 * best->sky_left));
   }

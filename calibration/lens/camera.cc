@@ -5,7 +5,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "calibration/files/error.h"
+#include "calibration/files/error_at.h"
 #include "calibration/files/whole_file.h"
 #include "calibration/files/wording.h"
 
@@ -82,17 +82,19 @@ CameraModelFile ReadCameraModel(const std::filesystem::path& path) {
   const std::unique_ptr<mrcal_cameramodel_t, decltype(free_model)> model(
       mrcal_read_cameramodel_string(content.data(), static_cast<int>(content.size())), free_model);
   if (content.empty() || !model) {
-    throw InputError(path, "not a camera model, expected a complete .cameramodel of mrcal");
+    throw ErrorAt(
+        {path},
+        Sentence("lensNone", "not a camera model, expected a complete .cameramodel of mrcal"));
   }
   char name[256];
   const double* first = model->intrinsics;
   const int count = mrcal_lensmodel_num_params(&model->lensmodel);
   if (!mrcal_lensmodel_name(name, sizeof(name), &model->lensmodel)) {
-    throw InputError(path, "its lens model is unknown");
+    throw ErrorAt({path}, Sentence("lensUnknown", "its lens model is unknown"));
   }
   const Rigid3 pose = RigidFromRodrigues(model->rt_cam_ref);
   if (!pose.translation.allFinite() || !pose.rotation.coeffs().allFinite()) {
-    throw InputError(path, "its extrinsics are not finite");
+    throw ErrorAt({path}, Sentence("lensExtrinsics", "its extrinsics are not finite"));
   }
   try {
     return {Camera(name, std::vector<double>(first, first + count),

@@ -78,16 +78,21 @@ std::string StrangeColors(const ImageInput& input) {
 }
 
 std::unique_ptr<ImageInput> Open(const fs::path& path) {
-  if (!fs::is_regular_file(path)) throw InputError(path, "no such file, expected a photograph");
+  if (!fs::is_regular_file(path)) {
+    throw ErrorAt({path}, Sentence("photoGone", "no such file, expected a photograph"));
+  }
   auto input = OpenAs(path, true);
   if (PhotometricOf(input->spec()) == 6) input = OpenAs(path, false);  // YCbCr
   const ImageSpec& spec = input->spec();
   if (int64_t{spec.width} * spec.height > kMostPixels) {
-    throw InputError(path, "is " + SizeText(spec.width, spec.height) +
-                               ", expected at most 536 megapixels; make it smaller");
+    throw ErrorAt({path}, Sentence("photoLarge",
+                                   "is {size}, expected at most 536 megapixels; make it smaller",
+                                   {{"size", SizeText(spec.width, spec.height)}}));
   }
   if (const std::string colors = StrangeColors(*input); !colors.empty()) {
-    throw InputError(path, "is " + colors + ", expected RGB or grey; convert it to sRGB");
+    throw ErrorAt({path},
+                  Sentence("photoColors", "is {colors}, expected RGB or grey; convert it to sRGB",
+                           {{"colors", colors}}));
   }
   return input;
 }
@@ -125,8 +130,9 @@ Encoding EncodingOf(const ImageSpec& spec, const fs::path& path) {
     case TypeDesc::FLOAT:
       return Encoding::kLinear;
     default:
-      throw InputError(path, std::string("pixels of type ") + spec.format.c_str() +
-                                 ", expected 8 or 16 bits, half or float");
+      throw ErrorAt({path}, Sentence("photoType",
+                                     "pixels of type {type}, expected 8 or 16 bits, half or float",
+                                     {{"type", spec.format.c_str()}}));
   }
 }
 
@@ -138,7 +144,8 @@ std::vector<Sample> ReadSamples(ImageInput& input, const fs::path& path) {
   const bool complete =
       input.read_image(0, 0, 0, spec.nchannels, OIIO::BaseTypeFromC<Sample>::value, samples.data());
   if (!complete || input.has_error()) {
-    throw InputError(path, "cut short or damaged: " + FirstLine(input.geterror()));
+    throw ErrorAt({path}, Sentence("photoDamaged", "cut short or damaged: {why}",
+                                   {{"why", FirstLine(input.geterror())}}));
   }
   return samples;
 }
@@ -196,9 +203,10 @@ void CheckFinite(const std::vector<float>& values, int width, const fs::path& pa
       std::find_if(values.begin(), values.end(), [](float value) { return !std::isfinite(value); });
   if (strange == values.end()) return;
   const auto pixel = (strange - values.begin()) / 3;
-  throw InputError(path, "pixel (" + std::to_string(pixel % width) + ", " +
-                             std::to_string(pixel / width) +
-                             ") is NaN or infinite, expected finite values");
+  throw ErrorAt(
+      {path},
+      Sentence("photoNotFinite", "pixel ({x}, {y}) is NaN or infinite, expected finite values",
+               {{"x", static_cast<int>(pixel % width)}, {"y", static_cast<int>(pixel / width)}}));
 }
 
 // The nearest code; NaN becomes 0.

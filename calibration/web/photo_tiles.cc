@@ -7,7 +7,7 @@
 #include <optional>
 #include <utility>
 
-#include "calibration/files/error.h"
+#include "calibration/files/error_at.h"
 #include "calibration/photo/photograph.h"
 #include "calibration/web/overview_files.h"
 #include "calibration/web/photo_cache.h"
@@ -79,8 +79,9 @@ struct PhotoTiles::Parts {
     const int step = 1 << level;
     if (image.cols != (size.width + step - 1) / step ||
         image.rows != (size.height + step - 1) / step) {
-      throw InputError(PathOf(photo), "has another size than before, expected " +
-                                          SizeText(size.width, size.height));
+      throw ErrorAt({PathOf(photo)},
+                    Sentence("photoOther", "has another size than before, expected {size}",
+                             {{"size", SizeText(size.width, size.height)}}));
     }
     return std::make_shared<PhotoPyramid>(std::move(image), level);
   }

@@ -34,25 +34,6 @@ FacetDistribution ReadDistribution(const MaterialKeys& material) {
   throw name->Error("is \"" + name->Text() + "\", expected \"ggx\" or \"beckmann\"");
 }
 
-NaturalMaterial ReadMaterial(const MaterialKeys& material) {
-  NaturalMaterial result;
-  result.specular = ReadSpecular(material);
-  result.bumps = ReadBumps(material);
-  if (result.bumps && !result.specular) {
-    throw material.At("bumps").Error(
-        "is of a surface that mirrors nothing: its photograph shows what light makes of them");
-  }
-  result.diffuse_weight = NumberOr(material, "diffuse_weight", 1);
-  if (result.diffuse_weight <= 0) {
-    throw material.At("diffuse_weight").Error("is out of range, expected above 0");
-  }
-  const auto diffuse = material.Find("diffuse");
-  if (diffuse && diffuse->Text() != "from photo") {
-    throw diffuse->Error("is \"" + diffuse->Text() + "\", expected \"from photo\"");
-  }
-  return result;
-}
-
 }  // namespace
 
 std::optional<Specular> ReadSpecular(const MaterialKeys& material, bool may_be_metal) {
@@ -87,6 +68,25 @@ Specular SpecularOf(const JsonNode& node) {
   return specular;
 }
 
+NaturalMaterial ReadNaturalMaterial(const MaterialKeys& material) {
+  NaturalMaterial result;
+  result.specular = ReadSpecular(material);
+  result.bumps = ReadBumps(material);
+  if (result.bumps && !result.specular) {
+    throw material.At("bumps").Error(
+        "is of a surface that mirrors nothing: its photograph shows what light makes of them");
+  }
+  result.diffuse_weight = NumberOr(material, "diffuse_weight", 1);
+  if (result.diffuse_weight <= 0) {
+    throw material.At("diffuse_weight").Error("is out of range, expected above 0");
+  }
+  const auto diffuse = material.Find("diffuse");
+  if (diffuse && diffuse->Text() != "from photo") {
+    throw diffuse->Error("is \"" + diffuse->Text() + "\", expected \"from photo\"");
+  }
+  return result;
+}
+
 std::map<std::string, NaturalMaterial> ReadNaturalMaterials(const SitePaths& site) {
   const std::filesystem::path path = site.survey() / "materials.json";
   std::map<std::string, NaturalMaterial> materials;
@@ -95,7 +95,7 @@ std::map<std::string, NaturalMaterial> ReadNaturalMaterials(const SitePaths& sit
   for (const auto& [name, material] : JsonNode::Load(path).At("materials").Members()) {
     MaterialKeys keys(material);
     if (const auto use = material.Find("use")) keys.PutBelow(library.Material(*use).content);
-    materials[name] = ReadMaterial(keys);
+    materials[name] = ReadNaturalMaterial(keys);
   }
   return materials;
 }

@@ -38,6 +38,10 @@ std::optional<Specular> ReadSpecular(const MaterialKeys& material, bool may_be_m
 Json::Value SpecularJson(const Specular& specular);
 Specular SpecularOf(const JsonNode& node);
 
+// One entry of survey/materials.json: what of a photographed surface the photograph does not tell.
+// Throws InputError: weights out of range, of bare metal, bumps of what mirrors nothing.
+NaturalMaterial ReadNaturalMaterial(const MaterialKeys& material);
+
 // By name; with use NAME the keys of a library's entry lie below. A site without the file has no
 // entries: every material is then purely diffuse. Throws InputError (weights out of range).
 std::map<std::string, NaturalMaterial> ReadNaturalMaterials(const SitePaths& site);

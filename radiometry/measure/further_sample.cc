@@ -45,14 +45,18 @@ double MedianRelativeSigma(const std::vector<DaylightSample>& samples, int bin) 
 }
 
 struct Candidate {
-  const char* where;
+  Sentence where;
   double sun, sky;  // [sr]
 };
 
 std::vector<Candidate> Candidates(bool has_sun) {
-  std::vector<Candidate> candidates = {{"in open shade, facing much of the sky", 0, 0.8 * kPi},
-                                       {"in deep shade, facing little of the sky", 0, 0.15 * kPi}};
-  if (has_sun) candidates.push_back({"in full sun, facing it", kSolarSolidAngle, 0.6 * kPi});
+  std::vector<Candidate> candidates = {
+      {Sentence("inOpenShade", "in open shade, facing much of the sky"), 0, 0.8 * kPi},
+      {Sentence("inDeepShade", "in deep shade, facing little of the sky"), 0, 0.15 * kPi}};
+  if (has_sun) {
+    candidates.push_back(
+        {Sentence("inFullSun", "in full sun, facing it"), kSolarSolidAngle, 0.6 * kPi});
+  }
   return candidates;
 }
 

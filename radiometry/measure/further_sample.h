@@ -3,9 +3,9 @@
 #pragma once
 
 #include <optional>
-#include <string>
 #include <vector>
 
+#include "calibration/files/sentence.h"
 #include "radiometry/measure/fit_atmosphere.h"
 #include "radiometry/measure/fit_daylight.h"
 
@@ -15,7 +15,7 @@ namespace insitu {
 inline constexpr double kWorthASample = 0.9;
 
 struct FurtherDaylightSample {
-  std::string where;    // in words: "in full sun, facing it"
+  Sentence where;       // "in full sun, facing it"
   double sun_left = 1;  // of the standard deviations of sun and sky, what would be left, 0..1
   double sky_left = 1;
 };

@@ -119,7 +119,9 @@ void MeasureColor(const PhotographedScene& scene, const JsonNode& node, int radi
   for (const Eigen::Vector2i& at : patch) {
     squares += (photo.linear.Rgb(at.x(), at.y()) - sample->rgb).array().square();
   }
-  const Eigen::Array3d sigma_of_mean = (squares / std::max(1.0, n - 1) / n).sqrt();
+  const Eigen::Array3d variance = squares / std::max(1.0, n - 1);
+  if (sample->rgb.sum() > 0) sample->unevenness = variance.sqrt().sum() / sample->rgb.sum();
+  const Eigen::Array3d sigma_of_mean = (variance / n).sqrt();
   sample->rgb_sigma =
       sigma_of_mean.max(kRelativeFloor * sample->rgb.array()).max(kAbsoluteFloor).matrix();
 }

@@ -23,6 +23,7 @@ struct PixelSample {
   std::optional<int> polygon;  // nullopt: sky (horizon samples)
   Eigen::Vector3d rgb;         // mean linear colour about the pixel
   Eigen::Vector3d rgb_sigma;   // of that mean, > 0
+  double unevenness = 0;       // standard deviation of the pixels about it, over their mean
   Eigen::Vector3d point;       // [m], world, on the polygon; zero for sky
   double distance = 0;         // [m] from the camera; zero for sky
   FilePlace place;

@@ -5,19 +5,24 @@
 #include <unordered_map>
 #include <utility>
 
+#include "calibration/files/error_at.h"
 #include "calibration/files/wording.h"
 #include "reconstruction/adjustment/start_growth.h"
 
 namespace insitu {
 namespace {
 
-void RequireOnPhotograph(const std::string& what, const std::string& photo, const Camera& camera,
+void RequireOnPhotograph(const Sentence& what, const std::string& photo, const Camera& camera,
                          const Eigen::Vector2d& pixel, const FilePlace& place) {
   if (camera.Sees(pixel)) return;
-  throw InputError(place.path, place.line,
-                   what + " is marked outside photo '" + photo + "', expected a position within " +
-                       std::to_string(camera.width()) + "x" + std::to_string(camera.height()) +
-                       " pixels");
+  throw ErrorAt(place,
+                Sentence("startOutside",
+                         "{what} is marked outside photo '{photo}', expected a position within "
+                         "{width}x{height} pixels",
+                         {{"what", what.ToJson()},
+                          {"photo", photo},
+                          {"width", camera.width()},
+                          {"height", camera.height()}}));
 }
 
 // Grows the start values of a survey that must be whole: tells what it lacks.
@@ -76,18 +81,21 @@ class StartFinder {
     const auto [points, first_known, first] = growth_.MarksOf(photo);
     if (points.size() < 3) {
       const FilePlace place = first ? first->place : FileOfObservations(survey_);
-      throw InputError(place.path, place.line,
-                       "photo '" + name + "' shows " + std::to_string(points.size()) +
-                           " control points, expected at least three (check points do not "
-                           "count); mark more, or let insitu-tie-points connect it to photos that "
-                           "show them");
+      throw ErrorAt(place,
+                    Sentence("startFewControl",
+                             "photo '{photo}' shows {count} control points, expected at least "
+                             "three (check points do not count); mark more, or let "
+                             "insitu-tie-points connect it to photos that show them",
+                             {{"photo", name}, {"count", static_cast<int>(points.size())}}));
     }
     std::vector<Eigen::Vector3d> positions;
     for (const ResectionPoint& point : points) positions.push_back(point.world);
     if (AreCollinear(positions)) {
-      throw InputError(first_known->place.path, first_known->place.line,
-                       "the " + std::to_string(points.size()) + " control points on photo '" +
-                           name + "' lie on one line, expected one well beside it");
+      throw ErrorAt(first_known->place,
+                    Sentence("startOnLine",
+                             "the {count} control points on photo '{photo}' lie on one line, "
+                             "expected one well beside it",
+                             {{"count", static_cast<int>(points.size())}, {"photo", name}}));
     }
     const Resections resections = Resect(photo, points, first_known->place);
     return resections.best.ambiguous || !resections.seconds.empty();
@@ -132,23 +140,26 @@ class StartFinder {
                     const FilePlace& place) {
     const auto resections = growth_.Resect(photo, points);
     if (resections) return *resections;
-    throw InputError(place.path, place.line,
-                     "photo '" + NameOf(photo) + "' cannot be resected from its " +
-                         std::to_string(points.size()) +
-                         " control points, expected marks that one camera position explains");
+    throw ErrorAt(place,
+                  Sentence("startNoPlace",
+                           "photo '{photo}' cannot be resected from its {count} control "
+                           "points, expected marks that one camera position explains",
+                           {{"photo", NameOf(photo)}, {"count", static_cast<int>(points.size())}}));
   }
 
   void RequireAllFound() const {
     if (growth_.unknown().empty()) return;
     const std::string& name = *growth_.unknown().begin();
-    const size_t rays = growth_.Rays(name);
-    const FilePlace place = PlaceOfPoint(survey_, name);
-    throw InputError(place.path, place.line,
-                     "point '" + name + "' is marked on " + std::to_string(rays) +
-                         (rays == 1 ? " photo" : " photos") +
-                         " and cannot be determined; expected marks on two photos from different "
-                         "places, or one mark and a polygon with three other known vertices, or "
-                         "its coordinates as a control point");
+    const int rays = static_cast<int>(growth_.Rays(name));
+    const Sentence photos = rays == 1 ? Sentence("onePhoto", "1 photo")
+                                      : Sentence("manyPhotos", "{count} photos", {{"count", rays}});
+    throw ErrorAt(PlaceOfPoint(survey_, name),
+                  Sentence("startNoPoint",
+                           "point '{point}' is marked on {photos} and cannot be determined; "
+                           "expected marks on two photos from different places, or one mark and a "
+                           "polygon with three other known vertices, or its coordinates as a "
+                           "control point",
+                           {{"point", name}, {"photos", photos.ToJson()}}));
   }
 
   const Survey& survey_;
@@ -174,16 +185,17 @@ void RequireMarksOnPhotographs(const Survey& survey, const std::vector<std::stri
   };
   count(survey.observations);
   count(survey.edges);
-  const auto require = [&](const auto& mark, const std::string& what) {
+  const auto require = [&](const auto& mark, const Sentence& what) {
     const Frame& frame = frames.at(mark.photo);
     if (frame.outside == 0 || frame.outside > most_outside * frame.all) return;
     RequireOnPhotograph(what, mark.photo, *frame.camera, mark.pixel, mark.place);
   };
   for (const ImageObservation& mark : survey.observations) {
-    require(mark, "point '" + mark.point + "'");
+    require(mark, Sentence("startPoint", "point '{point}'", {{"point", mark.point}}));
   }
   for (const EdgeMark& mark : survey.edges) {
-    require(mark, "edge '" + mark.from + "' to '" + mark.to + "'");
+    require(mark, Sentence("startEdge", "edge '{from}' to '{to}'",
+                           {{"from", mark.from}, {"to", mark.to}}));
   }
 }
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <set>
 
+#include "calibration/files/error_at.h"
 #include "calibration/files/text_table.h"
 
 namespace insitu {
@@ -15,7 +16,9 @@ std::filesystem::path Resolved(const XmlNode& node, std::string text, const XmlN
   const std::filesystem::path here = node.path().parent_path();
   if (text.starts_with("$HERE")) return here / TrimmedView(text.substr(5)).substr(text[5] == '/');
   if (text.starts_with("$")) {
-    throw node.Error("\"" + text + "\": only $HERE is known here, expected a path relative to it");
+    throw node.Error(
+        Sentence("dbatHere", "\"{text}\": only $HERE is known here, expected a path relative to it",
+                 {{"text", text}}));
   }
   if (std::filesystem::path(text).is_absolute()) return text;
   const std::string base = input.Attribute("base_dir").value_or("$HERE");
@@ -24,10 +27,13 @@ std::filesystem::path Resolved(const XmlNode& node, std::string text, const XmlN
 }
 
 std::filesystem::path FileOf(const XmlNode& file, const XmlNode& input) {
-  if (file.Text().empty()) throw file.Error("is empty, expected the name of a file");
+  if (file.Text().empty()) {
+    throw file.Error(Sentence("dbatNoFile", "is empty, expected the name of a file"));
+  }
   const std::filesystem::path path = Resolved(file, file.Text(), input);
   if (!std::filesystem::is_regular_file(path)) {
-    throw file.Error("there is no file \"" + path.string() + "\"");
+    throw file.Error(
+        Sentence("dbatFileGone", "there is no file \"{file}\"", {{"file", path.string()}}));
   }
   return path;
 }
@@ -39,7 +45,9 @@ std::vector<DbatControlPoint> ParseControl(const XmlNode& section, const XmlNode
   for (const XmlNode& filter : section.Children("filter")) {
     const std::vector<std::string> listed = SplitAt(filter.RequiredAttribute("id"), ',');
     const bool keeps = filter.Text() == "keep";
-    if (!keeps && filter.Text() != "remove") throw filter.Error("expected keep or remove");
+    if (!keeps && filter.Text() != "remove") {
+      throw filter.Error(Sentence("dbatFilter", "expected keep or remove"));
+    }
     const std::set<std::string> ids(listed.begin(), listed.end());
     std::erase_if(points, [&](const auto& point) { return ids.contains(point.id) != keeps; });
   }
@@ -53,7 +61,10 @@ std::vector<DbatImage> ParseImages(const XmlNode& section, const XmlNode& input)
   for (const auto& row :
        ReadDbatTable(FileOf(file, input), file.RequiredAttribute("format")).rows) {
     const std::string& id = row.Text("id");
-    if (!ids.insert(id).second) throw row.Error("image \"" + id + "\" stands twice");
+    if (!ids.insert(id).second) {
+      throw ErrorAt(row.place,
+                    Sentence("dbatTwice", "image \"{image}\" stands twice", {{"image", id}}));
+    }
     images.push_back({id, std::filesystem::path(row.Text("path")).stem().string(),
                       row.cells.contains("cam") ? row.Text("cam") : "", row.place});
   }
@@ -67,15 +78,17 @@ std::vector<DbatMark> ParseMarks(const XmlNode& section, const XmlNode& input) {
         ReadDbatMarks(FileOf(file, input), file.RequiredAttribute("format"));
     const bool has_sigma = file.Attribute("sxy").has_value();
     const double sigma = has_sigma ? file.NumberAttribute("sxy") : 0;
-    if (has_sigma && !(sigma > 0)) throw file.Error("sxy must be positive");
+    if (has_sigma && !(sigma > 0)) throw file.Error(Sentence("dbatSxy", "sxy must be positive"));
     for (DbatMark& mark : read) {
       if (has_sigma) mark.sigma_px = sigma;
-      if (!mark.sigma_px)
-        throw file.Error("marks without sigma, expected a column or attribute sxy");
+      if (!mark.sigma_px) {
+        throw file.Error(
+            Sentence("dbatNoSigma", "marks without sigma, expected a column or attribute sxy"));
+      }
     }
     marks.insert(marks.end(), read.begin(), read.end());
   }
-  if (marks.empty()) throw section.Error("no marks at all");
+  if (marks.empty()) throw section.Error(Sentence("dbatNoMarks", "no marks at all"));
   return marks;
 }
 
@@ -83,7 +96,8 @@ std::vector<DbatOrientation> ParseOrientations(const XmlNode& section, const Xml
   const XmlNode file = section.At("file");
   const std::string units = file.Attribute("units").value_or("radians");
   if (units != "degrees" && units != "radians") {
-    throw file.Error("units=\"" + units + "\", expected degrees or radians");
+    throw file.Error(Sentence("dbatUnits", "units=\"{units}\", expected degrees or radians",
+                              {{"units", units}}));
   }
   const double scale = units == "degrees" ? M_PI / 180 : 1;
   std::vector<DbatOrientation> orientations;
@@ -103,7 +117,7 @@ std::vector<DbatCamera> ParseCameras(const XmlNode& section, const XmlNode& inpu
   if (const auto file = section.Find("file")) {
     elements = XmlNode::Load(FileOf(*file, input)).At("cameras").Children("camera");
   }
-  if (elements.empty()) throw section.Error("no camera");
+  if (elements.empty()) throw section.Error(Sentence("dbatNoCamera", "no camera"));
   std::vector<DbatCamera> cameras;
   for (const XmlNode& element : elements) cameras.push_back(ParseDbatCamera(element));
   return cameras;
@@ -130,14 +144,16 @@ void SetInitialValue(const XmlNode& node, const std::string& name, DbatCamera* c
   } else if (name == "P" && is_default) {
     camera->P = defaults.P;
   } else {
-    throw node.Error("\"" + text + "\", expected loaded or default");
+    throw node.Error(
+        Sentence("dbatLoaded", "\"{text}\", expected loaded or default", {{"text", text}}));
   }
 }
 
 bool ParseTruth(const XmlNode& node) {
   if (node.Text() == "true") return true;
   if (node.Text() == "false") return false;
-  throw node.Error("\"" + node.Text() + "\", expected true or false");
+  throw node.Error(
+      Sentence("dbatTruth", "\"{text}\", expected true or false", {{"text", node.Text()}}));
 }
 
 // Parameters of kBackwardBrown by DBAT's name.
@@ -151,7 +167,9 @@ std::vector<size_t> ParametersNamed(const XmlNode& node, const DbatCamera& camer
       {"P2", {7}},      {"aspect", {8}},
       {"skew", {9}},    {"all", {0, 1, 2, 3, 4, 5, 6, 7, 8, 9}}};
   const auto named = kNamed.find(node.Name());
-  if (named == kNamed.end()) throw node.Error("is no parameter of a camera that we know");
+  if (named == kNamed.end()) {
+    throw node.Error(Sentence("dbatParameter", "is no parameter of a camera that we know"));
+  }
   std::vector<size_t> indices = named->second;
   std::erase_if(indices, [&](size_t i) {
     return (i >= 3 && i < 6 && static_cast<int>(i) - 3 >= camera.K_count) ||
@@ -176,7 +194,8 @@ void ParseEstimated(const XmlNode& operation, DbatScript* script) {
   if (!eo) return;
   const XmlNode all = eo->Children().empty() ? *eo : eo->At("all");
   if (!ParseTruth(all) || eo->Children().size() > 1) {
-    throw eo->Error("orientations that are partly fixed are not supported, expected all true");
+    throw eo->Error(Sentence(
+        "dbatFixed", "orientations that are partly fixed are not supported, expected all true"));
   }
 }
 
@@ -208,7 +227,7 @@ double MetresPerUnit(const XmlNode& document) {
   const auto unit = meta ? meta->Find("project_unit") : std::nullopt;
   if (!unit || unit->Text() == "m") return 1;
   if (unit->Text() == "mm") return 1e-3;
-  throw unit->Error("\"" + unit->Text() + "\", expected m or mm");
+  throw unit->Error(Sentence("dbatUnit", "\"{text}\", expected m or mm", {{"text", unit->Text()}}));
 }
 
 }  // namespace
@@ -216,7 +235,8 @@ double MetresPerUnit(const XmlNode& document) {
 DbatScript ReadDbatScript(const std::filesystem::path& path) {
   const XmlNode document = XmlNode::Load(path);
   if (!document.Attribute("dbat_script_version")) {
-    throw document.Error("is no script of DBAT: it has no dbat_script_version");
+    throw document.Error(
+        Sentence("dbatNoScript", "is no script of DBAT: it has no dbat_script_version"));
   }
   const XmlNode input = document.At("input");
   DbatScript script;

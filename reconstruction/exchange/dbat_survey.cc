@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <map>
 
+#include "calibration/files/error_at.h"
 #include "reconstruction/exchange/dbat_script.h"
 #include "reconstruction/exchange/survey_file_formats.h"
 
@@ -28,8 +29,9 @@ SurveyFile ReadDbatSurvey(const std::filesystem::path& path) {
   for (const DbatMark& mark : script.marks) {
     const auto photo = photos.find(mark.image);
     if (photo == photos.end()) {
-      throw InputError(mark.place.path, mark.place.line,
-                       "image \"" + mark.image + "\" is not in the list of images");
+      throw ErrorAt(mark.place,
+                    Sentence("dbatImage", "image \"{image}\" is not in the list of images",
+                             {{"image", mark.image}}));
     }
     file.marks.push_back({photo->second, mark.point, mark.pixel.array() - kDbatFirstPixelCenter,
                           mark.sigma_px, mark.place});

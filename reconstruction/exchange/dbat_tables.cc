@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "calibration/files/error_at.h"
 #include "calibration/files/text_table.h"
 
 namespace insitu {
@@ -16,28 +17,36 @@ Eigen::Vector3d Sigma(const DbatTable::Row& row) {
   if (const auto sz = row.Find("sz")) sigma.z() = *sz;
   const bool is_fixed = sigma.isZero(0);
   if (!is_fixed && !(sigma.minCoeff() > 0)) {
-    throw row.Error("sigmas must be positive, or all 0 for a fixed point");
+    throw ErrorAt(row.place,
+                  Sentence("dbatSigmas", "sigmas must be positive, or all 0 for a fixed point"));
   }
   return sigma;
 }
 
 }  // namespace
 
-InputError DbatTable::Row::Error(const std::string& message) const {
-  return InputError(place.path, place.line, message);
-}
-
 const std::string& DbatTable::Row::Text(const std::string& column) const {
   const auto cell = cells.find(column);
-  if (cell == cells.end()) throw Error("the format of this table has no column \"" + column + "\"");
-  if (cell->second.empty()) throw Error("column \"" + column + "\" is empty");
+  if (cell == cells.end()) {
+    throw ErrorAt(place,
+                  Sentence("dbatNoColumn", "the format of this table has no column \"{column}\"",
+                           {{"column", column}}));
+  }
+  if (cell->second.empty()) {
+    throw ErrorAt(place,
+                  Sentence("dbatEmpty", "column \"{column}\" is empty", {{"column", column}}));
+  }
   return cell->second;
 }
 
 double DbatTable::Row::Number(const std::string& column) const {
   const std::string& text = Text(column);
   const auto value = ParseNumber(text);
-  if (!value) throw Error("\"" + text + "\" in column \"" + column + "\", expected a number");
+  if (!value) {
+    throw ErrorAt(place,
+                  Sentence("dbatNumber", "\"{text}\" in column \"{column}\", expected a number",
+                           {{"text", text}, {"column", column}}));
+  }
   return *value;
 }
 
@@ -51,8 +60,11 @@ DbatTable ReadDbatTable(const std::filesystem::path& path, const std::string& fo
   DbatTable table;
   for (const TextRow& row : ReadTextRows(path, WordSeparator::kComma)) {
     if (row.words.size() != columns.size()) {
-      throw row.Error(std::to_string(row.words.size()) + " values, expected " +
-                      std::to_string(columns.size()) + " (" + format + ")");
+      throw ErrorAt(row.place(),
+                    Sentence("dbatValues", "{count} values, expected {expected} ({format})",
+                             {{"count", static_cast<int>(row.words.size())},
+                              {"expected", static_cast<int>(columns.size())},
+                              {"format", format}}));
     }
     DbatTable::Row parsed{{row.path, row.line}, {}};
     for (size_t i = 0; i < columns.size(); ++i) parsed.cells[columns[i]] = row.words[i];
@@ -69,7 +81,9 @@ std::vector<DbatControlPoint> ReadDbatControl(const std::filesystem::path& path,
     const std::string& id = row.Text("id");
     const auto [first, is_new] = lines.emplace(id, row.place.line);
     if (!is_new) {
-      throw row.Error("point \"" + id + "\" stands also in line " + std::to_string(first->second));
+      throw ErrorAt(row.place,
+                    Sentence("dbatPointTwice", "point \"{point}\" stands also in line {line}",
+                             {{"point", id}, {"line", first->second}}));
     }
     points.push_back({id,
                       row.cells.contains("label") ? row.Text("label") : id,
@@ -89,7 +103,7 @@ std::vector<DbatMark> ReadDbatMarks(const std::filesystem::path& path, const std
                      row.Find("sxy"),
                      row.place});
     if (marks.back().sigma_px && !(*marks.back().sigma_px > 0)) {
-      throw row.Error("sxy must be positive");
+      throw ErrorAt(row.place, Sentence("dbatSxy", "sxy must be positive"));
     }
   }
   return marks;

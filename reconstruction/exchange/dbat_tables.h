@@ -19,7 +19,6 @@ struct DbatTable {
     FilePlace place;
     std::map<std::string, std::string> cells;  // by column
 
-    InputError Error(const std::string& message) const;
     const std::string& Text(const std::string& column) const;
     double Number(const std::string& column) const;
     std::optional<double> Find(const std::string& column) const;  // nullopt: no such column

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
 
+#include "calibration/files/error_at.h"
 #include "calibration/files/json_file.h"
 #include "reconstruction/exchange/survey_file_formats.h"
 
@@ -29,11 +30,13 @@ SurveyedMark ReadMark(const JsonNode& observation, const std::string& id,
                       const Eigen::Vector2i& size) {
   const JsonNode projection = observation.At("projection");
   const std::vector<double> normalized = projection.Numbers();
-  if (normalized.size() != 2) throw projection.Error("expected two numbers");
+  const FilePlace place{projection.path(), projection.line()};
+  if (normalized.size() != 2) throw ErrorAt(place, Sentence("openSfmTwo", "expected two numbers"));
   const Eigen::Vector2d middle = (size.cast<double>().array() - 1) / 2;
   const Eigen::Vector2d offset = Eigen::Vector2d(normalized[0], normalized[1]) * size.maxCoeff();
   if (std::max(std::abs(normalized[0]), std::abs(normalized[1])) > 0.5001) {
-    throw projection.Error("lies off the picture, expected -0.5 to 0.5 of its larger side");
+    throw ErrorAt(place, Sentence("openSfmOff",
+                                  "lies off the picture, expected -0.5 to 0.5 of its larger side"));
   }
   return {PhotoName(observation.At("shot_id").Text()),
           id,

@@ -145,11 +145,15 @@ bool IsAiconMarks(const TextRow& row) { return IsWhole(row.words[0]) && IsWhole(
 void ReadAiconMarks(const SurveyText& text, SurveyFile* file) {
   const std::filesystem::path ior = std::filesystem::path(text.path).replace_extension(".ior");
   if (!std::filesystem::exists(ior)) {
-    throw InputError(
-        text.path, "marks in mm need the camera beside them, \"" + ior.filename().string() + "\"");
+    throw ErrorAt({text.path},
+                  Sentence("aiconCamera", "marks in mm need the camera beside them, \"{file}\"",
+                           {{"file", ior.filename().string()}}));
   }
   const std::vector<AiconCamera> cameras = ReadAiconCameras(ior);
-  if (cameras.size() != 1) throw InputError(ior, "expected one camera for the marks of all photos");
+  if (cameras.size() != 1) {
+    throw ErrorAt({ior},
+                  Sentence("aiconOneCamera", "expected one camera for the marks of all photos"));
+  }
   int flagged = 0;
   for (const TextRow& row : text.rows) {
     const Eigen::Vector2d mm(row.Number(2, "x"), row.Number(3, "y"));
@@ -221,9 +225,11 @@ SurveyFile ReadOdmList(const SurveyText& text) {
   file.format = "gcp_list.txt of OpenDroneMap or OpenSfM";
   const std::vector<TextRow> rows = OdmRows(text);
   if (rows[0].words.size() > kOdmPhoto && AreNumbers(rows[0], 1, 4)) {
-    throw rows[0].Error("the coordinate system and the first point stand in one line (" +
-                        rows[0].words[0].substr(0, 20) +
-                        "...), expected a line end behind the system's code");
+    throw ErrorAt(rows[0].place(),
+                  Sentence("odmOneLine",
+                           "the coordinate system and the first point stand in one line "
+                           "({begin}...), expected a line end behind the system's code",
+                           {{"begin", rows[0].words[0].substr(0, 20)}}));
   }
   if (rows[0].words[0] != "NONE") file.crs = Joined(rows[0].words);
   OdmPoints points(&file);

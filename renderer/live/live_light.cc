@@ -9,6 +9,7 @@
 #include "calibration/files/sentence.h"
 #include "calibration/files/wording.h"
 #include "radiometry/light_report.h"
+#include "radiometry/measure/further_sample.h"
 #include "radiometry/measure_daylight.h"
 
 namespace insitu {
@@ -18,6 +19,7 @@ constexpr double kHazeDistance = 100;    // [m], for which the transmittance is 
 constexpr double kFairLight = 33;        // condition above which another sample is proposed
 constexpr double kShortBase = 3;         // farthest haze sample over the nearest
 constexpr double kGrossResidual = 0.25;  // relative
+constexpr double kUneven = 0.3;          // spread of a sample's pixels over their mean
 
 Json::Value ResidualsJson(const std::vector<PixelSample>& samples,
                           const std::vector<double>& residuals, const SceneGeometry& scene) {
@@ -69,7 +71,18 @@ Json::Value DaylightJson(const LightMeasurement& measured) {
   return json;
 }
 
+// What one sample more would leave of the standard deviations.
 void AdviseOnHaze(const LightMeasurement& measured, Json::Value* advice) {
+  const SpectralBins& bins = measured.environment.spectra.bins();
+  if (const auto best = BestFurtherSample(measured.haze, measured.air_fit, bins)) {
+    advice->append(Sentence("adviceFurtherHaze",
+                            "haze: one more sample of the same material {distance} m away would "
+                            "leave {left} % of the transmittance's standard deviation",
+                            {{"distance", Number("%.0f", best->distance)},
+                             {"left", Number("%.0f", 100 * best->left)}})
+                       .ToJson());
+    return;
+  }
   const std::vector<PixelSample>& haze = measured.samples.haze;
   if (haze.empty()) return;
   const auto [nearest, farthest] =
@@ -82,6 +95,41 @@ void AdviseOnHaze(const LightMeasurement& measured, Json::Value* advice) {
                           {{"near", Number("%.0f", nearest->distance)},
                            {"far", Number("%.0f", farthest->distance)}})
                      .ToJson());
+}
+
+void AdviseOnDaylight(const LightMeasurement& measured, Json::Value* advice) {
+  const bool has_sun = measured.environment.scene.sun.has_value();
+  if (const auto best = BestFurtherSample(measured.daylight, measured.daylight_fit, measured.brdf,
+                                          has_sun, measured.environment.spectra.bins())) {
+    advice->append(Sentence("adviceFurtherDaylight",
+                            "daylight: one more sample {where} would leave {sun} % of the sun's "
+                            "and {sky} % of the sky's standard deviation",
+                            {{"where", best->where.ToJson()},
+                             {"sun", Number("%.0f", 100 * best->sun_left)},
+                             {"sky", Number("%.0f", 100 * best->sky_left)}})
+                       .ToJson());
+  } else if (measured.daylight_fit.condition > kFairLight) {
+    advice->append(Sentence("adviceShade",
+                            "daylight: one more sample in open shade and one in deep shade tell "
+                            "sun, sky and ambient light better apart")
+                       .ToJson());
+  }
+}
+
+void AdviseOnTexture(const Sentence& kind, const std::vector<PixelSample>& samples,
+                     const SceneGeometry& scene, Json::Value* advice) {
+  for (const PixelSample& sample : samples) {
+    if (sample.unevenness < kUneven) continue;
+    advice->append(Sentence("adviceTexture",
+                            "{kind}: the pixels about {x}, {y} on {photo} differ by {percent} %, "
+                            "by texture or an edge: an even place tells more",
+                            {{"kind", kind.ToJson()},
+                             {"x", Number("%.0f", sample.pixel.x())},
+                             {"y", Number("%.0f", sample.pixel.y())},
+                             {"photo", scene.cameras[sample.photo].photo},
+                             {"percent", Number("%.0f", 100 * sample.unevenness)}})
+                       .ToJson());
+  }
 }
 
 void AdviseOnResiduals(const Sentence& kind, const std::vector<PixelSample>& samples,
@@ -107,17 +155,15 @@ Json::Value AdviceJson(const LightMeasurement& measured) {
   const SceneGeometry& scene = measured.environment.scene;
   Json::Value advice(Json::arrayValue);
   for (const Sentence& warning : measured.warnings) advice.append(warning.ToJson());
-  if (measured.daylight_fit.condition > kFairLight) {
-    advice.append(Sentence("adviceShade",
-                           "daylight: one more sample in open shade and one in deep shade tell "
-                           "sun, sky and ambient light better apart")
-                      .ToJson());
-  }
+  AdviseOnDaylight(measured, &advice);
   AdviseOnHaze(measured, &advice);
-  AdviseOnResiduals(Sentence("nameHaze", "haze"), measured.samples.haze, measured.air_fit.residuals,
-                    scene, &advice);
-  AdviseOnResiduals(Sentence("nameDaylight", "daylight"), measured.samples.daylight,
-                    measured.daylight_fit.residuals, scene, &advice);
+  const Sentence haze("nameHaze", "haze"), daylight("nameDaylight", "daylight");
+  AdviseOnTexture(Sentence("nameHorizon", "horizon"), measured.samples.horizon, scene, &advice);
+  AdviseOnTexture(haze, measured.samples.haze, scene, &advice);
+  AdviseOnTexture(daylight, measured.samples.daylight, scene, &advice);
+  AdviseOnResiduals(haze, measured.samples.haze, measured.air_fit.residuals, scene, &advice);
+  AdviseOnResiduals(daylight, measured.samples.daylight, measured.daylight_fit.residuals, scene,
+                    &advice);
   return advice;
 }
 

@@ -21,6 +21,7 @@
 #include "calibration/web/request_guard.h"
 #include "reconstruction/editing/edited_tables.h"
 #include "reconstruction/geometry/projection_uncertainty.h"
+#include "renderer/prepare/library_answer.h"
 #include "renderer/prepare/mark_proposal.h"
 #include "renderer/prepare/prepare_page.h"
 #include "renderer/prepare/prepare_session.h"
@@ -90,6 +91,9 @@ class PrepareService {
     routes_["GET /api/patch"] = [this](const WebRequest& r) { return Patch(r); };
     routes_["GET /api/relit"] = [this](const WebRequest& r) { return Relit(r, false); };
     routes_["GET /api/relit_picture"] = [this](const WebRequest& r) { return Relit(r, true); };
+    routes_["GET /api/library"] = [this](const WebRequest&) {
+      return JsonResponse(LibraryAnswer(site_));
+    };
     routes_["GET /api/value"] = [this](const WebRequest& r) { return Value(r); };
     Post("op", [this](const Json::Value& q) { return Told(session_.Apply(q)); });
     Post("undo", [this](const Json::Value& q) { return Told(session_.Undo(q["id"].asString())); });

@@ -10,8 +10,9 @@
 namespace insitu {
 namespace {
 
-constexpr int kLeastControl = 3;              // control points that orient a photo
-constexpr Json::ArrayIndex kMostOfAKind = 8;  // items told apart; the rest is counted
+constexpr int kLeastControl = 3;               // control points that orient a photo
+constexpr Json::ArrayIndex kSpareControl = 6;  // of so many some can be check points
+constexpr Json::ArrayIndex kMostOfAKind = 8;   // items told apart; the rest is counted
 
 class List {
  public:
@@ -223,12 +224,23 @@ class List {
 
   void Control() {
     const Json::ArrayIndex count = Count("control_points");
-    if (count >= kLeastControl) return;
+    if (count >= kLeastControl) return AskForCheckPoints();
     Add(Sentence("doControl", "{count} more control points",
                  {{"count", kLeastControl - static_cast<int>(count)}}),
         Sentence("whyControl",
                  "their coordinates place the photographs in the world: type or paste them"),
         "control")["where"]["table"] = "control_points";
+  }
+
+  void AskForCheckPoints() {
+    const Json::Value& points = input_.tables["control_points"];
+    const bool has_check = std::any_of(points.begin(), points.end(), [](const Json::Value& point) {
+      return point["role"] == "check";
+    });
+    if (has_check || points.size() < kSpareControl) return;
+    Advise(Sentence("doCheck", "make some of the control points check points: none is one"),
+           Sentence("whyCheck", "they stay out of the adjustment and tell how good it is"),
+           "control")["where"]["table"] = "control_points";
   }
 
   void Photos() {

@@ -80,7 +80,7 @@ check 'the film that the page wrote is read by insitu-calibrate' \
 
 # From photographs to a montage. A quarter is measured, the rest is there: scripts/bench prepare measures all.
 new_site && rm -rf -- "$temporary/site/work" "$temporary/site/montages"
-find "$temporary/site/survey" -type f ! -name materials.json -delete
+find "$temporary/site/survey" -type f -delete
 check_figures 'measuring' env MEASURE_EVERY="${MEASURE_EVERY:-4}" node "$tests/prepare/measure.mjs" "$temporary/site" "$DEMO_SITE" "${SCREENSHOTS:-}"
 makes_montages() {
   "$INSITU_BIN/insitu-montage" "$temporary/site" >"$temporary/log" 2>&1 || { tail -n 3 "$temporary/log" && return 1; }

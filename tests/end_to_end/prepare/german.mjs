@@ -129,6 +129,8 @@ for (const [text, said] of [
     "<reference>: y=«zwei», nötig ist eine endliche Zahl"],
   ["<DicoAppuisFlottant><OneAppuisDAF><Pt>1 2</Pt><NamePt>a</NamePt></OneAppuisDAF></DicoAppuisFlottant>", "2 Zahlen, nötig sind 3"],
   ["<DicoAppuisFlottant><OneAppuisDAF>", "kein gültiges XML"],
+  ['<document dbat_script_version="1"><input><cameras><file>c.xml</file></cameras></input></document>', "gibt es nicht"],
+  ["1 2 0.1 0.2 0.01 0.01 0 0 1 1 0\n", "brauchen die Kamera daneben"],
 ]) {
   await page.fill("#pasted", text);
   await person.sees("#import-found", said);

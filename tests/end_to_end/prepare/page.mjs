@@ -47,6 +47,7 @@ async function openIn(browser, server, page) {
 export class Person {
   keys = 0;
   clicks = 0;
+  notches = 0; // of the wheel
   /** @type {{type: string, revision?: number, at: number}[]} messages of the server, with their time [ms] */
   told = [];
   constructor(browser, page, faults) {
@@ -64,6 +65,21 @@ export class Person {
   async click(selector) {
     await this.page.click(selector);
     ++this.clicks;
+  }
+  async clickPlace({x, y}) {
+    await this.page.mouse.click(x, y);
+    ++this.clicks;
+  }
+  async wheel({x, y}, deltaY) {
+    await this.page.mouse.move(x, y);
+    await this.page.mouse.wheel(0, deltaY);
+    this.notches += Math.abs(deltaY) / 120;
+  }
+  /** What was copied elsewhere, into the field that has the focus. */
+  async paste(text) {
+    await this.page.context().grantPermissions(["clipboard-read", "clipboard-write"]);
+    await this.page.evaluate(copied => navigator.clipboard.writeText(copied), text);
+    await this.press("Control+V");
   }
   /** Into a field that has the focus, in the place of what is in it. */
   async enter(text) {

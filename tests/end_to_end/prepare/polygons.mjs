@@ -114,6 +114,36 @@ const [edge] = (await tables()).edges;
 report("K marks a place on the polygon's edge at the crosshair", edge?.from === ends[0].point && edge?.to === ends[1].point && edge?.photo === "right", JSON.stringify(edge));
 report("in the mode in which polygons are drawn, which shows it", (await person.data()).mode === "polygons" && (await person.page.$$('.pane[data-photo="right"] .edge.line')).length > 0);
 
+// Materials of the library: what a photograph does not tell.
+const material = async name => (await tables()).materials.find(one => one.name === name);
+await person.click('#list tr[data-key="block_w0"] button');
+const wasOf = (await polygon("block_w0")).material;
+await person.photo("right");
+await person.press("t");
+await person.enter("water");
+await person.settled();
+report("a material named as in the library is its entry", (await polygon("block_w0")).material === "water" && (await material("water"))?.use === "water",
+  JSON.stringify(await material("water")));
+await person.page.waitForFunction(() => document.querySelector("#surface-swatch.mirrors"));
+report("its swatch says that it mirrors", true, await person.page.getAttribute("#surface-swatch", "title"));
+await person.page.selectOption("#surface", "stone_polished_dark");
+await person.settled();
+report("another entry is chosen from the list", (await material("water")).use === "stone_polished_dark");
+await shot("surface");
+await person.page.focus('.pane[data-photo="right"] .stage');
+await person.press("Control+Z", "Control+Z");
+await person.settled();
+report("undo takes both away", (await polygon("block_w0")).material === wasOf && !(await material("water")));
+await person.press("Alt+4");
+await person.click("#card");
+await person.enter("brick_red");
+await person.settled();
+const [light] = (await tables()).light;
+report("daylight samples may be of a material of the library", light.daylight_material === "brick_red" && !light.daylight_reflectance_rgb, JSON.stringify(light));
+await person.page.focus('.pane[data-photo="right"] .stage');
+await person.press("Control+Z");
+await person.settled();
+
 await person.press("Alt+1");
 await person.point("lone");
 await person.goTo(640, 215);

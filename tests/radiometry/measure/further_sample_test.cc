@@ -24,7 +24,7 @@ std::string BestAfter(const std::vector<LightGeometry>& seen) {
   const std::vector<DaylightSample> samples = SamplesAt(seen);
   const DaylightFit fit = FitDaylight(samples, kBrdf, true, {});
   const auto best = BestFurtherSample(samples, fit, kBrdf, true, {});
-  return best ? best->where : "";
+  return best ? best->where.text() : "";
 }
 
 const LightGeometry kSun = {0.7 * kSolarSolidAngle, 0, 2},

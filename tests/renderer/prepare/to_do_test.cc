@@ -177,6 +177,16 @@ TEST_F(ToDoTest, WhatOnlyMakesItBetterStandsBehindTheMontage) {
   EXPECT_THAT(Texts(), ElementsAre("make the montage", HasSubstr("a sun pair")));
 }
 
+TEST_F(ToDoTest, ControlThatNothingChecksIsToldWhereSomeCanBeSpared) {
+  Complete();
+  for (int i = 0; i < 2; ++i) input_.tables["control_points"].append(Json::objectValue);
+  EXPECT_THAT(Texts(), ElementsAre("make the montage"));
+  input_.tables["control_points"].append(Json::objectValue);
+  EXPECT_THAT(Texts(), ElementsAre("make the montage", HasSubstr("check points: none is one")));
+  input_.tables["control_points"][5]["role"] = "check";
+  EXPECT_THAT(Texts(), ElementsAre("make the montage"));
+}
+
 TEST_F(ToDoTest, AFileAtFaultAndAGrossErrorComeFirst) {
   Complete();
   input_.file_faults = {Sentence::Verbatim("polygons.json:3: no such key")};

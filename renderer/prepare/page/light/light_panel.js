@@ -12,6 +12,7 @@ import {emit} from "../site/signals.js";
 import {edit, isLightAwaited, isReadOnly, row, rows, state} from "../site/state.js";
 import {activePane, setMode, setTool, ui} from "../site/ui.js";
 import {area, isSeenAt, placed} from "../tools/outlines.js";
+import {entryOptions, library} from "../tools/surfaces.js";
 import {t} from "../words/words.js";
 
 /**
@@ -94,7 +95,8 @@ export function buildLightPanel(root) {
   const card = node("input", {
     id: "card",
     type: "text",
-    inputmode: "decimal",
+    list: "card-names",
+    autocomplete: "off",
     placeholder: "0.18 0.18 0.18"
   });
   card.addEventListener("change", () => takeCard(card));
@@ -108,39 +110,30 @@ export function buildLightPanel(root) {
       button(t("deleteSample"), deleteSample, {title: "Del"})
     ),
     labelled(t("reflectance"), card),
+    node("datalist", {id: "card-names"}),
     node("div", {id: "light-about"})
   );
   drawn = "";
 }
 
-/** The reflectance of the daylight samples' material: three numbers, or one for grey. */
+/** Entries of the library whose reflectance is known by wavelength. */
+const tables = () => library().filter(one => one.has_table);
+
+/** The reflectance of the daylight samples' material: three numbers, one for grey, or a name of the library. */
 function takeCard(field) {
-  const values = field.value
-    .trim()
-    .split(/[\s;]+/)
-    .map(parseNumber);
-  const old = rows("light")[0] ?? null;
-  if (field.value.trim() === "") {
-    const {daylight_reflectance_rgb: _, ...rest} = old ?? {};
-    return edit(t("opCard"), [{table: "light", before: old, after: rest}]);
-  }
-  if (
-    ![1, 3].includes(values.length) ||
-    values.some(value => value === null || value <= 0 || value > 1)
-  ) {
-    return say(t("badNumber", {text: field.value}));
-  }
-  edit(t("opCard"), [
-    {
-      table: "light",
-      before: old,
-      after: {
-        ...old,
-        daylight_reflectance_rgb: values.length === 1 ? [values[0], values[0], values[0]] : values
-      }
-    }
-  ]);
+  const text = field.value.trim(),
+    old = rows("light")[0] ?? null;
+  const {daylight_reflectance_rgb: _, daylight_material: __, ...rest} = old ?? {};
+  const take = said => edit(t("opCard"), [{table: "light", before: old, after: {...rest, ...said}}]);
+  if (text === "") return take({});
+  if (tables().some(one => one.name === text)) return take({daylight_material: text});
+  const values = text.split(/[\s;]+/).map(parseNumber);
+  const isFine = value => value !== null && value > 0 && value <= 1;
+  if (![1, 3].includes(values.length) || !values.every(isFine)) return say(t("badNumber", {text}));
+  take({daylight_reflectance_rgb: values.length === 1 ? Array(3).fill(values[0]) : values});
 }
+
+const cardText = light => light.daylight_material ?? (light.daylight_reflectance_rgb ?? []).join(" ");
 
 let drawn = "";
 export function updateLightPanel() {
@@ -150,12 +143,14 @@ export function updateLightPanel() {
     state.light,
     isLightAwaited(),
     rows("light"),
+    library().length,
     ...["horizon", "haze", "daylight"].map(kind => rows(kind).length)
   ]);
   if (!about || drawn === signature) return;
   drawn = signature;
   if (document.activeElement !== card)
-    card.value = (rows("light")[0]?.daylight_reflectance_rgb ?? []).join(" ");
+    card.value = cardText(rows("light")[0] ?? {});
+  byId("card-names").replaceChildren(...entryOptions(tables()));
   drawLightReport(about);
 }
 

@@ -131,13 +131,19 @@ export class Loupe {
       if (one.photo === photo) circle(one, gradeOf(photo, one.point));
     for (const one of ui.mode === "film" ? fiducialsOn(photo) : [])
       circle(one, gradeOfFiducial(photo, one.mark));
+    const isMet = corners => {
+      const xs = corners.map(([x]) => toX(x)),
+        ys = corners.map(([, y]) => toY(y));
+      const meets = all => Math.min(...all) < this.side && Math.max(...all) > 0;
+      return corners.length > 0 && meets(xs) && meets(ys);
+    };
     const rings = ui.lines === "none" ? [] : rows("polygons").flatMap(ringsOf);
     for (const corners of rings.map(names => placed(names, photo))) {
       const draw = () =>
         corners.forEach(([x, y], i) =>
           i === 0 ? context.moveTo(toX(x), toY(y)) : context.lineTo(toX(x), toY(y))
         );
-      if (corners.length > 0) stroke(context, "#ffffffb0", draw, true);
+      if (isMet(corners)) stroke(context, "#ffffffb0", draw, true);
     }
   }
 }

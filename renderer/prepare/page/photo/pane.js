@@ -51,22 +51,27 @@ export class Pane extends Zoomed {
     this.figures = svg("g", {class: "figures"});
     this.markLayer = svg("g", {class: "marks"});
     this.sampleLayer = svg("g", {class: "samples"});
-    this.cross = svg(
+    // Small, and moved as a whole: a layer of the pane's size would be drawn anew in each frame.
+    this.crossLines = svg(
       "g",
-      {class: "crosshair"},
+      {},
       svg("path", {class: "casing", d: kCross}),
       svg("path", {d: kCross})
+    );
+    this.cross = svg(
+      "svg",
+      {class: "overlay crosshair", viewBox: "-20 -20 40 40"},
+      this.crossLines
     );
     this.fiducialLayer = svg("g", {class: "fiducials"});
     const layers = [this.figures, this.markLayer, this.sampleLayer, this.fiducialLayer];
     this.overlay = svg("svg", {class: "overlay", "aria-hidden": false}, ...layers);
-    const crossLayer = svg("svg", {class: "overlay still"}, this.cross);
     this.stage = node(
       "div",
       {class: "stage", tabindex: 0, role: "application"},
       this.canvas,
       this.overlay,
-      crossLayer
+      this.cross
     );
     this.chooser = node("select", {tabindex: -1, "aria-label": t("photo")});
     this.chooser.addEventListener("change", () => {
@@ -198,7 +203,11 @@ export class Pane extends Zoomed {
     if (!this.photo) return;
     this.cross.classList.toggle("off", Boolean(this.photo.fault));
     const at = this.toScreen(this.cursor.x, this.cursor.y);
-    this.cross.setAttribute("transform", `translate(${at.x} ${at.y})`);
+    // Whole CSS px by the layer, or it would be blurred, the rest within.
+    const x = Math.floor(at.x),
+      y = Math.floor(at.y);
+    this.cross.style.transform = `translate(${x - kCrossHalf}px, ${y - kCrossHalf}px)`;
+    this.crossLines.setAttribute("transform", `translate(${at.x - x} ${at.y - y})`);
     this.drawOverlay();
     this.loupe.draw();
   }
@@ -276,6 +285,7 @@ export class Pane extends Zoomed {
   }
 }
 
+const kCrossHalf = 20; // CSS px, of the crosshair's layer
 const kCross = "M-16 0H-3M3 0H16M0 -16V-3M0 3V16";
 
 function noteOf(name, about) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Polygons: drawn, turned by the viewing side, with the photo and the material that colour them.
 
-import {ask, getJson} from "../site/api.js";
+import {ask} from "../site/api.js";
 import {button, labelled, node, select, byId} from "../words/dom.js";
 import {addHoleKeys, drawHole, showHoles} from "./holes.js";
 import {endDraft, keepDraft, showDrafts} from "./drafts.js";
@@ -10,9 +10,8 @@ import {edit, freeName, isReadOnly, nameFault, row, rows, state} from "../site/s
 import {shown} from "../words/numbers.js";
 import {say} from "../around/notices.js";
 import {showRename} from "../points/renaming.js";
-import {screenColour} from "../light/light_report.js";
-import {pixelOf, ringsOf} from "./outlines.js";
 import {pointTool} from "./pickers.js";
+import {editsOfNewMaterial, entryOptions, library, showPhotographed, showSurface, surfaceRow} from "./surfaces.js";
 import {emit} from "../site/signals.js";
 import {activePane, placeOf, setMode, setTool, stepLines, ui} from "../site/ui.js";
 import {said, t} from "../words/words.js";
@@ -71,12 +70,16 @@ function finish(names, photo, draft) {
 /**
  * @param {Record<string, any>} changes
  * @param {string} label
+ * @param {import("../site/outbox.js").Edit[]} [others] that go with it
  */
-function change(changes, label) {
+function change(changes, label, others = []) {
   const old = current();
   if (!old) return say(t("noPolygon"));
   if (isReadOnly("polygons")) return say(t("readOnlyTable"));
-  edit(t(label, {name: old.name}), [{table: "polygons", before: old, after: {...old, ...changes}}]);
+  edit(t(label, {name: old.name}), [
+    {table: "polygons", before: old, after: {...old, ...changes}},
+    ...others
+  ]);
 }
 
 /** Asks which photo shows the polygon best and takes it. */
@@ -128,7 +131,7 @@ function rename(name) {
 function takeMaterial(name) {
   if (name === "") return;
   lastMaterial = name;
-  if (current()) change({material: name}, "opMaterial");
+  if (current()) change({material: name}, "opMaterial", editsOfNewMaterial(name));
   emit("view");
 }
 
@@ -193,8 +196,9 @@ export function buildPolygonPanel(root) {
       {class: "row"},
       labelled(t("material"), material),
       node("datalist", {id: "material-names"}),
-      node("span", {id: "swatch"})
+      node("span", {id: "swatch", class: "swatch large"})
     ),
+    surfaceRow(),
     node("div", {id: "holes"}),
     node("p", {id: "polygon-about", class: "faint"})
   );
@@ -220,7 +224,9 @@ export function updatePolygonPanel() {
     about?.planarity_mm,
     about?.area_m2,
     about?.off_vertical_deg,
-    materials()
+    materials(),
+    rows("materials"),
+    library().length
   ]);
   if (drawn === signature || !byId("polygon-photo")) return;
   drawn = signature;
@@ -239,8 +245,12 @@ export function updatePolygonPanel() {
     )
   );
   showIn("material", polygon?.material ?? lastMaterial);
-  byId("material-names").replaceChildren(...materials().map(value => node("option", {value})));
-  showSwatch(polygon?.material ?? lastMaterial);
+  byId("material-names").replaceChildren(
+    ...materials().map(value => node("option", {value})),
+    ...entryOptions(library().filter(one => !materials().includes(one.name)))
+  );
+  showPhotographed(polygon?.material ?? lastMaterial, byId("swatch"));
+  showSurface(polygon?.material ?? lastMaterial);
   const leftOut = (state.adjusted?.left_out ?? []).find(
     one => one.kind === "polygon" && one.name === polygon?.name
   );
@@ -254,34 +264,6 @@ export function updatePolygonPanel() {
             off: shown(about.off_vertical_deg, 2)
           })
         : said(leftOut, "reason"));
-}
-
-/** @type {Map<string, string>} */
-const swatches = new Map();
-
-/** The material's colour: its own, else what a photograph shows in the middle of a polygon of it. */
-async function showSwatch(material) {
-  const swatch = byId("swatch");
-  if (!swatches.has(material)) swatches.set(material, await colourOf(material));
-  swatch.style.background = swatches.get(material) ?? "";
-  swatch.title = material;
-}
-async function colourOf(material) {
-  const diffuse = row("materials", material)?.diffuse;
-  if (Array.isArray(diffuse) && diffuse.length === 3) return screenColour(diffuse);
-  for (const polygon of rows("polygons").filter(one => one.material === material && one.photo)) {
-    const at = pixelOf(polygon, polygon.photo);
-    if (!at) continue;
-    const photo = state.photos.findIndex(one => one.name === polygon.photo);
-    try {
-      const {encoded} = await getJson(`/api/value?photo=${photo}&x=${at.x}&y=${at.y}`);
-      const scale = Math.max(...encoded) <= 1 ? 255 : 1;
-      return `rgb(${encoded.map(value => Math.round(scale * value)).join()})`;
-    } catch {
-      return "";
-    }
-  }
-  return "";
 }
 
 /** To a field of this panel. */

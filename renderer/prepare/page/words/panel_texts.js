@@ -67,6 +67,11 @@ export const kPanelTexts = {
   ],
   opHole: ["hole in {name}", "Loch in {name}"],
   opDeleteHole: ["remove hole of {name}", "Loch von {name} entfernen"],
+  // Surfaces
+  surface: ["surface beside its colour", "Oberfläche neben der Farbe"],
+  surfaceMatte: ["matte, as photographed", "matt, wie fotografiert"],
+  mirrors: ["mirrors", "spiegelt"],
+  opSurface: ["surface of {material}", "Oberfläche von {material}"],
   // Drafts
   drafts: ["Unfinished", "Unfertig"],
   goOn: ["Go on", "Weiter"],

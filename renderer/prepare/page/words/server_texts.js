@@ -53,6 +53,8 @@ export const kServerTexts = {
     "die Brennweite aus EXIF nehmen",
   doControl: "Passpunkte: noch {count}",
   whyControl: "ihre Koordinaten stellen die Fotos in die Welt: eintippen oder einfügen",
+  doCheck: "einige der Passpunkte zu Kontrollpunkten machen: jetzt ist es keiner",
+  whyCheck: "sie bleiben aus der Ausgleichung und sagen, wie gut sie ist",
   whyPhoto: "das Foto ist noch nicht orientiert",
   whyLeftOut: "macht in der Ausgleichung nicht mit",
   doMore: "und {count} weitere, die nicht mitmachen",
@@ -122,6 +124,24 @@ export const kServerTexts = {
   pointBehind:
     "der Punkt «{point}» liegt hinter dem Foto «{photo}», das ihn zeigt; nötig ist ein anderer Punkt oder ein " +
     "anderer Standort: trägt die Messung den richtigen Namen?",
+  startOutside:
+    "{what} ist ausserhalb des Fotos «{photo}» gemessen, nötig ist eine Stelle in {width} × {height} Pixeln",
+  startPoint: "der Punkt «{point}»",
+  startEdge: "die Kante von «{from}» nach «{to}»",
+  startFewControl:
+    "das Foto «{photo}» zeigt {count} Passpunkte, nötig sind mindestens drei (Kontrollpunkte zählen nicht): mehr " +
+    "messen, oder insitu-tie-points verbindet es mit Fotos, die sie zeigen",
+  startOnLine:
+    "die {count} Passpunkte auf dem Foto «{photo}» liegen auf einer Geraden, nötig ist einer deutlich daneben",
+  startNoPlace:
+    "kein Standort der Kamera erklärt die {count} Passpunkte auf dem Foto «{photo}»; nötig sind Messungen, die zu " +
+    "einem passen",
+  onePhoto: "1 Foto",
+  manyPhotos: "{count} Fotos",
+  startNoPoint:
+    "der Punkt «{point}» ist auf {photos} gemessen und nicht bestimmbar; nötig sind Messungen auf zwei Fotos von " +
+    "verschiedenen Orten, oder eine und ein Polygon mit drei anderen bekannten Eckpunkten, oder seine " +
+    "Koordinaten als Passpunkt",
   noLens: "sein Objektiv ist noch nicht bekannt: insitu-calibrate ausführen",
   markOutside: "ausserhalb des Fotos gemessen",
   markNoLens: "das Objektiv seines Fotos ist nicht bekannt",
@@ -184,6 +204,18 @@ export const kServerTexts = {
   adviceHaze:
     "Dunst: alle Proben liegen {near} bis {far} m entfernt; eine auf demselben Material, viel näher oder " +
     "weiter weg, sagt mehr",
+  adviceFurtherHaze:
+    "Dunst: eine Probe mehr auf demselben Material, {distance} m entfernt, liesse {left} % der " +
+    "Standardabweichung der Transmission",
+  adviceFurtherDaylight:
+    "Tageslicht: eine Probe mehr {where} liesse {sun} % der Standardabweichung der Sonne und {sky} % jener des " +
+    "Himmels",
+  inOpenShade: "im offenen Schatten, viel Himmel zugewandt",
+  inDeepShade: "im tiefen Schatten, wenig Himmel zugewandt",
+  inFullSun: "in voller Sonne, ihr zugewandt",
+  adviceTexture:
+    "{kind}: die Pixel um {x}, {y} auf {photo} unterscheiden sich um {percent} %, durch Textur oder eine Kante: " +
+    "eine gleichmässige Stelle sagt mehr",
   adviceOff:
     "{kind}: die Probe bei {x}, {y} auf {photo} weicht {percent} % ab: ein anderes Material, ein Schatten, " +
     "eine Spiegelung?",
