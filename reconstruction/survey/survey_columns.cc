@@ -82,8 +82,9 @@ class Decision {
     for (const auto& [name, wanted] : reading_.columns) {
       const auto column = ColumnByName(name);
       if (!column) throw InputError("--column", "\"" + name + "\" is no quantity of a survey");
-      const auto title = std::find_if(titles_.begin(), titles_.end(),
-                                      [&text = wanted](const auto& each) { return each.text == text; });
+      const auto title =
+          std::find_if(titles_.begin(), titles_.end(),
+                       [&text = wanted](const auto& each) { return each.text == text; });
       if (title == titles_.end()) continue;  // of another file
       for (ColumnTitle& other : titles_) {
         if (other.column == *column && &other != &*title) other.column = Column::kOther;

@@ -39,14 +39,18 @@ TEST(SitePaths, AVariantHasWhatIsOfItsDesignApart) {
 TEST(RequireVariant, NamesThoseThereAre) {
   const ScratchFolder folder;
   EXPECT_NO_THROW(RequireVariant({folder.path()}));
-  EXPECT_EQ(InputErrorOf([&] { RequireVariant({folder.path(), "tal"}); }),
+  EXPECT_EQ(InputErrorOf([&] {
+              RequireVariant({folder.path(), "tal"});
+            }),
             (folder.path() / "variants").string() +
                 ": has no folder \"tal\", expected one, with the content of building/");
   folder.Write("variants/tall/a.dxf", "");
   folder.Write("variants/low/a.dxf", "");
   EXPECT_NO_THROW(RequireVariant({folder.path(), "tall"}));
   for (const std::string name : {"tal", "..", "tall/", "../building"}) {
-    EXPECT_EQ(InputErrorOf([&] { RequireVariant({folder.path(), name}); }),
+    EXPECT_EQ(InputErrorOf([&] {
+                RequireVariant({folder.path(), name});
+              }),
               (folder.path() / "variants").string() + ": has no folder \"" + name +
                   "\", expected one of low, tall");
   }
