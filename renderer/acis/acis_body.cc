@@ -239,7 +239,7 @@ class BodyFaceter {
 
   // A whole ellipse where the ends are one.
   Ring ArcPoints(const AcisEllipse& ellipse, int start, int end, bool is_reversed) {
-    constexpr double kTurn = 2 * std::numbers::pi;
+    constexpr double kWhole = 2 * std::numbers::pi;
     if (start < 0) {
       start = end = static_cast<int>(local_.size());
       local_.push_back(ellipse.PointAt(0));
@@ -247,7 +247,7 @@ class BodyFaceter {
     const double from = ellipse.AngleOf(local_[start]);
     double sweep = start == end ? 0 : ellipse.AngleOf(local_[end]) - from;
     if (is_reversed) sweep = -sweep;
-    if (sweep <= 1e-12) sweep += kTurn;
+    if (sweep <= 1e-12) sweep += kWhole;
     if (is_reversed) sweep = -sweep;
     const double radius = std::max(ellipse.x.norm(), ellipse.y.norm());
     const double step = ChordAngle(radius, tolerance_ / ScaleOfBody());
