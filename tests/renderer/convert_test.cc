@@ -191,8 +191,8 @@ TEST_F(Convert, WarnsOfWhatItLeavesOutOrGuesses) {
   EXPECT_THAT(
       conversion.warnings,
       ElementsAre(HasSubstr("a.dxf: names no unit"),
-                  HasSubstr("left out: 1 3DSOLID (an ACIS solid"), HasSubstr("left out: 2 LINE"),
-                  HasSubstr("1 faces of no area"),
+                  HasSubstr("left out: 1 3DSOLID (holds no ACIS body"),
+                  HasSubstr("left out: 2 LINE"), HasSubstr("1 faces of no area"),
                   HasSubstr("materials.json: not listed, shown in mid grey: \"DOOR\""),
                   HasSubstr("\"GLASS\" is listed but"), HasSubstr("\"WALL\" is listed but")));
   EXPECT_EQ(conversion.environment.materials[0].diffuse_rgb, Eigen::Vector3d(0.5, 0.5, 0.5));
