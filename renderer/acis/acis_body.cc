@@ -24,12 +24,17 @@ constexpr double kOffSurface = 1e-3;  // of a face's size
 
 class BodyFaceter {
  public:
-  BodyFaceter(const AcisFile& file, double tolerance) : file_(file), tolerance_(tolerance) {}
+  BodyFaceter(const AcisFile& file, double tolerance, double most_vertices)
+      : file_(file), tolerance_(tolerance), most_vertices_(most_vertices) {}
 
   AcisShape Run() {
     for (int i = 0; i < std::ssize(file_.records); ++i) {
       if (file_.records[i].type != "face") continue;
       ++shape_.faces;
+      if (static_cast<double>(local_.size()) > most_vertices_) {
+        ++shape_.unread["beyond the facets that a drawing may have"];
+        continue;
+      }
       SetBody(i);
       const std::string failure = AddFace(i);
       if (!failure.empty()) ++shape_.unread[failure];
@@ -234,7 +239,7 @@ class BodyFaceter {
 
   // A whole ellipse where the ends are one.
   Ring ArcPoints(const AcisEllipse& ellipse, int start, int end, bool is_reversed) {
-    constexpr double kTurn = 2 * std::numbers::pi;
+    constexpr double kWhole = 2 * std::numbers::pi;
     if (start < 0) {
       start = end = static_cast<int>(local_.size());
       local_.push_back(ellipse.PointAt(0));
@@ -242,7 +247,7 @@ class BodyFaceter {
     const double from = ellipse.AngleOf(local_[start]);
     double sweep = start == end ? 0 : ellipse.AngleOf(local_[end]) - from;
     if (is_reversed) sweep = -sweep;
-    if (sweep <= 1e-12) sweep += kTurn;
+    if (sweep <= 1e-12) sweep += kWhole;
     if (is_reversed) sweep = -sweep;
     const double radius = std::max(ellipse.x.norm(), ellipse.y.norm());
     const double step = ChordAngle(radius, tolerance_ / ScaleOfBody());
@@ -319,7 +324,7 @@ class BodyFaceter {
   }
 
   const AcisFile& file_;
-  double tolerance_;
+  double tolerance_, most_vertices_;
   AcisShape shape_;
   Eigen::Affine3d body_ = Eigen::Affine3d::Identity();
   int body_record_ = -1;
@@ -331,8 +336,8 @@ class BodyFaceter {
 
 }  // namespace
 
-AcisShape FacetedAcis(const AcisFile& file, double tolerance) {
-  return BodyFaceter(file, tolerance).Run();
+AcisShape FacetedAcis(const AcisFile& file, double tolerance, double most_vertices) {
+  return BodyFaceter(file, tolerance, most_vertices).Run();
 }
 
 }  // namespace insitu

@@ -28,7 +28,8 @@ struct AcisShape {
 // Planes, cylinders, cones, spheres and tori, bounded by straight lines, ellipses and splines; both
 // faces at an edge share its points. No chord is further from its curve or surface than `tolerance`
 // (> 0), and none spans over 15 degrees; at most 1024 chords go to a circle. What is bounded
-// otherwise or lies on another surface is counted as unread.
-AcisShape FacetedAcis(const AcisFile& file, double tolerance);
+// otherwise or lies on another surface is counted as unread, and so is what comes after about
+// `most_vertices`.
+AcisShape FacetedAcis(const AcisFile& file, double tolerance, double most_vertices = 2e7);
 
 }  // namespace insitu

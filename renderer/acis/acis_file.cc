@@ -151,7 +151,7 @@ class SabReader {
   void Add(Kind kind, double number, std::string_view word = {}) {
     record_.tokens.push_back({kind, number, std::string(word)});
   }
-  void AddNumbers(int count) {
+  void AddDoubles(int count) {
     for (int i = 0; i < count; ++i) Add(Kind::kNumber, Plain<double>());
   }
   // A transform is a line of text.
@@ -165,70 +165,66 @@ class SabReader {
 
   // False: at the end mark, or a tag that is not known.
   bool ReadToken(AcisFile* file) {
-    switch (Plain<uint8_t>()) {
-      case 0x02:
-        Add(Kind::kNumber, Plain<uint8_t>());
-        break;
-      case 0x03:
-        Add(Kind::kNumber, Plain<int16_t>());
-        break;
-      case 0x04:
-      case 0x15:
-        Add(Kind::kNumber, static_cast<double>(Integer()));
-        break;
-      case 0x05:
-        Add(Kind::kNumber, Plain<float>());
-        break;
-      case 0x06:
-        AddNumbers(1);
-        break;
-      case 0x07:
-        Add(Kind::kWord, 0, Text(Plain<uint8_t>()));
-        break;
-      case 0x08:
-        Add(Kind::kWord, 0, Text(Plain<uint16_t>()));
-        break;
-      case 0x09:
-      case 0x12:
-        AddWords(Text(Plain<uint32_t>()));
-        break;
+    const int tag = Plain<uint8_t>();
+    if (AddNumber(tag) || AddText(tag)) return true;
+    switch (tag) {
       case 0x0A:
-        Add(Kind::kFlag, 1);
-        break;
       case 0x0B:
-        Add(Kind::kFlag, 0);
-        break;
+        Add(Kind::kFlag, tag == 0x0A ? 1 : 0);
+        return true;
       case 0x0C:
         Add(Kind::kReference, static_cast<double>(Integer()));
-        break;
+        return true;
       case 0x0D:
         return AddName(std::string(Text(Plain<uint8_t>())));
       case 0x0E:
         name_ += std::string(Text(Plain<uint8_t>())) + "-";
-        break;
-      case 0x0F:
-        Add(Kind::kWord, 0, "{");
-        break;
-      case 0x10:
-        Add(Kind::kWord, 0, "}");
-        break;
+        return true;
       case 0x11:
         file->records.push_back(std::move(record_));
         record_ = {};
-        break;
-      case 0x13:
-      case 0x14:
-        AddNumbers(3);
-        break;
-      case 0x16:
-        AddNumbers(2);
-        break;
-      case 0x17:
-        Add(Kind::kNumber, static_cast<double>(Plain<int64_t>()));
-        break;
+        return true;
       default:
         is_cut_ = true;
         return false;
+    }
+  }
+
+  // False: another tag.
+  bool AddNumber(int tag) {
+    if (tag == 0x02) {
+      Add(Kind::kNumber, Plain<uint8_t>());
+    } else if (tag == 0x03) {
+      Add(Kind::kNumber, Plain<int16_t>());
+    } else if (tag == 0x04 || tag == 0x15) {
+      Add(Kind::kNumber, static_cast<double>(Integer()));
+    } else if (tag == 0x05) {
+      Add(Kind::kNumber, Plain<float>());
+    } else if (tag == 0x06) {
+      AddDoubles(1);
+    } else if (tag == 0x13 || tag == 0x14) {
+      AddDoubles(3);
+    } else if (tag == 0x16) {
+      AddDoubles(2);
+    } else if (tag == 0x17) {
+      Add(Kind::kNumber, static_cast<double>(Plain<int64_t>()));
+    } else {
+      return false;
+    }
+    return true;
+  }
+
+  bool AddText(int tag) {
+    if (tag == 0x07) {
+      Add(Kind::kWord, 0, Text(Plain<uint8_t>()));
+    } else if (tag == 0x08) {
+      Add(Kind::kWord, 0, Text(Plain<uint16_t>()));
+    } else if (tag == 0x09 || tag == 0x12) {
+      AddWords(Text(Plain<uint32_t>()));
+    } else if (tag == 0x0F || tag == 0x10) {
+      Add(Kind::kWord, 0, tag == 0x0F ? "{" : "}");
+    } else {
+      return false;
     }
     return true;
   }

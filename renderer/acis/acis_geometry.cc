@@ -170,8 +170,9 @@ std::optional<Eigen::Affine3d> AcisTransformOf(const AcisRecord& record) {
   if (!AreSound(values, kNumbers)) return std::nullopt;
   const size_t first = values.size() - kNumbers;
   Eigen::Affine3d transform = Eigen::Affine3d::Identity();
-  for (int row = 0; row < 3; ++row) {
-    transform.linear().col(row) = values[first + 12] * VectorAt(values, first + 3 * row);
+  for (size_t row = 0; row < 3; ++row) {
+    const Vector3d image = values[first + 12] * VectorAt(values, first + 3 * row);
+    transform.linear().col(static_cast<Eigen::Index>(row)) = image;
   }
   transform.translation() = VectorAt(values, first + 9);
   if (std::abs(transform.linear().determinant()) < 1e-30) return std::nullopt;

@@ -13,7 +13,7 @@ using Eigen::Vector3d;
 using Eigen::Vector4d;
 using Kind = AcisToken::Kind;
 
-constexpr double kHighestDegree = 25, kMostKnots = 10000, kLargest = 1e12;
+constexpr double kHighestDegree = 25, kMostKnots = 10000, kFarthest = 1e12;
 
 // Tokens from a place on, as numbers.
 class NumberCursor {
@@ -23,7 +23,7 @@ class NumberCursor {
   void Skip() { ++at_; }
   double Next() {
     if (at_ < tokens_.size() && tokens_[at_].kind == Kind::kNumber &&
-        std::abs(tokens_[at_].number) <= kLargest) {
+        std::abs(tokens_[at_].number) <= kFarthest) {
       return tokens_[at_++].number;
     }
     is_sound_ = false;

@@ -282,7 +282,6 @@ class FaceCutter {
   // Of a loop that goes around, or of none, to the poles.
   std::vector<int> Cap(const UvRing* below, const UvRing* above, int attempt) {
     const auto top = PoleOf(true), bottom = PoleOf(false);
-    if ((!above && !top) || (!below && !bottom)) return {};
     const auto pole = [&](double x, double y, double turn) {
       vertices_.push_back(Lifted({x, y}));
       const int vertex = static_cast<int>(vertices_.size()) - 1;
@@ -290,13 +289,16 @@ class FaceCutter {
       return std::vector<int>{first, Add({x + turn, y}, vertex)};
     };
     if (below) {
+      if (!top) return {};
       std::vector<int> outline = OnceAround(*below, below->at.size() * attempt / kCuts);
       return Joined(outline, pole(points_[outline.back()].x(), *top, -kTurn));
     }
     if (above) {
+      if (!bottom) return {};
       const std::vector<int> back = OnceAround(*above, above->at.size() * attempt / kCuts);
       return Joined(pole(points_[back.back()].x(), *bottom, kTurn), back);
     }
+    if (!top || !bottom) return {};
     const double x = kTurn * attempt / kCuts;
     return Joined(pole(x, *bottom, kTurn), pole(x + kTurn, *top, -kTurn));
   }

@@ -170,12 +170,11 @@ void Assembly::AddBody(const DxfBody& body, const Affine3d& world_from_block,
   if (!surface) return;
   const auto known = drawing_.body_of_handle.find(DxfHandle(body.handle));
   const std::string sab = known == drawing_.body_of_handle.end() ? "" : known->second;
-  const FacetedBody facets = Facet(body, sab, world_from_block, options_.chord_tolerance);
   std::vector<Vector3d>& all = model.mesh.vertices;
   const int first = static_cast<int>(all.size());
-  if (static_cast<double>(all.size()) > options_.most_pieces * 2) {
-    throw InputError(path_, "bodies come to too many facets");
-  }
+  const double most = options_.most_pieces * 2 - static_cast<double>(all.size());
+  if (most < 0) throw InputError(path_, "bodies come to too many facets");
+  const FacetedBody facets = Facet(body, sab, world_from_block, {options_.chord_tolerance, most});
   all.insert(all.end(), facets.vertices.begin(), facets.vertices.end());
   for (const Vector3i& triangle : facets.triangles) {
     AddTriangle(triangle + Vector3i::Constant(first), *surface);

@@ -117,7 +117,7 @@ void ReadDxfBodyData(const DxfRecord& record, std::map<std::string, std::string>
 }
 
 FacetedBody Facet(const DxfBody& body, const std::string& sab,
-                  const Eigen::Affine3d& world_from_block, double tolerance) {
+                  const Eigen::Affine3d& world_from_block, const BodyOptions& options) {
   FacetedBody result;
   const std::string name = body.handle.empty() ? body.kind : body.kind + " " + body.handle;
   const std::optional<AcisFile> file = FileOf(body, sab);
@@ -126,7 +126,7 @@ FacetedBody Facet(const DxfBody& body, const std::string& sab,
     return result;
   }
   const double scale = world_from_block.linear().colwise().norm().maxCoeff();
-  AcisShape shape = FacetedAcis(*file, tolerance / scale);
+  AcisShape shape = FacetedAcis(*file, options.tolerance / scale, options.most_vertices);
   if (shape.faces == 0) result.skipped[{name, "its body has no face"}] = 1;
   for (const auto& [reason, count] : shape.unread) {
     result.skipped[{"face of " + name, reason}] += count;
@@ -135,7 +135,7 @@ FacetedBody Facet(const DxfBody& body, const std::string& sab,
     if (IsSimilarity(world_from_block, scale)) {
       result.spheres.push_back({world_from_block * sphere.center, scale * sphere.radius, 0});
     } else {
-      AddFacets(sphere, tolerance / scale, &shape);
+      AddFacets(sphere, options.tolerance / scale, &shape);
     }
   }
   for (const Vector3d& vertex : shape.vertices) {

@@ -31,8 +31,13 @@ struct FacetedBody {
   SkippedEntities skipped;           // faces, by the entity's handle
 };
 
-// `sab`: where the body has no text. In world coordinates, chords within `tolerance` there (> 0).
+struct BodyOptions {
+  double tolerance = 0.002;    // of chords, in world coordinates, > 0
+  double most_vertices = 2e7;  // what comes after about so many is left out
+};
+
+// `sab`: where the body has no text. In world coordinates.
 FacetedBody Facet(const DxfBody& body, const std::string& sab,
-                  const Eigen::Affine3d& world_from_block, double tolerance);
+                  const Eigen::Affine3d& world_from_block, const BodyOptions& options);
 
 }  // namespace insitu

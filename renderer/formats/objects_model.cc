@@ -97,9 +97,11 @@ class ObjectsReader {
         throw rgb->Error("is out of range, expected 0 to 1");
       }
     }
-    if (opacity) names.opacity = opacity->Number();
-    if (names.opacity < 0 || names.opacity > 1) {
-      throw opacity->Error("is out of range, expected 0 to 1");
+    if (opacity) {
+      names.opacity = opacity->Number();
+      if (names.opacity < 0 || names.opacity > 1) {
+        throw opacity->Error("is out of range, expected 0 to 1");
+      }
     }
     // What is closed and lets light through is a body.
     names.is_solid = !object.Find("polygon");

@@ -136,10 +136,24 @@ def ezdxf():
         check(lines.status == 2 and '3 LINE' in lines.message, f'bin_dxf_{name}: {lines.message}')
     damaged = Converted(cad / 'ezdxf/recover01.dxf')
     check(damaged.status == 2 and 'recover01.dxf:29472: ' in damaged.message, damaged.message)
-    for name in ('sphere', 'torus_r2000', 'torus_r2010', '3dsolids'):
-        skipped = Converted(cad / f'ezdxf/{name}.dxf').report['skipped']
-        acis = [entry for entry in skipped if entry['kind'] == '3DSOLID']
-        check(len(acis) == 1 and 'ACIS' in acis[0]['reason'], f'{name}: {acis}')
+    acis()
+
+
+# Closed forms: a ball of radius 5, a ring of radii 32 and 10; five solids of planes, cones and a torus.
+def acis():
+    ball = Converted(cad / 'ezdxf/sphere.dxf').report
+    check(ball['spheres'] == 1 and abs(ball['area_m2'] - 100 * np.pi) < 1e-9 and
+          abs(ball['volume_m3'] - 500 / 3 * np.pi) < 1e-9, f'sphere: {ball["area_m2"]} m2')
+    for name in ('torus_r2000', 'torus_r2010'):
+        ring = Converted(cad / f'ezdxf/{name}.dxf').report
+        area, volume = 1280 * np.pi ** 2, 6400 * np.pi ** 2
+        check(abs(ring['area_m2'] / area - 1) < 5e-4 and abs(ring['volume_m3'] / volume - 1) < 5e-4,
+              f'{name}: {ring["area_m2"]} m2, {ring["volume_m3"]} m3')
+    report = Converted(cad / 'ezdxf/3dsolids.dxf').report
+    left_out = [entry['kind'] for entry in report['skipped'] if '3DSOLID' in entry['kind']]
+    solids = report['solids']
+    check(not left_out and solids['open_edges'] == solids['crowded_edges'] == 0 and
+          solids['bodies'] == solids['closed_bodies'], f'3dsolids: {left_out}, {solids}')
 
 
 def window_area():

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <numbers>
+#include <sstream>
 
 #include "calibration/files/error.h"
 #include "calibration/files/json_file.h"
@@ -118,15 +119,14 @@ TEST_F(Convert, ObjectsTypedByHandAreAModelOfTheirOwn) {
 // Three storeys of slabs, y up.
 TEST_F(Convert, FloorsAlongYAreNoticed) {
   std::string obj;
-  int corner = 0;
   for (const char* level : {"0", "0.3", "3", "3.3", "6", "6.3"}) {
-    for (const std::string x : {"0", "12"}) {
-      obj += "v " + x + " " + level + " 0\nv " + x + " " + level + " 9\n";
+    for (const char* place : {"0 9", "0 0", "12 0", "12 9"}) {  // x, z
+      std::istringstream words(place);
+      std::string x, z;
+      words >> x >> z;
+      obj.append("v ").append(x).append(" ").append(level).append(" ").append(z).append("\n");
     }
-    obj += "f";
-    for (const int i : {1, 2, 4, 3}) obj += " " + std::to_string(corner + i);
-    obj += "\n";
-    corner += 4;
+    obj += "f -4 -3 -2 -1\n";
   }
   Write("house.obj", obj);
   EXPECT_THAT(Converted().warnings, Contains(HasSubstr("look along y, as floors do")));
@@ -191,8 +191,8 @@ TEST_F(Convert, WarnsOfWhatItLeavesOutOrGuesses) {
   EXPECT_THAT(
       conversion.warnings,
       ElementsAre(HasSubstr("a.dxf: names no unit"),
-                  HasSubstr("left out: 1 3DSOLID (an ACIS solid"), HasSubstr("left out: 2 LINE"),
-                  HasSubstr("1 faces of no area"),
+                  HasSubstr("left out: 1 3DSOLID (holds no ACIS body"),
+                  HasSubstr("left out: 2 LINE"), HasSubstr("1 faces of no area"),
                   HasSubstr("materials.json: not listed, shown in mid grey: \"DOOR\""),
                   HasSubstr("\"GLASS\" is listed but"), HasSubstr("\"WALL\" is listed but")));
   EXPECT_EQ(conversion.environment.materials[0].diffuse_rgb, Eigen::Vector3d(0.5, 0.5, 0.5));

@@ -143,7 +143,8 @@ std::string HalfCylinder(bool has_splines) {
                                        " { exactcur full nurbs 2 open 3 0 2 0.5 2 1 2 " + poles +
                                        "0 } I I"));
   };
-  const int low = arc(vb, va, middle), high = arc(vb2, va2, middle + up);
+  const Vector3d bit = 1e-12 * Vector3d::UnitZ();  // off the ends, as in AutoCAD's files
+  const int low = arc(vb, va, middle - bit), high = arc(vb2, va2, middle + up + bit);
   const int front_low = text.Edge(va, vb, text.Line(a, b)),
             front_high = text.Edge(va2, vb2, text.Line(a + up, b + up)),
             left = text.Edge(va, va2, text.Line(a, a + up)),
@@ -171,16 +172,17 @@ TEST(AcisBody, AWholeSphereStaysOne) {
   EXPECT_EQ(shape.spheres[0].radius, 0.5);
 }
 
-// Cut by a plane that its own pole lies in, a quarter of the radius off the middle.
+// Also through both of its own poles.
 TEST(AcisBody, ASphereCutByAPlane) {
-  SatText text(700);
-  const double across = std::sqrt(15.0) / 4;
-  const int cut = text.Circle({0.25, 0, 0}, {1, 0, 0}, {0, 0, across});
-  text.Face(text.Add("sphere-surface", "0 0 0 1 1 0 0 0 0 1 forward_v I I I I"), false,
-            {{{cut, true}}});
-  text.Face(text.Plane({0.25, 0, 0}, {1, 0, 0}), false, {{{cut, false}}});
-  const double cap = kPi * 0.75 * 0.75 * (3 - 0.75) / 3;
-  ExpectSolid(Faceted(text.Text()), 4 * kPi / 3 - cap, 1e-3);
+  for (const double off : {0.25, 0.0, -0.6}) {
+    SatText text(700);
+    const int cut = text.Circle({off, 0, 0}, {1, 0, 0}, {0, 0, std::sqrt(1 - off * off)});
+    text.Face(text.Add("sphere-surface", "0 0 0 1 1 0 0 0 0 1 forward_v I I I I"), false,
+              {{{cut, true}}});
+    text.Face(text.Plane({off, 0, 0}, {1, 0, 0}), false, {{{cut, false}}});
+    const double cap = kPi * (1 - off) * (1 - off) * (2 + off) / 3;
+    ExpectSolid(Faceted(text.Text()), 4 * kPi / 3 - cap, 1e-3);
+  }
 }
 
 TEST(AcisBody, ATorusAndAQuarterOfOne) {
@@ -195,6 +197,13 @@ TEST(AcisBody, ATorusAndAQuarterOfOne) {
   bend.Face(bend.Plane({0, 2, 0}, {-1, 0, 0}), false, {{{end, false}}});
   bend.Face(bend.Add("torus-surface", torus), false, {{{begin, false}}, {{end, true}}});
   ExpectSolid(Faceted(bend.Text()), kPi * kPi / 4, 1e-3);
+}
+
+TEST(AcisBody, EndsWhereThereAreTooManyFacets) {
+  const AcisShape shape = FacetedAcis(*ReadSat(CubeText(700)), kTolerance, 5);
+  EXPECT_EQ(shape.faces, 6);
+  EXPECT_LT(shape.triangles.size(), 12u);
+  EXPECT_EQ(shape.unread.count("beyond the facets that a drawing may have"), 1u);
 }
 
 TEST(AcisBody, WhatIsNotReadIsCountedByReason) {
