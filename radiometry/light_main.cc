@@ -2,14 +2,25 @@
 // insitu-light: haze and daylight of a reconstructed site, from its photographs.
 #include <iostream>
 
+#include "calibration/files/json_file.h"
 #include "calibration/program/program.h"
 #include "calibration/program/warnings.h"
 #include "radiometry/light_page.h"
 #include "radiometry/light_report.h"
 #include "radiometry/measure_daylight.h"
+#include "radiometry/measure_response.h"
 
 namespace insitu {
 namespace {
+
+void RunResponse(const SitePaths& site) {
+  const ResponseMeasurement measurement = MeasureResponse(site);
+  const std::filesystem::path file = site.root / "work/light/response.json";
+  WriteJson(file, ResponseJson(measurement));
+  std::cout << BriefReport(measurement) << "copy " << file.string() << " to "
+            << (site.photos() / "response.json").string()
+            << " and run insitu-undistort and insitu-light again to measure by it\n";
+}
 
 int RunLight(int argc, char** argv) {
   ProgramOptions program("Measures haze and daylight of a site and writes work/environment.json.",
@@ -29,7 +40,12 @@ int RunLight(int argc, char** argv) {
   program.Value("--bounces", &options.bounces,
                 "bounces of light among surfaces; 0: sun and sky alone; without: all",
                 {.check = OptionCheck::kNonNegative});
+  bool fit_response = false;
+  program.Flag("--fit-response", &fit_response,
+               "fit the camera's response to the samples and to even surfaces, for JPEG whose "
+               "curve is not sRGB's; writes work/light/response.json alone");
   return RunProgram(program, argc, argv, [&] {
+    if (fit_response) return RunResponse(site);
     const LightMeasurement measurement = MeasureDaylight(site, options);
     const Json::Value report = LightPageReport(site, measurement);
     WriteEnvironment(site, measurement);

@@ -13,8 +13,8 @@
 #include "radiometry/measure/measure_image_quality.h"
 #include "radiometry/measure/photograph_set.h"
 #include "radiometry/one_unit.h"
+#include "radiometry/photographed_light.h"
 #include "radiometry/site_photographs.h"
-#include "radiometry/transport/interreflection.h"
 #include "reconstruction/geometry/ray_scene.h"
 
 namespace insitu {
@@ -24,16 +24,6 @@ constexpr double kUnseenSigma = 0.5;  // of what unseen surroundings are taken t
 // While samples are being chosen: at once, within a fraction of the sigmas.
 constexpr SurroundingsDetail kSoFar = {
     .directions = 1024, .piece_m = 0.3, .piece_directions = 64, .rounds = 3};
-
-// For a site as it stands.
-struct NothingPlanned {
-  TriangleMesh mesh;
-  RayScene rays{mesh};
-  std::vector<Eigen::Vector3d> normals;
-  std::vector<int> materials;
-  std::vector<Spectrum> brdfs;
-  PlannedFaces faces{mesh, rays, normals, materials, brdfs};
-};
 
 std::map<std::string, NaturalMaterial> MaterialsOfPolygons(const SitePaths& site,
                                                            const SceneGeometry& scene,
@@ -169,12 +159,12 @@ std::vector<DaylightSample> DaylightSamples(const LightMeasurement& measured,
 }
 
 // What the samples receive from around, if the light is that of `fit`.
-void SetSurroundings(const Interreflection& interreflection,
-                     const std::vector<SurfacePoint>& points, const Spectrum& brdf,
-                     std::vector<DaylightSample>* samples, std::vector<double>* unseen) {
+void SetSurroundings(const PhotographedLight& light, const std::vector<SurfacePoint>& points,
+                     const Spectrum& brdf, std::vector<DaylightSample>* samples,
+                     std::vector<double>* unseen) {
   unseen->clear();
   for (size_t i = 0; i < points.size(); ++i) {
-    const GatheredLight around = interreflection.At(points[i]);
+    const GatheredLight around = light.At(points[i]);
     DaylightSample& sample = (*samples)[i];
     sample.surroundings = around.surroundings_before;
     sample.geometry.sky = around.sky;
@@ -219,33 +209,20 @@ DaylightFit FitWithOrWithoutSky(const LightMeasurement& measured, bool has_sun,
 void FitInSurroundings(const PhotographSet& photos, const std::vector<SurfacePoint>& points,
                        const LightOptions& options, LightMeasurement* measured) {
   const NaturalEnvironment& environment = measured->environment;
-  const PolygonMesh polygons = MeshOfPolygons(environment.scene);
-  const RayScene rays(polygons.mesh);
-  const std::vector<LocalImage> images =
-      LocalImages(environment, photos, measured->exposure_fit.photos);
-  const NothingPlanned nothing;
-  const TransportScene scene = {{environment.scene, rays, polygons.polygon_of_triangle, images,
-                                 environment.air, environment.spectra},
-                                polygons.mesh,
-                                nothing.faces,
-                                {}};
-  PatchGrid grid{{}, options.around.piece_m};
-  for (const SurfacePoint& point : points) {
-    grid.foci.emplace_back(point.position, point.position);
-  }
   Daylight light = environment.light;
-  Interreflection interreflection(scene, light, grid,
-                                  {.bounces = options.bounces,
-                                   .patch_directions = options.around.piece_directions,
-                                   .point_directions = options.around.directions});
+  PhotographedLight around(environment,
+                           LocalImages(environment, photos, measured->exposure_fit.photos),
+                           {points, options.around.piece_m},
+                           {.bounces = options.bounces,
+                            .patch_directions = options.around.piece_directions,
+                            .point_directions = options.around.directions});
   const bool has_sun = environment.scene.sun.has_value();
   DaylightFit& fit = measured->daylight_fit;
   const std::vector<DaylightSample> bare = measured->daylight;
   for (int round = 0; round < options.around.rounds; ++round) {
-    interreflection.Solve(light);
+    around.Solve(light);
     measured->daylight = bare;
-    SetSurroundings(interreflection, points, measured->brdf, &measured->daylight,
-                    &measured->unseen);
+    SetSurroundings(around, points, measured->brdf, &measured->daylight, &measured->unseen);
     fit = FitWithOrWithoutSky(*measured, has_sun, FitOptions(*measured, options));
     light.sun_radiance = fit.sun_radiance;
     light.sky_radiance = fit.sky_radiance + fit.ambient_radiance;
