@@ -2,6 +2,7 @@
 // insitu-light: haze and daylight of a reconstructed site, from its photographs.
 #include <iostream>
 
+#include "calibration/files/error.h"
 #include "calibration/files/json_file.h"
 #include "calibration/program/program.h"
 #include "calibration/program/warnings.h"
@@ -9,16 +10,30 @@
 #include "radiometry/light_report.h"
 #include "radiometry/measure_daylight.h"
 #include "radiometry/measure_response.h"
+#include "radiometry/paired_responses.h"
 
 namespace insitu {
 namespace {
 
+// From the raw files beside the photographs, else from the site itself.
 void RunResponse(const SitePaths& site) {
-  const ResponseMeasurement measurement = MeasureResponse(site);
   const std::filesystem::path file = site.root / "work/light/response.json";
-  WriteJson(file, ResponseJson(measurement));
-  std::cout << BriefReport(measurement) << "copy " << file.string() << " to "
-            << (site.photos() / "response.json").string()
+  const std::filesystem::path stated = site.photos() / "response.json";
+  if (std::filesystem::exists(stated)) {
+    throw InputError(stated,
+                     "is there already, expected photographs whose response is not stated "
+                     "yet; move it away to fit anew");
+  }
+  if (const std::vector<PhotographPair> pairs = PairsOf(site); !pairs.empty()) {
+    const PairedResponses responses = MeasurePairedResponses(pairs);
+    WriteJson(file, responses.file);
+    std::cout << responses.report;
+  } else {
+    const ResponseMeasurement measurement = MeasureResponse(site);
+    WriteJson(file, ResponseJson(measurement));
+    std::cout << BriefReport(measurement);
+  }
+  std::cout << "copy " << file.string() << " to " << stated.string()
             << " and run insitu-undistort and insitu-light again to measure by it\n";
 }
 
@@ -42,8 +57,8 @@ int RunLight(int argc, char** argv) {
                 {.check = OptionCheck::kNonNegative});
   bool fit_response = false;
   program.Flag("--fit-response", &fit_response,
-               "fit the camera's response to the samples and to even surfaces, for JPEG whose "
-               "curve is not sRGB's; writes work/light/response.json alone");
+               "fit the camera's response, for JPEG whose curve is not sRGB's: to raw files of the "
+               "same names, else to even surfaces; writes work/light/response.json alone");
   return RunProgram(program, argc, argv, [&] {
     if (fit_response) return RunResponse(site);
     const LightMeasurement measurement = MeasureDaylight(site, options);

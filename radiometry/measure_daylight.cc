@@ -21,6 +21,7 @@ namespace insitu {
 namespace {
 
 constexpr double kUnseenSigma = 0.5;  // of what unseen surroundings are taken to send
+constexpr double kCurved = 1e-3;      // share by which twice a code is not twice the light
 // While samples are being chosen: at once, within a fraction of the sigmas.
 constexpr SurroundingsDetail kSoFar = {
     .directions = 1024, .piece_m = 0.3, .piece_directions = 64, .rounds = 3};
@@ -132,15 +133,27 @@ Spectrum SampleBrdf(const LightSamples& samples, const SpectralBasis& spectra,
   return spectra.Ones() / std::numbers::pi;
 }
 
-std::vector<ImageQuality> MeasureQualities(const PhotographSet& photos, const SceneGeometry& scene,
-                                           Progress* progress) {
-  std::vector<ImageQuality> qualities;
+// Codes that are no multiple of light, and no word of the camera's own curve.
+bool HasAssumedResponse(const Photograph& photo) {
+  if (photo.encoding == Encoding::kLinear || photo.color.has_response) return false;
+  const Eigen::Vector3d quarter = photo.color.Linear(Eigen::Vector3d::Constant(0.25));
+  const Eigen::Vector3d half = photo.color.Linear(Eigen::Vector3d::Constant(0.5));
+  return (half - 2 * quarter).norm() > kCurved * half.norm();
+}
+
+// What each photograph tells by itself.
+void MeasurePhotographs(const PhotographSet& photos, Progress* progress,
+                        LightMeasurement* measured) {
+  NaturalEnvironment& environment = measured->environment;
   for (size_t i = 0; i < photos.size(); ++i) {
     const auto photo = photos[i];
-    qualities.push_back({MeasurePointSpread(*photo, EdgePiecesIn(scene, i)), MeasureGrain(*photo)});
+    environment.qualities.push_back(
+        {MeasurePointSpread(*photo, EdgePiecesIn(environment.scene, i)), MeasureGrain(*photo)});
+    if (HasAssumedResponse(*photo)) {
+      measured->assumed_response.push_back(environment.scene.cameras[i].photo);
+    }
     progress->Step();
   }
-  return qualities;
 }
 
 std::vector<DaylightSample> DaylightSamples(const LightMeasurement& measured,
@@ -327,7 +340,7 @@ LightMeasurement MeasureDaylight(const SitePaths& site, const LightOptions& opti
   Progress progress("haze and daylight", photographs + kMeasurements);
   PhotographSet photos = FindPhotographs(site, environment.scene, &measured.exposures);
   environment.input_images = ListInputImages(site, environment.scene);
-  environment.qualities = MeasureQualities(photos, environment.scene, &progress);
+  MeasurePhotographs(photos, &progress, &measured);
   measured.samples = ReadSamples(site, environment.scene, photos);
   measured.clipped = MeasureClippedShares(environment.scene, photos);
   BringToOneUnit(&photos, &measured);

@@ -43,13 +43,7 @@ struct Place {
   double distance = 0;  // [m] from the camera
 };
 
-void RequireOneCurve(const SitePaths& site, const SceneGeometry& scene) {
-  const std::filesystem::path stated = site.photos() / "response.json";
-  if (std::filesystem::exists(stated)) {
-    throw InputError(stated,
-                     "is there already, expected photographs whose response is not stated yet; "
-                     "move it away to fit anew");
-  }
+void RequireSun(const SitePaths& site, const SceneGeometry& scene) {
   if (!scene.sun) {
     throw InputError(site.survey() / "directions.json",
                      "states no sun, expected one: sunlit and shaded places tell the response");
@@ -295,7 +289,7 @@ ResponseFitOptions OptionsOf(const LightMeasurement& measured,
 
 ResponseMeasurement MeasureResponse(const SitePaths& site) {
   const SceneGeometry scene = ReadSceneGeometry(site);
-  RequireOneCurve(site, scene);
+  RequireSun(site, scene);
   const std::vector<Photograph> photos = ReadAll(site, scene);
   Progress progress("response", kTurns);
   ResponseMeasurement result;

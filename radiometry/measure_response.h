@@ -18,8 +18,8 @@ struct ResponseMeasurement {
 
 // From even places of all polygons that do not mirror and from the photographed sky, by the
 // reflectance of the daylight samples' material; what their surroundings send follows from the
-// curve found so far. Throws InputError: as MeasureDaylight; no sun, a response.json that is there
-// already, photographs of linear light or of several exposures.
+// curve found so far. Throws InputError: as MeasureDaylight; no sun, photographs of linear light or
+// of several exposures.
 ResponseMeasurement MeasureResponse(const SitePaths& site);
 
 // As response.json (response.h), for photos/.
