@@ -30,7 +30,8 @@ constexpr double kOtherExposure = 0.1;  // share by which EXIF tells of another 
 constexpr int kReach = 3;               // [px], of what must be even about a place
 constexpr double kEven = 0.06;          // standard deviation over mean of what is even
 constexpr double kDarkestCode = 0.05, kBrightestCode = 0.98;
-constexpr double kFaintest = 1e-3;  // of sun and sky to start from
+constexpr double kFaintest = 1e-3;  // of the sky to start from
+constexpr double kFaintSun = 1;     // irradiance across its rays over the sky's radiance
 constexpr int kFewestPlaces = 20;   // of the samples' material
 constexpr double kWholeSun = 0.99;  // beyond, or below the rest, the sun's disc is not cut
 constexpr int kDirectionsOfAPlace = 512, kDirectionsOfAPiece = 64;
@@ -50,21 +51,28 @@ void RequireSun(const SitePaths& site, const SceneGeometry& scene) {
   }
 }
 
+std::filesystem::path FileOf(const SitePaths& site, const std::string& photo) {
+  const std::vector<std::filesystem::path> paths = ListPhotographs(site);
+  return *std::ranges::find_if(paths, [&](const auto& path) { return path.stem() == photo; });
+}
+
 // All of them as codes, of one exposure.
 std::vector<Photograph> ReadAll(const SitePaths& site, const SceneGeometry& scene) {
   std::vector<ExifExposure> exposures;
   const PhotographSet files = FindPhotographs(site, scene, &exposures);
   std::vector<Photograph> photos;
   for (size_t i = 0; i < files.size(); ++i) {
-    const std::filesystem::path name = site.photos() / scene.cameras[i].photo;
+    const std::string& photo = scene.cameras[i].photo;
     photos.push_back(*files[i]);
     if (photos.back().encoding == Encoding::kLinear) {
-      throw InputError(name, "is linear light, expected photographs of codes to fit a response to");
+      throw InputError(FileOf(site, photo),
+                       "is linear light, expected photographs of codes to fit a response to");
     }
     const auto first = exposures[0].Relative(), other = exposures[i].Relative();
     if (first && other && std::abs(*other / *first - 1) > kOtherExposure) {
-      throw InputError(name, "is of another exposure than " + scene.cameras[0].photo +
-                                 ", expected photographs of one exposure to fit a response to");
+      throw InputError(FileOf(site, photo),
+                       "is of another exposure than " + scene.cameras[0].photo +
+                           ", expected photographs of one exposure to fit a response to");
     }
   }
   return photos;
@@ -272,7 +280,8 @@ ResponseFitOptions OptionsOf(const LightMeasurement& measured,
   options.reflectance =
       rgb(measured.brdf * std::numbers::pi).cwiseQuotient(rgb(environment.spectra.Ones()));
   options.sky = rgb(light.sky_radiance + light.ambient_radiance).cwiseMax(kFaintest);
-  options.sun = rgb(light.sun_radiance).cwiseMax(kFaintest);
+  // However little sun a wrong curve leaves: sunlit ground is brighter than shaded.
+  options.sun = rgb(light.sun_radiance).cwiseMax(kFaintSun * options.sky / light.sun_solid_angle);
   const SkyFit& sky = measured.sky.fit;
   if (!measured.reflectance_known || !sky.level) return options;
   const int bins = environment.spectra.bins().count;

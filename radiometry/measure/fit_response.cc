@@ -143,7 +143,7 @@ class ChannelResiduals {
 };
 
 int CountOf(const std::vector<ResponseSample>& samples, int ResponseSample::*member) {
-  return 1 + std::ranges::max_element(samples, {}, member)->*member;
+  return 1 + (*std::ranges::max_element(samples, {}, member)).*member;
 }
 
 // By sRGB's curve: the middle one of what its places have.

@@ -82,7 +82,7 @@ Raster PictureOf(const Tiles& tiles, const Eigen::Vector2d& jitter = Eigen::Vect
 class PairedResponseTest : public testing::Test {
  protected:
   static void SetUpTestSuite() {
-    const ScratchFolder folder("paired_response");
+    const ScratchFolder folder;
     const std::filesystem::path file = folder.path() / "A.dng";
     const Tiles tiles;
     MadeRaw made{kRawWidth, kRawHeight,
