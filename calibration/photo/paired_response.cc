@@ -23,7 +23,7 @@ constexpr int kPlacesAcross = 240, kEvenReach = 2;
 constexpr size_t kFewestPlaces = 100;
 constexpr double kEvenShare = 0.08;  // brightest over darkest of an even place, beyond 1
 constexpr double kDarkestCode = 0.02, kBrightestCode = 0.98, kBrightestRaw = 0.95;
-constexpr int kBins = 64, kTurns = 20;
+constexpr int kBins = 64, kTurns = 10;
 
 const Eigen::Vector3d kLuminance(0.2126, 0.7152, 0.0722);
 
