@@ -6,11 +6,11 @@
 #include "calibration/files/json_file.h"
 #include "calibration/program/program.h"
 #include "calibration/program/warnings.h"
+#include "calibration/site_responses.h"
 #include "radiometry/light_page.h"
 #include "radiometry/light_report.h"
 #include "radiometry/measure_daylight.h"
 #include "radiometry/measure_response.h"
-#include "radiometry/paired_responses.h"
 
 namespace insitu {
 namespace {

@@ -13,8 +13,8 @@
 #include "radiometry/measure/measure_image_quality.h"
 #include "radiometry/measure/photograph_set.h"
 #include "radiometry/one_unit.h"
-#include "radiometry/photographed_light.h"
 #include "radiometry/site_photographs.h"
+#include "radiometry/transport/photographed_light.h"
 #include "reconstruction/geometry/ray_scene.h"
 
 namespace insitu {
@@ -223,12 +223,13 @@ void FitInSurroundings(const PhotographSet& photos, const std::vector<SurfacePoi
                        const LightOptions& options, LightMeasurement* measured) {
   const NaturalEnvironment& environment = measured->environment;
   Daylight light = environment.light;
-  PhotographedLight around(environment,
-                           LocalImages(environment, photos, measured->exposure_fit.photos),
-                           {points, options.around.piece_m},
-                           {.bounces = options.bounces,
-                            .patch_directions = options.around.piece_directions,
-                            .point_directions = options.around.directions});
+  PhotographedLight around(
+      {environment.scene, environment.air, environment.spectra, environment.light},
+      LocalImages(environment, photos, measured->exposure_fit.photos),
+      {points, options.around.piece_m},
+      {.bounces = options.bounces,
+       .patch_directions = options.around.piece_directions,
+       .point_directions = options.around.directions});
   const bool has_sun = environment.scene.sun.has_value();
   DaylightFit& fit = measured->daylight_fit;
   const std::vector<DaylightSample> bare = measured->daylight;

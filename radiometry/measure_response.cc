@@ -16,8 +16,8 @@
 #include "calibration/photo/photograph.h"
 #include "calibration/program/program.h"
 #include "radiometry/measure_daylight.h"
-#include "radiometry/photographed_light.h"
 #include "radiometry/site_photographs.h"
+#include "radiometry/transport/photographed_light.h"
 #include "reconstruction/geometry/ray_scene.h"
 
 namespace insitu {
@@ -237,7 +237,8 @@ std::vector<ResponseSample> SamplesAt(const std::vector<Place>& places,
   const NaturalEnvironment& environment = measured.environment;
   const std::vector<SurfacePoint> foci = FociOf(places);
   PhotographedLight around(
-      environment, LocalImages(environment, PhotographSet(photos), {}), {foci, kPieceAtPlace},
+      {environment.scene, environment.air, environment.spectra, environment.light},
+      LocalImages(environment, PhotographSet(photos), {}), {foci, kPieceAtPlace},
       {.patch_directions = kDirectionsOfAPiece, .point_directions = kDirectionsOfAPlace});
   Daylight light = environment.light;
   light.sky_radiance = light.sky_radiance + light.ambient_radiance;

@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "radiometry/light/photographed_color.h"
-#include "radiometry/natural_environment.h"
 #include "radiometry/transport/interreflection.h"
 
 namespace insitu {
@@ -16,11 +15,19 @@ struct LightFoci {
   double piece_m = 0.15;  // of what surrounds a point, where that is nearest
 };
 
+// A site without a plan.
+struct LitSite {
+  const SceneGeometry& scene;
+  const Atmosphere& air;
+  const SpectralBasis& spectra;
+  const Daylight& light;  // of which the geometry and the sky's shape count
+};
+
 class PhotographedLight {
  public:
-  // `images` in the order of the scene's cameras. Keeps a reference to `environment`.
-  PhotographedLight(const NaturalEnvironment& environment, std::vector<LocalImage> images,
-                    const LightFoci& foci, const InterreflectionOptions& options);
+  // Keeps references to all of `site` but its images, which are in the order of its cameras.
+  PhotographedLight(const LitSite& site, std::vector<LocalImage> images, const LightFoci& foci,
+                    const InterreflectionOptions& options);
 
   // As of Interreflection.
   void Solve(const Daylight& light) { interreflection_.Solve(light); }

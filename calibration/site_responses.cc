@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "radiometry/paired_responses.h"
+#include "calibration/site_responses.h"
 
 #include "calibration/files/error.h"
 #include "calibration/files/json_file.h"
