@@ -2,14 +2,40 @@
 // insitu-light: haze and daylight of a reconstructed site, from its photographs.
 #include <iostream>
 
+#include "calibration/files/error.h"
+#include "calibration/files/json_file.h"
 #include "calibration/program/program.h"
 #include "calibration/program/warnings.h"
+#include "calibration/site_responses.h"
 #include "radiometry/light_page.h"
 #include "radiometry/light_report.h"
 #include "radiometry/measure_daylight.h"
+#include "radiometry/measure_response.h"
 
 namespace insitu {
 namespace {
+
+// From the raw files beside the photographs, else from the site itself.
+void RunResponse(const SitePaths& site) {
+  const std::filesystem::path file = site.root / "work/light/response.json";
+  const std::filesystem::path stated = site.photos() / "response.json";
+  if (std::filesystem::exists(stated)) {
+    throw InputError(stated,
+                     "is there already, expected photographs whose response is not stated "
+                     "yet; move it away to fit anew");
+  }
+  if (const std::vector<PhotographPair> pairs = PairsOf(site); !pairs.empty()) {
+    const PairedResponses responses = MeasurePairedResponses(pairs);
+    WriteJson(file, responses.file);
+    std::cout << responses.report;
+  } else {
+    const ResponseMeasurement measurement = MeasureResponse(site);
+    WriteJson(file, ResponseJson(measurement));
+    std::cout << BriefReport(measurement);
+  }
+  std::cout << "copy " << file.string() << " to " << stated.string()
+            << " and run insitu-undistort and insitu-light again to measure by it\n";
+}
 
 int RunLight(int argc, char** argv) {
   ProgramOptions program("Measures haze and daylight of a site and writes work/environment.json.",
@@ -29,7 +55,12 @@ int RunLight(int argc, char** argv) {
   program.Value("--bounces", &options.bounces,
                 "bounces of light among surfaces; 0: sun and sky alone; without: all",
                 {.check = OptionCheck::kNonNegative});
+  bool fit_response = false;
+  program.Flag("--fit-response", &fit_response,
+               "fit the camera's response, for JPEG whose curve is not sRGB's: to raw files of the "
+               "same names, else to even surfaces; writes work/light/response.json alone");
   return RunProgram(program, argc, argv, [&] {
+    if (fit_response) return RunResponse(site);
     const LightMeasurement measurement = MeasureDaylight(site, options);
     const Json::Value report = LightPageReport(site, measurement);
     WriteEnvironment(site, measurement);

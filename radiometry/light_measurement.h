@@ -2,6 +2,7 @@
 // What a measurement of haze and daylight found, and from what.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "calibration/files/sentence.h"
@@ -30,9 +31,12 @@ struct LightMeasurement {
   // no photograph shows (empty with Eq. (4)'s ambient light, which asks for nothing around).
   std::vector<DaylightSample> daylight;
   std::vector<double> unseen;
-  bool is_simplified = false;           // an option leaves out the light from around, or evens it
-  std::vector<ClippedShare> clipped;    // empty: not looked at, or nothing is
-  double brightest = 0;                 // value in any photograph
+  bool is_simplified = false;         // an option leaves out the light from around, or evens it
+  std::vector<ClippedShare> clipped;  // empty: not looked at, or nothing is
+  double brightest = 0;               // value in any photograph
+  // Photographs whose codes count as light by the curve of their colour space alone: pictures that
+  // a camera or a program rendered, without a response.
+  std::vector<std::string> assumed_response;
   std::vector<ExifExposure> exposures;  // as the scene's cameras; empty: not read
   // By which all photographs were brought to one unit, as the scene's cameras; empty: they were
   // not.

@@ -192,6 +192,20 @@ void JudgeReflectance(const LightMeasurement& measured, std::vector<Finding>* fi
        "into survey/samples.json"});
 }
 
+// What it costs was measured on a site of known light, by three curves of cameras.
+void JudgeResponse(const LightMeasurement& measured, std::vector<Finding>* findings) {
+  if (measured.assumed_response.empty()) return;
+  findings->push_back(
+      {Severity::kNote,
+       Listing("photographs whose codes are assumed to be light by the curve of their colour space "
+               "(sRGB without a word)",
+               measured.assumed_response, 4) +
+           "; a camera's picture style is another curve, which can put sun : sky off by a tenth "
+           "and all brightness by half",
+       "bring the camera's raw files, or state its curve in photos/response.json: insitu-light "
+       "--fit-response fits one"});
+}
+
 void JudgeHaze(const LightMeasurement& measured, std::vector<Finding>* findings) {
   if (measured.haze.empty()) {
     findings->push_back({Severity::kNote, "no haze samples: the air is taken as clear",
@@ -234,6 +248,7 @@ std::vector<Finding> JudgeLight(const LightMeasurement& measured) {
   JudgeGeometry(measured, &findings);
   JudgeClipping(measured, &findings);
   JudgeReflectance(measured, &findings);
+  JudgeResponse(measured, &findings);
   JudgeHaze(measured, &findings);
   std::stable_sort(findings.begin(), findings.end(),
                    [](const Finding& a, const Finding& b) { return a.severity > b.severity; });

@@ -14,26 +14,17 @@
 #include "radiometry/measure/photograph_set.h"
 #include "radiometry/one_unit.h"
 #include "radiometry/site_photographs.h"
-#include "radiometry/transport/interreflection.h"
+#include "radiometry/transport/photographed_light.h"
 #include "reconstruction/geometry/ray_scene.h"
 
 namespace insitu {
 namespace {
 
 constexpr double kUnseenSigma = 0.5;  // of what unseen surroundings are taken to send
+constexpr double kCurved = 1e-3;      // share by which twice a code is not twice the light
 // While samples are being chosen: at once, within a fraction of the sigmas.
 constexpr SurroundingsDetail kSoFar = {
     .directions = 1024, .piece_m = 0.3, .piece_directions = 64, .rounds = 3};
-
-// For a site as it stands.
-struct NothingPlanned {
-  TriangleMesh mesh;
-  RayScene rays{mesh};
-  std::vector<Eigen::Vector3d> normals;
-  std::vector<int> materials;
-  std::vector<Spectrum> brdfs;
-  PlannedFaces faces{mesh, rays, normals, materials, brdfs};
-};
 
 std::map<std::string, NaturalMaterial> MaterialsOfPolygons(const SitePaths& site,
                                                            const SceneGeometry& scene,
@@ -142,15 +133,27 @@ Spectrum SampleBrdf(const LightSamples& samples, const SpectralBasis& spectra,
   return spectra.Ones() / std::numbers::pi;
 }
 
-std::vector<ImageQuality> MeasureQualities(const PhotographSet& photos, const SceneGeometry& scene,
-                                           Progress* progress) {
-  std::vector<ImageQuality> qualities;
+// Codes that are no multiple of light, and no word of the camera's own curve.
+bool HasAssumedResponse(const Photograph& photo) {
+  if (photo.encoding == Encoding::kLinear || photo.color.has_response) return false;
+  const Eigen::Vector3d quarter = photo.color.Linear(Eigen::Vector3d::Constant(0.25));
+  const Eigen::Vector3d half = photo.color.Linear(Eigen::Vector3d::Constant(0.5));
+  return (half - 2 * quarter).norm() > kCurved * half.norm();
+}
+
+// What each photograph tells by itself.
+void MeasurePhotographs(const PhotographSet& photos, Progress* progress,
+                        LightMeasurement* measured) {
+  NaturalEnvironment& environment = measured->environment;
   for (size_t i = 0; i < photos.size(); ++i) {
     const auto photo = photos[i];
-    qualities.push_back({MeasurePointSpread(*photo, EdgePiecesIn(scene, i)), MeasureGrain(*photo)});
+    environment.qualities.push_back(
+        {MeasurePointSpread(*photo, EdgePiecesIn(environment.scene, i)), MeasureGrain(*photo)});
+    if (HasAssumedResponse(*photo)) {
+      measured->assumed_response.push_back(environment.scene.cameras[i].photo);
+    }
     progress->Step();
   }
-  return qualities;
 }
 
 std::vector<DaylightSample> DaylightSamples(const LightMeasurement& measured,
@@ -169,12 +172,12 @@ std::vector<DaylightSample> DaylightSamples(const LightMeasurement& measured,
 }
 
 // What the samples receive from around, if the light is that of `fit`.
-void SetSurroundings(const Interreflection& interreflection,
-                     const std::vector<SurfacePoint>& points, const Spectrum& brdf,
-                     std::vector<DaylightSample>* samples, std::vector<double>* unseen) {
+void SetSurroundings(const PhotographedLight& light, const std::vector<SurfacePoint>& points,
+                     const Spectrum& brdf, std::vector<DaylightSample>* samples,
+                     std::vector<double>* unseen) {
   unseen->clear();
   for (size_t i = 0; i < points.size(); ++i) {
-    const GatheredLight around = interreflection.At(points[i]);
+    const GatheredLight around = light.At(points[i]);
     DaylightSample& sample = (*samples)[i];
     sample.surroundings = around.surroundings_before;
     sample.geometry.sky = around.sky;
@@ -219,33 +222,21 @@ DaylightFit FitWithOrWithoutSky(const LightMeasurement& measured, bool has_sun,
 void FitInSurroundings(const PhotographSet& photos, const std::vector<SurfacePoint>& points,
                        const LightOptions& options, LightMeasurement* measured) {
   const NaturalEnvironment& environment = measured->environment;
-  const PolygonMesh polygons = MeshOfPolygons(environment.scene);
-  const RayScene rays(polygons.mesh);
-  const std::vector<LocalImage> images =
-      LocalImages(environment, photos, measured->exposure_fit.photos);
-  const NothingPlanned nothing;
-  const TransportScene scene = {{environment.scene, rays, polygons.polygon_of_triangle, images,
-                                 environment.air, environment.spectra},
-                                polygons.mesh,
-                                nothing.faces,
-                                {}};
-  PatchGrid grid{{}, options.around.piece_m};
-  for (const SurfacePoint& point : points) {
-    grid.foci.emplace_back(point.position, point.position);
-  }
   Daylight light = environment.light;
-  Interreflection interreflection(scene, light, grid,
-                                  {.bounces = options.bounces,
-                                   .patch_directions = options.around.piece_directions,
-                                   .point_directions = options.around.directions});
+  PhotographedLight around(
+      {environment.scene, environment.air, environment.spectra, environment.light},
+      LocalImages(environment, photos, measured->exposure_fit.photos),
+      {points, options.around.piece_m},
+      {.bounces = options.bounces,
+       .patch_directions = options.around.piece_directions,
+       .point_directions = options.around.directions});
   const bool has_sun = environment.scene.sun.has_value();
   DaylightFit& fit = measured->daylight_fit;
   const std::vector<DaylightSample> bare = measured->daylight;
   for (int round = 0; round < options.around.rounds; ++round) {
-    interreflection.Solve(light);
+    around.Solve(light);
     measured->daylight = bare;
-    SetSurroundings(interreflection, points, measured->brdf, &measured->daylight,
-                    &measured->unseen);
+    SetSurroundings(around, points, measured->brdf, &measured->daylight, &measured->unseen);
     fit = FitWithOrWithoutSky(*measured, has_sun, FitOptions(*measured, options));
     light.sun_radiance = fit.sun_radiance;
     light.sky_radiance = fit.sky_radiance + fit.ambient_radiance;
@@ -350,7 +341,7 @@ LightMeasurement MeasureDaylight(const SitePaths& site, const LightOptions& opti
   Progress progress("haze and daylight", photographs + kMeasurements);
   PhotographSet photos = FindPhotographs(site, environment.scene, &measured.exposures);
   environment.input_images = ListInputImages(site, environment.scene);
-  environment.qualities = MeasureQualities(photos, environment.scene, &progress);
+  MeasurePhotographs(photos, &progress, &measured);
   measured.samples = ReadSamples(site, environment.scene, photos);
   measured.clipped = MeasureClippedShares(environment.scene, photos);
   BringToOneUnit(&photos, &measured);

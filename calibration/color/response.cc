@@ -56,20 +56,40 @@ std::array<ToneCurve, 3> ReadCurves(const JsonNode& entry) {
   return {of("red"), of("green"), of("blue")};
 }
 
+Eigen::Matrix3d ReadMatrix(const JsonNode& entry) {
+  const auto node = entry.Find("matrix");
+  if (!node) return Eigen::Matrix3d::Identity();
+  std::vector<double> all;
+  for (const JsonNode& row : node->Items()) {
+    const std::vector<double> numbers = row.Numbers();
+    all.insert(all.end(), numbers.begin(), numbers.end());
+  }
+  if (all.size() != 9) throw node->Error("expected three rows of three numbers");
+  const Eigen::Matrix3d matrix =
+      Eigen::Map<Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(all.data());
+  if (std::abs(matrix.determinant()) < 1e-9) throw node->Error("expected a matrix with an inverse");
+  return matrix;
+}
+
+struct StatedResponse {
+  std::array<ToneCurve, 3> curves;
+  Eigen::Matrix3d rec709;
+};
+
 // Of the photograph of that name; nullopt: nothing is said of it.
-std::optional<std::array<ToneCurve, 3>> ResponseIn(const std::filesystem::path& file,
-                                                   const std::string& photo) {
-  std::optional<std::array<ToneCurve, 3>> of_others;
+std::optional<StatedResponse> ResponseIn(const std::filesystem::path& file,
+                                         const std::string& photo) {
+  std::optional<StatedResponse> of_others;
   for (const JsonNode& entry : JsonNode::Load(file).At("curves").Items()) {
-    const std::array<ToneCurve, 3> curves = ReadCurves(entry);
+    const StatedResponse response = {ReadCurves(entry), ReadMatrix(entry)};
     const auto photos = entry.Find("photos");
     if (!photos) {
-      of_others = curves;
+      of_others = response;
       continue;
     }
     const std::vector<std::string> names = photos->Texts();
     if (std::find(names.begin(), names.end(), photo) != names.end()) {
-      return curves;
+      return response;
     }
   }
   return of_others;
@@ -78,23 +98,27 @@ std::optional<std::array<ToneCurve, 3>> ResponseIn(const std::filesystem::path& 
 // Any colour space, then the curves, which count from what it shows as sRGB.
 class ThenResponse : public ColorConversion {
  public:
-  ThenResponse(ColorSpace stated, std::array<ToneCurve, 3> curves)
-      : stated_(std::move(stated)), curves_(std::move(curves)) {}
+  ThenResponse(ColorSpace stated, std::array<ToneCurve, 3> curves, const Eigen::Matrix3d& rec709)
+      : stated_(std::move(stated)),
+        curves_(std::move(curves)),
+        rec709_(rec709),
+        inverse_(rec709.inverse()) {}
 
   Eigen::Vector3d Linear(const Eigen::Vector3d& encoded) const override {
     Eigen::Vector3d linear = stated_.Linear(encoded);
     for (int c = 0; c < 3; ++c) linear[c] = curves_[c].Linear(SrgbFromLinear(linear[c]));
-    return linear;
+    return rec709_ * linear;
   }
   Eigen::Vector3d Encoded(const Eigen::Vector3d& linear) const override {
-    Eigen::Vector3d shown = linear;
-    for (int c = 0; c < 3; ++c) shown[c] = LinearFromSrgb(curves_[c].Encoded(linear[c]));
+    Eigen::Vector3d shown = inverse_ * linear;
+    for (int c = 0; c < 3; ++c) shown[c] = LinearFromSrgb(curves_[c].Encoded(shown[c]));
     return stated_.Encoded(shown);
   }
 
  private:
   const ColorSpace stated_;
   const std::array<ToneCurve, 3> curves_;
+  const Eigen::Matrix3d rec709_, inverse_;
 };
 
 }  // namespace
@@ -115,14 +139,15 @@ ToneCurve ResponseCurve(const ResponsePoints& points) {
   });
 }
 
-ColorSpace WithResponse(const ColorSpace& stated, const std::array<ToneCurve, 3>& curves) {
+ColorSpace WithResponse(const ColorSpace& stated, const std::array<ToneCurve, 3>& curves,
+                        const Eigen::Matrix3d& rec709) {
   ColorSpace space = stated;
   space.name += ", with the response of response.json";
   space.has_response = true;
   if (stated.IsDefault()) {
-    space.conversion = MatrixConversion(curves, Eigen::Matrix3d::Identity());
+    space.conversion = MatrixConversion(curves, rec709);
   } else {
-    space.conversion = std::make_shared<ThenResponse>(stated, curves);
+    space.conversion = std::make_shared<ThenResponse>(stated, curves, rec709);
   }
   return space;
 }
@@ -130,8 +155,8 @@ ColorSpace WithResponse(const ColorSpace& stated, const std::array<ToneCurve, 3>
 ColorSpace WithResponseBeside(const std::filesystem::path& photograph, const ColorSpace& stated) {
   const std::filesystem::path file = photograph.parent_path() / "response.json";
   if (!std::filesystem::is_regular_file(file)) return stated;
-  const auto curves = ResponseIn(file, photograph.stem().string());
-  return curves ? WithResponse(stated, *curves) : stated;
+  const auto response = ResponseIn(file, photograph.stem().string());
+  return response ? WithResponse(stated, response->curves, response->rec709) : stated;
 }
 
 }  // namespace insitu

@@ -5,7 +5,8 @@
 //   {"curves": [{"photos": ["IMG_1"], "all": [[0, 0], [0.5, 0.19], [1, 1]]}]}
 // Pairs of a code and of light in any unit, each rising; the code is what the picture has as sRGB,
 // 0 to 1, channel by channel. "red", "green" and "blue" instead of "all"; without "photos", of all
-// photographs of the folder that no other entry names.
+// photographs of the folder that no other entry names. "matrix", three rows of three: linear
+// Rec. 709 from the curves' light, which is 1 at the code 1; without it they are the same.
 #pragma once
 
 #include <array>
@@ -23,11 +24,14 @@ using ResponsePoints = std::vector<std::pair<double, double>>;  // code, light
 // 1980]. Points as of response.json.
 ToneCurve ResponseCurve(const ResponsePoints& points);
 
-// The colour space of a photograph whose light is the curves' of what `stated` shows.
-ColorSpace WithResponse(const ColorSpace& stated, const std::array<ToneCurve, 3>& curves);
+// The colour space of a photograph whose light is the curves' of what `stated` shows, through
+// `rec709`.
+ColorSpace WithResponse(const ColorSpace& stated, const std::array<ToneCurve, 3>& curves,
+                        const Eigen::Matrix3d& rec709 = Eigen::Matrix3d::Identity());
 
 // The same with what response.json beside the photograph says of it, if it does. Throws InputError,
-// at its line: codes that do not rise from 0 to 1, light that does not rise from 0.
+// at its line: codes that do not rise from 0 to 1, light that does not rise from 0, a
+// matrix that has no inverse.
 ColorSpace WithResponseBeside(const std::filesystem::path& photograph, const ColorSpace& stated);
 
 }  // namespace insitu

@@ -45,6 +45,14 @@ TEST_F(LightVerdictTest, AGoodMeasurementHasNoObjections) {
   }
 }
 
+TEST_F(LightVerdictTest, AnAssumedResponseIsToldWithWhatItCanCost) {
+  EXPECT_FALSE(Found("assumed to be light"));  // the site's photographs are linear
+  light_.assumed_response = {"A", "B"};
+  EXPECT_EQ(Found("assumed to be light by the curve of their colour space"), Severity::kNote);
+  EXPECT_TRUE(Found("A, B"));
+  EXPECT_TRUE(Found("sun : sky off by a tenth"));
+}
+
 TEST_F(LightVerdictTest, ASunThatSamplesDoNotShowFails) {
   light_.daylight_fit.sun_radiance.setZero();
   EXPECT_EQ(Found("the samples do not show it"), Severity::kFail);

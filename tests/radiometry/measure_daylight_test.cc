@@ -63,6 +63,23 @@ TEST_P(BinsTest, MeasureDaylightFindsTheTruth) {
   EXPECT_LT(measured.daylight_fit.rms, 0.5);
 }
 
+TEST(MeasureDaylight, TellsWhichPhotographsAreLightByAssumption) {
+  const SyntheticSite truth = MakeSyntheticSite("assumed_response");
+  const std::filesystem::path photos = truth.site.photos();
+  const auto assumed = [&] {
+    LightOptions options;
+    options.uniform_ambient = true;
+    return MeasureDaylight(truth.site, options).assumed_response;
+  };
+  EXPECT_EQ(assumed(), std::vector<std::string>());  // linear
+  WritePng(photos / "B.png", ReadPhotograph(photos / "B.exr").linear, Encoding::kSrgb16);
+  std::filesystem::remove(photos / "B.exr");
+  EXPECT_EQ(assumed(), std::vector<std::string>{"B"});
+  WriteWhole(photos / "response.json",
+             R"({"curves": [{"all": [[0, 0], [0.25, 0.05], [0.5, 0.21], [1, 1]]}]})");
+  EXPECT_EQ(assumed(), std::vector<std::string>());
+}
+
 // One photograph a stop brighter than the other: in one unit the light is what it was.
 TEST(MeasureDaylight, PhotographsOfDifferentExposureAreBroughtToOneUnit) {
   const SyntheticSite truth = MakeSyntheticSite("exposures");
