@@ -143,7 +143,7 @@ for (const [table, count] of Object.entries(counts)) {
 report("the next thing to do is the montage", todo.some(item => item.run === "montage"), todo[0]?.text);
 reportMarks(tables.observations);
 report("in all", true, `${person.keys} keys, ${person.clicks} clicks, ${Math.round(person.notches)} notches of the wheel for ` +
-  `${marks.length} marks, ${polygons.length} polygons, ${sun.length + zenith.length} pairs, ${all.length} samples`);
+  `${typed.marks.length} marks, ${typed.polygons.length} polygons, ${typed.sun.length + typed.zenith.length} pairs, ${all.length} samples`);
 if (isByPointer) await timed("montage from the page", 1, () => runStage("montage"));
 const files = () => fs.readdirSync(`${site}/survey`).sort().map(name => fs.readFileSync(`${site}/survey/${name}`, "utf8")).join("\0");
 const before = files();

@@ -1,13 +1,13 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """ten_photos.py DEMO_SITE FOLDER: the demo site as if ten photographs had been taken: copies of its three, each
-with 18 marks of its own, up to 0.4 px beside those of the original; samples and polygons as they are."""
+with 20 marks of its own, up to 0.4 px beside those of the original; samples and polygons as they are."""
 import csv
 import random
 import shutil
 import sys
 
 demo, folder = sys.argv[1:3]
-PHOTOS, MARKS, NOISE = 10, 18, 0.4  # NOISE [px]
+PHOTOS, MARKS, NOISE = 10, 20, 0.4  # NOISE [px]
 shutil.copytree(demo, folder, ignore=shutil.ignore_patterns("work", "montages", "truth"))
 shutil.copytree(f"{demo}/work/calibration", f"{folder}/work/calibration")
 noise = random.Random(1)
