@@ -31,7 +31,7 @@ constexpr int kReach = 3;               // [px], of what must be even about a pl
 constexpr double kEven = 0.06;          // standard deviation over mean of what is even
 constexpr double kDarkestCode = 0.05, kBrightestCode = 0.98;
 constexpr double kFaintest = 1e-3;  // of the sky to start from
-constexpr double kFaintSun = 1;     // irradiance across its rays over the sky's radiance
+constexpr double kSunOverSky = 1;   // irradiance across its rays over the sky's radiance
 constexpr int kFewestPlaces = 20;   // of the samples' material
 constexpr double kWholeSun = 0.99;  // beyond, or below the rest, the sun's disc is not cut
 constexpr int kDirectionsOfAPlace = 512, kDirectionsOfAPiece = 64;
@@ -282,7 +282,7 @@ ResponseFitOptions OptionsOf(const LightMeasurement& measured,
       rgb(measured.brdf * std::numbers::pi).cwiseQuotient(rgb(environment.spectra.Ones()));
   options.sky = rgb(light.sky_radiance + light.ambient_radiance).cwiseMax(kFaintest);
   // However little sun a wrong curve leaves: sunlit ground is brighter than shaded.
-  options.sun = rgb(light.sun_radiance).cwiseMax(kFaintSun * options.sky / light.sun_solid_angle);
+  options.sun = rgb(light.sun_radiance).cwiseMax(kSunOverSky * options.sky / light.sun_solid_angle);
   const SkyFit& sky = measured.sky.fit;
   if (!measured.reflectance_known || !sky.level) return options;
   const int bins = environment.spectra.bins().count;

@@ -61,24 +61,6 @@ Vector3d ShownColor(const Vector3d& rgb) {
   return rgb.cwiseMin(kBrightest).cwiseMax(kDarkest);
 }
 
-TurntableLayers LayersOf(const ModelMesh& mesh) {
-  TurntableLayers layers;
-  std::map<std::string, int> index_of_name;
-  const auto layer_of = [&](int surface) {
-    const auto [found, is_new] = index_of_name.try_emplace(mesh.surfaces[surface].layer,
-                                                           static_cast<int>(layers.names.size()));
-    if (is_new) layers.names.push_back(found->first);
-    return found->second;
-  };
-  for (const int surface : mesh.surface_of_triangle) {
-    layers.layer_of_triangle.push_back(layer_of(surface));
-  }
-  for (const ModelSphere& sphere : mesh.spheres) {
-    layers.layer_of_sphere.push_back(layer_of(sphere.surface));
-  }
-  return layers;
-}
-
 class Converter {
  public:
   Converter(const SitePaths& site, const ConvertOptions& options)

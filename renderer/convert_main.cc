@@ -5,6 +5,7 @@
 
 #include "calibration/files/error.h"
 #include "calibration/program/program.h"
+#include "renderer/building/shown_environment.h"
 #include "renderer/convert.h"
 #include "renderer/convert_report.h"
 #include "renderer/formats/temporary_folder.h"

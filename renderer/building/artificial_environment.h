@@ -81,11 +81,6 @@ struct ArtificialEnvironment {
   std::vector<PointLight> lights = {};
 };
 
-// The same with facets in the place of the spheres, behind its triangles, SphereFacetCount(level)
-// each, for what asks for places on them or draws them small. Their UVs are alike: no texture.
-constexpr int kDrawnSphereLevel = 4;  // of pictures of a few hundred pixels
-ArtificialEnvironment Faceted(ArtificialEnvironment environment, int level);
-
 // work/building.json (readable, versioned; its spheres) and building.bin beside it (the mesh:
 // little-endian doubles and 32-bit indices, as the JSON states). Reading throws InputError, also
 // when the two files do not belong together.
@@ -94,16 +89,5 @@ void WriteArtificialEnvironment(const SitePaths& site, const ArtificialEnvironme
 void WriteArtificialEnvironmentFile(const std::filesystem::path& file,
                                     const ArtificialEnvironment& environment);
 ArtificialEnvironment ReadArtificialEnvironment(const SitePaths& site);
-
-// Of the three corners of a triangle, in repeats of the image, v up: projected in metres where its
-// material states texture_size, on walls along and up the wall, on what lies flatter than 45
-// degrees along x and y; else the model's. nullopt: neither, as where all three of the model's are
-// alike.
-std::optional<std::array<Eigen::Vector2d, 3>> TextureCoordinates(
-    const ArtificialEnvironment& environment, int triangle);
-
-// What the description holds and this version's renderer does not show, a line each: rough glass,
-// textures of spheres and of faces without a place on them, lamps of unknown strength.
-std::vector<std::string> NotShown(const ArtificialEnvironment& environment);
 
 }  // namespace insitu

@@ -7,6 +7,8 @@
 #include <limits>
 #include <numbers>
 
+#include "renderer/building/shown_environment.h"
+
 namespace insitu {
 namespace {
 

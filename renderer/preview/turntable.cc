@@ -16,6 +16,7 @@
 #include "calibration/files/whole_file.h"
 #include "calibration/program/html_text.h"
 #include "reconstruction/geometry/sphere_facets.h"
+#include "renderer/building/shown_environment.h"
 #include "renderer/preview/turntable_script.h"
 
 namespace insitu {
@@ -143,6 +144,24 @@ constexpr char kTurntable[] = R"(<style>
 )";
 
 }  // namespace
+
+TurntableLayers LayersOf(const ModelMesh& mesh) {
+  TurntableLayers layers;
+  std::map<std::string, int> index_of_name;
+  const auto layer_of = [&](int surface) {
+    const auto [found, is_new] = index_of_name.try_emplace(mesh.surfaces[surface].layer,
+                                                           static_cast<int>(layers.names.size()));
+    if (is_new) layers.names.push_back(found->first);
+    return found->second;
+  };
+  for (const int surface : mesh.surface_of_triangle) {
+    layers.layer_of_triangle.push_back(layer_of(surface));
+  }
+  for (const ModelSphere& sphere : mesh.spheres) {
+    layers.layer_of_sphere.push_back(layer_of(sphere.surface));
+  }
+  return layers;
+}
 
 std::optional<fs::path> ThreeFolder() {
   std::error_code none;

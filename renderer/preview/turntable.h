@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "renderer/building/artificial_environment.h"
+#include "renderer/mesh/model.h"
 
 namespace insitu {
 
@@ -17,6 +18,8 @@ struct TurntableLayers {
   std::vector<int> layer_of_triangle;     // index into names, one a triangle of the building
   std::vector<int> layer_of_sphere = {};  // the same, one a sphere
 };
+
+TurntableLayers LayersOf(const ModelMesh& mesh);
 
 // The folder of three.js: INSITU_THREE of the environment, else share/insitu/three beside the
 // installed programs or three in the build folder. nullopt: not there.

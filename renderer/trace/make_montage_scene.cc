@@ -8,6 +8,7 @@
 
 #include "calibration/files/error.h"
 #include "radiometry/spectrum/spectral_table.h"
+#include "renderer/building/shown_environment.h"
 #include "renderer/trace/mean_brdf.h"
 
 namespace insitu {

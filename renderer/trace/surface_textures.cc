@@ -15,6 +15,7 @@
 #include "calibration/files/sha256.h"
 #include "calibration/files/whole_file.h"
 #include "calibration/photo/photograph.h"
+#include "renderer/building/shown_environment.h"
 
 namespace insitu {
 namespace {

@@ -11,6 +11,7 @@
 #include "calibration/files/error.h"
 #include "calibration/files/json_file.h"
 #include "calibration/photo/photograph.h"
+#include "renderer/building/shown_environment.h"
 #include "renderer/convert_report.h"
 #include "tests/calibration/files/scratch_folder.h"
 #include "tests/renderer/dxf/dxf_text.h"

@@ -6,6 +6,7 @@
 
 #include "calibration/files/error.h"
 #include "calibration/files/whole_file.h"
+#include "renderer/building/shown_environment.h"
 #include "tests/calibration/files/scratch_folder.h"
 
 namespace insitu {

@@ -5,6 +5,7 @@
 
 #include "calibration/files/error.h"
 #include "calibration/photo/photograph.h"
+#include "renderer/building/shown_environment.h"
 #include "tests/calibration/files/scratch_folder.h"
 
 namespace insitu {
