@@ -79,30 +79,26 @@ Raster PictureOf(const Tiles& tiles, const Eigen::Vector2d& jitter = Eigen::Vect
   return picture;
 }
 
-class PairedResponseTest : public testing::Test {
- protected:
-  static void SetUpTestSuite() {
+struct Pair {
+  Raster raw, picture;
+};
+
+// Made once, of a scratch folder of the first test that asks.
+const Pair& MadePair() {
+  static const Pair pair = [] {
     const ScratchFolder folder;
     const std::filesystem::path file = folder.path() / "A.dng";
     const Tiles tiles;
     MadeRaw made{kRawWidth, kRawHeight,
                  [&](int x, int y) { return tiles.At(Eigen::Vector2d(x, y)); }};
     WriteMadeRaw(file, made);
-    raw_ = new Raster(ReadPhotograph(file).linear);
-    picture_ = new Raster(PictureOf(tiles));
-  }
-  static void TearDownTestSuite() {
-    delete raw_;
-    delete picture_;
-  }
-  static Raster *raw_, *picture_;
-};
+    return Pair{ReadPhotograph(file).linear, PictureOf(tiles)};
+  }();
+  return pair;
+}
 
-Raster* PairedResponseTest::raw_ = nullptr;
-Raster* PairedResponseTest::picture_ = nullptr;
-
-TEST_F(PairedResponseTest, CropAndLensCorrectionAreFound) {
-  const PairRegistration found = RegisterPair(*raw_, *picture_);
+TEST(PairedResponse, CropAndLensCorrectionAreFound) {
+  const PairRegistration found = RegisterPair(MadePair().raw, MadePair().picture);
   EXPECT_GT(found.pieces, 30);
   EXPECT_LT(found.residual_px, 0.3);
   const Eigen::Vector2d corner((kWidth - 1) / 2.0, (kHeight - 1) / 2.0);
@@ -115,9 +111,9 @@ TEST_F(PairedResponseTest, CropAndLensCorrectionAreFound) {
   }
 }
 
-TEST_F(PairedResponseTest, ThePicturesCodesAreTheRawsLight) {
-  const PairRegistration pair = RegisterPair(*raw_, *picture_);
-  const auto response = FitPairedResponse(*raw_, *picture_, pair);
+TEST(PairedResponse, ThePicturesCodesAreTheRawsLight) {
+  const PairRegistration pair = RegisterPair(MadePair().raw, MadePair().picture);
+  const auto response = FitPairedResponse(MadePair().raw, MadePair().picture, pair);
   ASSERT_TRUE(response);
   EXPECT_GT(response->places, 1000);
   EXPECT_LT(response->sigma, 0.02);
@@ -132,17 +128,17 @@ TEST_F(PairedResponseTest, ThePicturesCodesAreTheRawsLight) {
   }
 }
 
-TEST_F(PairedResponseTest, AnotherPictureLiesNowhere) {
+TEST(PairedResponse, AnotherPictureLiesNowhere) {
   std::mt19937 random(1);
   std::uniform_real_distribution<float> light(0.1F, 0.5F);
   Raster noise(kWidth, kHeight, 3);
   for (float& value : noise.data) value = light(random);
-  const PairRegistration found = RegisterPair(*raw_, noise);
+  const PairRegistration found = RegisterPair(MadePair().raw, noise);
   EXPECT_TRUE(found.pieces == 0 || found.residual_px > 0.5);
 }
 
-TEST_F(PairedResponseTest, AFrameThatIsBentOtherwiseIsTold) {
-  const PairRegistration found = RegisterPair(*raw_, PictureOf(Tiles(), {2, 2}));
+TEST(PairedResponse, AFrameThatIsBentOtherwiseIsTold) {
+  const PairRegistration found = RegisterPair(MadePair().raw, PictureOf(Tiles(), {2, 2}));
   EXPECT_TRUE(found.pieces == 0 || found.residual_px > 0.5) << found.residual_px;
 }
 
