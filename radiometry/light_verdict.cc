@@ -192,7 +192,7 @@ void JudgeReflectance(const LightMeasurement& measured, std::vector<Finding>* fi
        "into survey/samples.json"});
 }
 
-// What it costs was measured on a site of known light, by three curves of cameras.
+// What it costs was measured on a site of known light, by a filmic curve and one with a kink.
 void JudgeResponse(const LightMeasurement& measured, std::vector<Finding>* findings) {
   if (measured.assumed_response.empty()) return;
   findings->push_back(

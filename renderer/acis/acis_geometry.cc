@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <vector>
 
 namespace insitu {
@@ -189,6 +190,36 @@ bool IsAcisReversed(const AcisRecord& record, size_t index) {
     if (token.kind == Kind::kWord) return token.word == "reversed";
   }
   return false;
+}
+
+double ChordAngle(double radius, double tolerance) {
+  constexpr double kFullTurn = 2 * std::numbers::pi;
+  const double sagitta = std::min(tolerance / radius, 1.0);
+  return std::clamp(2 * std::acos(1 - sagitta), kFullTurn / 1024, kFullTurn / 24);
+}
+
+Eigen::Matrix3d AxesAwayFrom(const std::vector<Vector3d>& directions) {
+  double best = -1;
+  Vector3d axis = Vector3d::UnitZ();
+  for (int x = -1; x <= 1; ++x) {
+    for (int y = -1; y <= 1; ++y) {
+      for (int z = 0; z <= 1; ++z) {
+        if (x == 0 && y == 0 && z == 0) continue;
+        const Vector3d candidate = Vector3d(x, y, z).normalized();
+        double nearest = 0;
+        for (const Vector3d& d : directions)
+          nearest = std::max(nearest, std::abs(candidate.dot(d)));
+        if (1 - nearest <= best + 1e-9) continue;
+        best = 1 - nearest;
+        axis = candidate;
+      }
+    }
+  }
+  Eigen::Matrix3d axes;
+  axes.col(2) = axis;
+  axes.col(0) = axis.unitOrthogonal();
+  axes.col(1) = axis.cross(axes.col(0));
+  return axes;
 }
 
 }  // namespace insitu

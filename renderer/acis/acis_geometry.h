@@ -4,6 +4,7 @@
 
 #include <Eigen/Geometry>
 #include <optional>
+#include <vector>
 
 #include "renderer/acis/acis_file.h"
 
@@ -30,6 +31,12 @@ struct AcisSurface {
   // How far a point is off it.
   double DistanceTo(const Eigen::Vector3d& point) const;
 };
+
+// The angle that a chord of a circle may span: within `tolerance` of it, a 1024th to a 24th of it.
+double ChordAngle(double radius, double tolerance);
+
+// Axes of which z is farthest from all directions (unit): a sphere has none of its own.
+Eigen::Matrix3d AxesAwayFrom(const std::vector<Eigen::Vector3d>& directions);
 
 // nullopt: not of the four kinds, or none that has a surface.
 std::optional<AcisSurface> AcisSurfaceOf(const AcisRecord& record);

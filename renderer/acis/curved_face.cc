@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "renderer/acis/uv_mesh.h"
+#include "renderer/acis/uv_ring.h"
 #include "renderer/mesh/outline_with_holes.h"
 
 namespace insitu {
@@ -26,31 +27,6 @@ struct UvRing {
   std::vector<int> at;  // points
   int turns_x = 0, turns_y = 0;
 };
-
-// The axis that is farthest from all points: a sphere has none of its own.
-Eigen::Matrix3d AxesAwayFrom(const std::vector<Vector3d>& directions) {
-  double best = -1;
-  Vector3d axis = Vector3d::UnitZ();
-  for (int x = -1; x <= 1; ++x) {
-    for (int y = -1; y <= 1; ++y) {
-      for (int z = 0; z <= 1; ++z) {
-        if (x == 0 && y == 0 && z == 0) continue;
-        const Vector3d candidate = Vector3d(x, y, z).normalized();
-        double nearest = 0;
-        for (const Vector3d& d : directions)
-          nearest = std::max(nearest, std::abs(candidate.dot(d)));
-        if (1 - nearest <= best + 1e-9) continue;
-        best = 1 - nearest;
-        axis = candidate;
-      }
-    }
-  }
-  Eigen::Matrix3d axes;
-  axes.col(2) = axis;
-  axes.col(0) = axis.unitOrthogonal();
-  axes.col(1) = axis.cross(axes.col(0));
-  return axes;
-}
 
 // Parameters here are x and y: u and v, mirrored where the face looks inwards, so that the face is
 // on the left of its loops; turned where the loops go about a torus' tube. Both count in chords.
@@ -86,7 +62,10 @@ class FaceCutter {
     std::vector<const UvRing*> around, outer, holes;
     for (const UvRing& ring : rings_) {
       if (ring.turns_y != 0 || std::abs(ring.turns_x) > 1) return kGoesAround;
-      (ring.turns_x != 0 ? around : AreaOf(ring.at) > 0 ? outer : holes).push_back(&ring);
+      (ring.turns_x != 0                  ? around
+       : SignedArea(points_, ring.at) > 0 ? outer
+                                          : holes)
+          .push_back(&ring);
     }
     if (around.size() > 2 || (!around.empty() && !outer.empty())) return kGoesAround;
     if (!outer.empty()) return CutPieces(outer, holes);
@@ -171,21 +150,6 @@ class FaceCutter {
     return surface_.PointAt({sign_ * xy.x(), xy.y()});
   }
 
-  double AreaOf(const std::vector<int>& ring) const {
-    double area = 0;
-    for (size_t i = 0; i < ring.size(); ++i) {
-      const Vector2d &a = points_[ring[i]], &b = points_[ring[(i + 1) % ring.size()]];
-      area += a.x() * b.y() - a.y() * b.x();
-    }
-    return area / 2;
-  }
-
-  Vector2d MeanOf(const std::vector<int>& ring) const {
-    Vector2d sum = Vector2d::Zero();
-    for (const int at : ring) sum += points_[at];
-    return sum / static_cast<double>(ring.size());
-  }
-
   // Copies of points, `shift` away.
   std::vector<int> Shifted(const std::vector<int>& ring, const Vector2d& shift) {
     if (shift.isZero(0)) return ring;
@@ -261,7 +225,9 @@ class FaceCutter {
     const Vector2d& there = points_[above.at[nearest]];
     Vector2d shift(kTurn * std::round((corner.x() - there.x()) / kTurn), 0);
     if (surface_.kind == AcisSurface::Kind::kTorus) {
-      shift.y() = kTurn * std::ceil((MeanOf(below.at).y() - MeanOf(above.at).y()) / kTurn);
+      shift.y() =
+          kTurn *
+          std::ceil((MeanOf(points_, below.at).y() - MeanOf(points_, above.at).y()) / kTurn);
     }
     const std::vector<int> back = Shifted(OnceAround(above, nearest), shift);
     return Joined(std::move(outline), back);
@@ -327,7 +293,9 @@ class FaceCutter {
       for (int i = -2; i <= 2 && !found; ++i) {
         for (int j = -reach; j <= reach && !found; ++j) {
           const Vector2d shift(kTurn * i, kTurn * j);
-          const auto is_inside = [&](int at) { return IsWithin(points_[at] + shift, outline); };
+          const auto is_inside = [&](int at) {
+            return IsWithin(points_, outline, points_[at] + shift);
+          };
           if (std::ranges::all_of(hole->at, is_inside)) found = shift;
         }
       }
@@ -350,16 +318,6 @@ class FaceCutter {
       if (!failure.empty()) return failure;
     }
     return used == holes.size() ? "" : kGoesAround;
-  }
-
-  bool IsWithin(const Vector2d& p, const std::vector<int>& outline) const {
-    bool inside = false;
-    for (size_t i = 0; i < outline.size(); ++i) {
-      const Vector2d &a = points_[outline[i]], &b = points_[outline[(i + 1) % outline.size()]];
-      if ((a.y() > p.y()) == (b.y() > p.y())) continue;
-      if (p.x() < a.x() + (p.y() - a.y()) / (b.y() - a.y()) * (b.x() - a.x())) inside = !inside;
-    }
-    return inside;
   }
 
   std::string Triangulated(const std::vector<int>& outline,
@@ -410,7 +368,7 @@ class FaceCutter {
         const double stagger = i % 2 == 0 ? 0.25 : 0.75;
         const Vector2d p = box.min() + box.sizes().cwiseProduct(
                                            Vector2d((j + stagger) / counts.x(), i / counts.y()));
-        if (IsWithin(p, outline) && !is_close(p)) mesh->Insert(p.cwiseQuotient(step_));
+        if (IsWithin(points_, outline, p) && !is_close(p)) mesh->Insert(p.cwiseQuotient(step_));
       }
     }
   }
@@ -427,11 +385,6 @@ class FaceCutter {
 };
 
 }  // namespace
-
-double ChordAngle(double radius, double tolerance) {
-  const double sagitta = std::min(tolerance / radius, 1.0);
-  return std::clamp(2 * std::acos(1 - sagitta), kTurn / 1024, kTurn / 24);
-}
 
 std::string AddCurvedFace(const CurvedFace& face, double tolerance, std::vector<Vector3d>* vertices,
                           std::vector<Eigen::Vector3i>* triangles) {

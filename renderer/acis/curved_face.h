@@ -10,9 +10,6 @@
 
 namespace insitu {
 
-// The angle that a chord of a circle may span: within `tolerance` of it, a 1024th to a 24th of it.
-double ChordAngle(double radius, double tolerance);
-
 struct CurvedFace {
   AcisSurface surface;
   bool looks_inwards = false;           // the face, not its surface

@@ -12,7 +12,6 @@
 
 #include "renderer/dxf/dxf_name.h"
 #include "tests/calibration/files/scratch_folder.h"
-#include "tests/renderer/acis/sat_text.h"
 #include "tests/renderer/dxf/dxf_text.h"
 #include "tests/renderer/mesh/mesh_measures.h"
 
@@ -288,67 +287,6 @@ TEST(Dxf, EntitiesThatAreNotReadHaveTheirReason) {
                                                          {"AEC_ROOF", "is not known"},
                                                          {"R??", "is not known"}}));
   EXPECT_EQ(model.entities.at("R??"), 1);
-}
-
-// As AutoCAD writes it, a line a group.
-std::string SolidEntity(const std::string& sat, const std::string& handle = "9C") {
-  std::string entity = "0 3DSOLID\n5 " + handle + "\n100 AcDbEntity\n8 ROOF\n70 1\n";
-  std::istringstream lines(sat);
-  for (std::string line; std::getline(lines, line);) {
-    std::string code = "1 ";
-    for (line = DecodedAcisText(line); !line.empty(); code = "3 ") {
-      entity += code + line.substr(0, 255) + "\n";
-      line.erase(0, 255);
-    }
-  }
-  return entity;
-}
-
-TEST(Dxf, SolidsOfAcisBecomeFacesAndSpheres) {
-  const Model model =
-      ReadEntities(SolidEntity(CubeText(400)) + SolidEntity(SphereText(700, {5, 0, 0}, 2), "9D"));
-  EXPECT_TRUE(model.skipped.empty());
-  EXPECT_EQ(model.entities.at("3DSOLID"), 2);
-  EXPECT_NEAR(VolumeOf(model.mesh), 1, 1e-12);
-  EXPECT_EQ(LayersOf(model.mesh), std::vector<std::string>{"ROOF"});
-  ASSERT_EQ(model.mesh.spheres.size(), 1u);
-  EXPECT_EQ(model.mesh.spheres[0].center, Vector3d(5, 0, 0));
-  EXPECT_EQ(model.mesh.spheres[0].radius, 2);
-}
-
-TEST(Dxf, SolidsFollowTheirInserts) {
-  const std::string block = "0 BLOCK\n2 B\n" + SolidEntity(CubeText(400)) +
-                            SolidEntity(SphereText(400, {0, 0, 0}, 1)) + "0 ENDBLK\n";
-  const Model mirrored =
-      ReadText(DrawingText("0 INSERT\n2 B\n10 7\n20 0\n41 -2\n42 2\n43 2\n", block));
-  EXPECT_NEAR(VolumeOf(mirrored.mesh), 8, 1e-12);
-  ASSERT_EQ(mirrored.mesh.spheres.size(), 1u);
-  EXPECT_EQ(mirrored.mesh.spheres[0].center, Vector3d(7, 0, 0));
-  EXPECT_NEAR(mirrored.mesh.spheres[0].radius, 2, 1e-12);
-  // An egg is no sphere.
-  const Model egg = ReadText(DrawingText("0 INSERT\n2 B\n43 3\n", block));
-  EXPECT_TRUE(egg.mesh.spheres.empty());
-  EXPECT_NEAR(VolumeOf(egg.mesh), 3 + 4 * std::numbers::pi, 0.1);
-}
-
-TEST(Dxf, SolidsSince2013StandInASectionOfTheirOwn) {
-  const std::string sab = SabOf(*ReadSat(SphereText(21800, {1, 2, 3}, 0.5)));
-  std::string data = "0 SECTION\n2 ACDSDATA\n0 ACDSRECORD\n90 1\n320 09c\n2 ASM_Data\n";
-  for (size_t i = 0; i < sab.size(); i += 100) {
-    data += "310 ";
-    for (const char c : sab.substr(i, 100)) {
-      constexpr char kDigits[] = "0123456789ABCDEF";
-      data += kDigits[static_cast<unsigned char>(c) >> 4];
-      data += kDigits[static_cast<unsigned char>(c) & 15];
-    }
-    data += "\n";
-  }
-  const std::string entity = "0 3DSOLID\n5 9C\n8 0\n0 3DSOLID\n5 9E\n8 0\n";
-  const Model model = ReadText(DxfText(EntitiesSection(entity) + data + "0 ENDSEC\n0 EOF\n"));
-  ASSERT_EQ(model.mesh.spheres.size(), 1u);
-  EXPECT_EQ(model.mesh.spheres[0].center, Vector3d(1, 2, 3));
-  EXPECT_EQ(model.skipped,
-            (SkippedEntities{{{"3DSOLID 9E", "holds no ACIS body that can be read"}, 1}}));
 }
 
 // A hole is reached by an edge that is gone along twice.
