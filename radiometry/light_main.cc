@@ -10,12 +10,11 @@
 #include "radiometry/light_page.h"
 #include "radiometry/light_report.h"
 #include "radiometry/measure_daylight.h"
-#include "radiometry/measure_response.h"
 
 namespace insitu {
 namespace {
 
-// From the raw files beside the photographs, else from the site itself.
+// From the raw files beside the photographs.
 void RunResponse(const SitePaths& site) {
   const std::filesystem::path file = site.root / "work/light/response.json";
   const std::filesystem::path stated = site.photos() / "response.json";
@@ -24,16 +23,14 @@ void RunResponse(const SitePaths& site) {
                      "is there already, expected photographs whose response is not stated "
                      "yet; move it away to fit anew");
   }
-  if (const std::vector<PhotographPair> pairs = PairsOf(site); !pairs.empty()) {
-    const PairedResponses responses = MeasurePairedResponses(pairs);
-    WriteJson(file, responses.file);
-    std::cout << responses.report;
-  } else {
-    const ResponseMeasurement measurement = MeasureResponse(site);
-    WriteJson(file, ResponseJson(measurement));
-    std::cout << BriefReport(measurement);
+  const std::vector<PhotographPair> pairs = PairsOf(site);
+  if (pairs.empty()) {
+    throw InputError(site.photos(),
+                     "has no raw beside a picture, expected one of the same name to fit to");
   }
-  std::cout << "copy " << file.string() << " to " << stated.string()
+  const PairedResponses responses = MeasurePairedResponses(pairs);
+  WriteJson(file, responses.file);
+  std::cout << responses.report << "copy " << file.string() << " to " << stated.string()
             << " and run insitu-undistort and insitu-light again to measure by it\n";
 }
 
@@ -58,7 +55,7 @@ int RunLight(int argc, char** argv) {
   bool fit_response = false;
   program.Flag("--fit-response", &fit_response,
                "fit the camera's response, for JPEG whose curve is not sRGB's: to raw files of the "
-               "same names, else to even surfaces; writes work/light/response.json alone");
+               "same names; writes work/light/response.json alone");
   return RunProgram(program, argc, argv, [&] {
     if (fit_response) return RunResponse(site);
     const LightMeasurement measurement = MeasureDaylight(site, options);

@@ -202,8 +202,9 @@ void JudgeResponse(const LightMeasurement& measured, std::vector<Finding>* findi
                measured.assumed_response, 4) +
            "; a camera's picture style is another curve, which can put sun : sky off by a tenth "
            "and all brightness by half",
-       "bring the camera's raw files, or state its curve in photos/response.json: insitu-light "
-       "--fit-response fits one"});
+       "put the camera's raw files beside them, to which insitu-light --fit-response fits it, or "
+       "state "
+       "its curve in photos/response.json"});
 }
 
 void JudgeHaze(const LightMeasurement& measured, std::vector<Finding>* findings) {
