@@ -52,6 +52,24 @@ check 'raw, render without building' program render --no-building --photo "$name
 check 'raw without building is the raw' "$COMPARE_IMAGES" identical "$target" \
   "$site/montages/$name.exr"
 
+# A picture with its raw beside it: what its codes are in the raw's light.
+fresh_site
+no_raw_no_response() {
+  ! "$INSITU_BIN/insitu-light" "$site" --fit-response 2>"$temporary/error" >/dev/null &&
+    grep 'photos: has no raw beside a picture' "$temporary/error"
+}
+check 'no raw, no response' no_raw_no_response
+"$WRITE_PHOTOGRAPH" raw "$photo" "$site/photos/$name.dng"
+fits_response() {
+  "$INSITU_BIN/insitu-light" "$site" --fit-response | tee "$temporary/fit" |
+    grep -E "^$name: lies on its raw to 0\.[0-4][0-9]* px" || { head -n 3 "$temporary/fit" && return 1; }
+}
+check 'a raw beside its picture, response' fits_response
+cp -- "$site/work/light/response.json" "$site/photos"
+check 'its response is read' program undistort
+check 'the input image is as by sRGB, of which the raw was made' same_as_of_jpeg \
+  "work/input_images/$name.exr" 2
+
 # What is refused.
 # is_refused WHAT PATTERN: undistort, light and render refuse $site.
 is_refused() {
