@@ -34,8 +34,9 @@ class Tiles {
     constexpr int kSteps = 4;
     Eigen::Vector3d sum = Eigen::Vector3d::Zero();
     for (int i = 0; i < kSteps * kSteps; ++i) {
+      const int right = i % kSteps, down = i / kSteps;
       const Eigen::Vector2d at =
-          place + Eigen::Vector2d((i % kSteps + 0.5) / kSteps, (i / kSteps + 0.5) / kSteps);
+          place + Eigen::Vector2d((right + 0.5) / kSteps, (down + 0.5) / kSteps);
       const int column = static_cast<int>(std::floor(at.x() / 21)) + 8;
       const int row = static_cast<int>(std::floor(at.y() / 17)) + 8;
       sum += colors_.at(row * 48 + column);
@@ -44,7 +45,7 @@ class Tiles {
   }
 
  private:
-  std::vector<Eigen::Vector3d> colors_ = std::vector<Eigen::Vector3d>(48 * 48);
+  std::vector<Eigen::Vector3d> colors_ = std::vector<Eigen::Vector3d>(size_t{48} * 48);
 };
 
 Eigen::Matrix3d ShownFromRaw() {
