@@ -19,12 +19,25 @@ namespace {
 
 using Eigen::Vector3d;
 
+constexpr char kFormat[] = "insitu objects";
+constexpr int kVersion = 1;
 constexpr double kPlanar = 1e-3;         // [m]
 constexpr double kFarthestPoint = 1e12;  // [m]
 
 void RequireKnown(const JsonNode& object, const std::set<std::string>& keys) {
   for (const auto& [key, value] : object.Members()) {
     if (!keys.contains(key)) throw value.Error("is no key of an object here");
+  }
+}
+
+// What is stated is heeded; nothing need be.
+void RequireFormat(const JsonNode& root) {
+  const auto format = root.Find("format"), version = root.Find("version");
+  if (format && format->Text() != kFormat) {
+    throw format->Error(std::string("is another format, expected \"") + kFormat + "\"");
+  }
+  if (version && version->Integer() != kVersion) {
+    throw version->Error("is not a version that is read, expected " + std::to_string(kVersion));
   }
 }
 
@@ -51,7 +64,8 @@ class ObjectsReader {
   Model Read() {
     const JsonNode root = JsonNode::Load(path_);
     RequireKnown(root, {"format", "version", "objects"});
-    model_.format = "insitu objects";
+    RequireFormat(root);
+    model_.format = kFormat;
     model_.metres_per_unit = 1;
     std::set<std::string> names;
     for (const JsonNode& object : root.At("objects").Items()) {

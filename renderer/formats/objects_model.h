@@ -13,9 +13,10 @@ namespace insitu {
 bool IsObjectsFile(const std::filesystem::path& path, std::string_view head);
 
 // Metres, z up; spheres stay spheres. An object's layer is its name unless it states one. Polygons
-// may have holes. Throws InputError at its line: a key that is not known, a polygon or a face that
-// is not planar to a millimetre, crosses itself or has no area, a hole that is not within it, a
-// radius that is not above 0. A polyhedron whose faces leave it open is a warning.
+// may have holes. Throws InputError at its line: another format or version, a key that is not
+// known, a polygon or a face that is not planar to a millimetre, crosses itself or has no area, a
+// hole that is not within it, a radius that is not above 0. A polyhedron whose faces leave it open
+// is a warning.
 Model ReadObjects(const std::filesystem::path& path);
 
 }  // namespace insitu

@@ -7,24 +7,15 @@
 #include <string>
 
 #include "renderer/dxf/dxf.h"
-#include "tests/calibration/files/scratch_folder.h"
 #include "tests/renderer/acis/sat_text.h"
 #include "tests/renderer/dxf/dxf_text.h"
+#include "tests/renderer/dxf/read_drawing.h"
 #include "tests/renderer/mesh/mesh_measures.h"
 
 namespace insitu {
 namespace {
 
 using Eigen::Vector3d;
-
-Model ReadText(const std::string& text) {
-  const ScratchFolder folder;
-  return ReadDxf(folder.Write("drawing.dxf", text));
-}
-
-Model ReadEntities(const std::string& entities, const std::string& blocks = "") {
-  return ReadText(DrawingText(entities, blocks));
-}
 
 // As AutoCAD writes it, a line a group.
 std::string SolidEntity(const std::string& sat, const std::string& handle = "9C") {

@@ -11,23 +11,14 @@
 #include <sstream>
 
 #include "renderer/dxf/dxf_name.h"
-#include "tests/calibration/files/scratch_folder.h"
 #include "tests/renderer/dxf/dxf_text.h"
+#include "tests/renderer/dxf/read_drawing.h"
 #include "tests/renderer/mesh/mesh_measures.h"
 
 namespace insitu {
 namespace {
 
 using Eigen::Vector3d;
-
-Model ReadText(const std::string& text) {
-  const ScratchFolder folder;
-  return ReadDxf(folder.Write("drawing.dxf", text));
-}
-
-Model ReadEntities(const std::string& entities, const std::string& blocks = "") {
-  return ReadText(DrawingText(entities, blocks));
-}
 
 std::vector<std::string> LayersOf(const ModelMesh& mesh) {
   std::vector<std::string> layers;

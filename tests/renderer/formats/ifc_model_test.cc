@@ -67,6 +67,8 @@ TEST(IfcModel, UnitsNamesAndFacesAreTheFiles) {
 
 TEST(IfcModel, WithoutItsReaderIsRefusedWithAWord) {
   const ScratchFolder folder;
+  const char* set = getenv("INSITU_WEB_IFC");
+  const std::string before = set == nullptr ? "" : set;
   setenv("INSITU_WEB_IFC", "/nowhere", 1);
   std::string complaint;
   try {
@@ -75,6 +77,7 @@ TEST(IfcModel, WithoutItsReaderIsRefusedWithAWord) {
     complaint = error.what();
   }
   unsetenv("INSITU_WEB_IFC");
+  if (!before.empty()) setenv("INSITU_WEB_IFC", before.c_str(), 1);  // for the tests that follow
   EXPECT_THAT(complaint, HasSubstr("web-ifc is missing"));
 }
 

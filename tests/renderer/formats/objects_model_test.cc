@@ -72,6 +72,16 @@ TEST_F(ObjectsModel, TellsFaultsByLine) {
               HasSubstr("is no vertex, expected 0 to 2"));
 }
 
+TEST_F(ObjectsModel, AnotherFormatOrVersionIsRefused) {
+  const auto complaint = [&](const std::string& stated) {
+    const auto path = folder_.Write("objects.json", "{" + stated + R"(, "objects": []})");
+    return InputErrorOf([&] { ReadModel(path); });
+  };
+  EXPECT_THAT(complaint(R"("format": "insitu building")"), HasSubstr("is another format"));
+  EXPECT_THAT(complaint(R"("version": 2)"), HasSubstr("expected 1"));
+  EXPECT_NO_THROW(ReadModel(folder_.Write("objects.json", R"({"version": 1, "objects": []})")));
+}
+
 TEST_F(ObjectsModel, SaysWhatIsOpen) {
   std::string open = kPyramid;
   const std::string bottom = "[3, 2, 1, 0], ";
