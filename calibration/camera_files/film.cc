@@ -3,11 +3,13 @@
 
 #include <math.h>  // boost's pchip calls isnan without its namespace
 
-#include <Eigen/Dense>
+#include <Eigen/Geometry>
+#include <Eigen/LU>
 #include <algorithm>
 #include <boost/math/interpolators/pchip.hpp>
 #include <cmath>
 
+#include "calibration/algebra/decompositions.h"
 #include "calibration/files/csv_file.h"
 #include "calibration/files/error.h"
 #include "calibration/files/json_file.h"
@@ -59,19 +61,16 @@ bool Improve(const std::vector<Eigen::Vector2d>& from, const std::vector<Eigen::
   Eigen::VectorXd rest(2 * from.size());
   for (size_t i = 0; i < from.size(); ++i) rest.segment<2>(2 * i) = to[i] - Mapped(*map, from[i]);
   rest.array() *= root_weights.array();
-  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> solver(root_weights.asDiagonal() *
-                                                     DesignOf(from, *map, count));
-  solver.setThreshold(1e-9);
-  if (solver.rank() < count) return false;
-  const Eigen::VectorXd step = solver.solve(rest);
-  for (int i = 0; i < count; ++i) (*map)(i / 3, i % 3) += step[i];
+  const LeastSquaresSolution step =
+      SolveLeastSquares(root_weights.asDiagonal() * DesignOf(from, *map, count), rest, 1e-9);
+  if (step.rank < count) return false;
+  for (int i = 0; i < count; ++i) (*map)(i / 3, i % 3) += step.x(i);
   return true;
 }
 
 // The diagonal of I - A (A^T A)^-1 A^T.
 std::vector<Eigen::Vector2d> RedundanciesOf(const Eigen::MatrixXd& design) {
-  const Eigen::MatrixXd basis = design.householderQr().householderQ() *
-                                Eigen::MatrixXd::Identity(design.rows(), design.cols());
+  const Eigen::MatrixXd basis = OrthonormalBasis(design);
   std::vector<Eigen::Vector2d> redundancies;
   for (Eigen::Index row = 0; row < design.rows(); row += 2) {
     const Eigen::Vector2d used = basis.middleRows<2>(row).rowwise().squaredNorm();

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "calibration/camera_files/film_review.h"
 
-#include <Eigen/Dense>
+#include <Eigen/Geometry>
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <complex>
 #include <utility>
 
+#include "calibration/algebra/decompositions.h"
 #include "calibration/files/wording.h"
 
 namespace insitu {
@@ -197,7 +199,7 @@ class Reviewer {
   // Without redundancy a wrong mark still shows as a scan that is stretched or sheared.
   bool HasShapeOfScan() {
     const Eigen::Matrix2d linear = review_.map->bitmap_from_image.topLeftCorner<2, 2>();
-    const Eigen::Vector2d scales = Eigen::JacobiSVD<Eigen::Matrix2d>(linear).singularValues();
+    const Eigen::Vector2d scales = SingularValuesOf(linear).values;
     const double stretch = scales[0] / scales[1] - 1;
     if (stretch < 2 * kShrinks) return true;
     Suspect(Sentence("filmStretched",

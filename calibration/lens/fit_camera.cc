@@ -7,6 +7,7 @@
 #include <cmath>
 #include <vector>
 
+#include "calibration/algebra/decompositions.h"
 #include "calibration/files/error.h"
 
 namespace insitu {
@@ -84,7 +85,7 @@ std::vector<double> StartIntrinsics(const std::vector<Sight>& sights) {
       normal += row * row.transpose();
       right += row * sight.pixel[axis];
     }
-    const Eigen::Vector2d line = normal.ldlt().solve(right);
+    const Eigen::Vector2d line = SolveSymmetric(normal, right);
     start[axis] = line[0];
     start[2 + axis] = line[1];
   }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "calibration/algebra/decompositions.h"
 #include "calibration/files/error.h"
 
 namespace insitu {
@@ -30,7 +31,7 @@ bool Improve(const Camera& b, const std::vector<Node>& nodes, Eigen::Quaterniond
     normal += node.weight * pixel_from_turn.transpose() * pixel_from_turn;
     right += node.weight * pixel_from_turn.transpose() * (node.pixel - *pixel);
   }
-  const Eigen::Vector3d turn = normal.ldlt().solve(right);
+  const Eigen::Vector3d turn = SolveSymmetric(normal, right);
   if (!turn.allFinite() || turn.norm() < 1e-13) return false;
   *b_from_a = (Eigen::AngleAxisd(turn.norm(), turn.normalized()) * *b_from_a).normalized();
   return true;

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "calibration/photo/paired_response.h"
 
-#include <Eigen/Cholesky>
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 #include <optional>
 #include <vector>
+
+#include "calibration/algebra/decompositions.h"
 
 namespace insitu {
 namespace {
@@ -138,7 +138,7 @@ void Improve(const Raster& picture, const std::vector<Piece>& pieces, PairRegist
     pair->pieces = count;
     pair->residual_px = std::sqrt(sum / std::max(1, count));
     if (pass == 2) break;
-    change = normal.ldlt().solve(right);
+    change = SolveSymmetric(normal, right);
     for (size_t i = 0; i < pieces.size(); ++i) {
       squares[i] = std::pow(row(pieces[i], 0).dot(change) - pieces[i].off.x(), 2) +
                    std::pow(row(pieces[i], 1).dot(change) - pieces[i].off.y(), 2);
@@ -250,7 +250,7 @@ Eigen::Matrix3d MatrixOf(const std::vector<PairPlace>& places,
     normal += weight * shown * shown.transpose();
     right += weight * place.light * shown.transpose();
   }
-  return normal.ldlt().solve(right.transpose()).transpose();
+  return right * InverseOfSymmetric(normal);
 }
 
 std::array<ToneCurve, 3> CurvesOf(const std::array<ResponsePoints, 3>& points) {

@@ -3,11 +3,13 @@
 
 #include <ceres/tiny_solver.h>
 
-#include <Eigen/Dense>
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <vector>
+
+#include "calibration/algebra/decompositions.h"
 
 namespace insitu {
 namespace {
@@ -127,8 +129,8 @@ EdgeFit FitEdge(const std::vector<EdgePixel>& pixels, double before, double behi
   problem(model.data(), residuals.data(), jacobian.data());
   const double variance = residuals.squaredNorm() / static_cast<double>(pixels.size() - 7);
   const Eigen::MatrixXd normal = jacobian.transpose() * jacobian;
-  const EdgeModel cofactors = normal.ldlt().solve(EdgeModel(EdgeModel::Unit(2)));
-  return {model, std::sqrt(variance), std::sqrt(variance * std::max(cofactors[2], 0.0))};
+  const double cofactor = InverseOfSymmetric(normal)(2, 2);
+  return {model, std::sqrt(variance), std::sqrt(variance * std::max(cofactor, 0.0))};
 }
 
 bool IsPlausible(const EdgeFit& fit, double contrast, double half_length) {

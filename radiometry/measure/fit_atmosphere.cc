@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "radiometry/measure/fit_atmosphere.h"
 
-#include <Eigen/Cholesky>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
+#include "calibration/algebra/decompositions.h"
 #include "calibration/files/error.h"
 #include "radiometry/measure/robust_weights.h"
 
@@ -49,7 +49,7 @@ Exponential Step(const Observations& seen, const Exponential& x, double damping)
   const Eigen::MatrixX2d J = Jacobian(seen, x);
   Eigen::Matrix2d N = J.transpose() * J;
   N.diagonal() *= 1 + damping;
-  const Eigen::Vector2d step = N.ldlt().solve(J.transpose() * Residuals(seen, x).matrix());
+  const Eigen::Vector2d step = SolveSymmetric(N, J.transpose() * Residuals(seen, x).matrix());
   const double extinction = x.extinction + step[0];
   if (extinction <= 0) return {0, BestContrast(seen, 0)};
   return {extinction, x.contrast + step[1]};

@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "radiometry/measure/fit_daylight.h"
 
-#include <Eigen/LU>
-#include <Eigen/QR>
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 
+#include "calibration/algebra/decompositions.h"
 #include "calibration/files/error.h"
 #include "radiometry/measure/robust_weights.h"
 #include "radiometry/spectrum/color.h"
@@ -110,14 +108,12 @@ Eigen::Vector3d SolveNonNegative(const Equations& equations, const std::vector<i
   double smallest = equations.y.squaredNorm();
   for (unsigned mask = 1; mask < 1u << columns.size(); ++mask) {
     const std::vector<int> support = Subset(columns, mask);
-    Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(ScaledColumns(equations.A, support));
-    qr.setThreshold(kRankTolerance);
-    if (qr.rank() < static_cast<int>(support.size())) continue;
-    const Eigen::VectorXd scaled = qr.solve(equations.y);
-    if (scaled.minCoeff() < 0) continue;
+    const LeastSquaresSolution scaled =
+        SolveLeastSquares(ScaledColumns(equations.A, support), equations.y, kRankTolerance);
+    if (scaled.rank < static_cast<int>(support.size()) || scaled.x.minCoeff() < 0) continue;
     Eigen::Vector3d x = Eigen::Vector3d::Zero();
     for (size_t i = 0; i < support.size(); ++i) {
-      x[support[i]] = scaled[i] / equations.A.col(support[i]).norm();
+      x[support[i]] = scaled.x(static_cast<Eigen::Index>(i)) / equations.A.col(support[i]).norm();
     }
     const double cost = (equations.A * x - equations.y).squaredNorm();
     if (cost >= smallest) continue;
@@ -130,9 +126,7 @@ Eigen::Vector3d SolveNonNegative(const Equations& equations, const std::vector<i
 // Standard deviations of all influential components, those held at zero included, from the
 // pseudo-inverse of the unconstrained system, scaled by the variance of the residuals.
 void SetPrecision(const Equations& equations, const std::vector<int>& columns, Solution* solution) {
-  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(ScaledColumns(equations.A, columns),
-                                              Eigen::ComputeThinV);
-  const Eigen::VectorXd& singular = svd.singularValues();
+  const auto [singular, right] = SingularValuesOf(ScaledColumns(equations.A, columns));
   const double smallest = singular[singular.size() - 1];
   solution->condition = smallest > 0 ? std::min(kRankDefect, singular[0] / smallest) : kRankDefect;
   const double dof = static_cast<double>(equations.y.size()) - static_cast<double>(columns.size());
@@ -142,7 +136,7 @@ void SetPrecision(const Equations& equations, const std::vector<int>& columns, S
     double variance = 0;
     for (int k = 0; k < singular.size(); ++k) {
       if (singular[k] < kRankTolerance * singular[0]) continue;
-      variance += std::pow(svd.matrixV()(i, k) / singular[k], 2);
+      variance += std::pow(right(static_cast<Eigen::Index>(i), k) / singular[k], 2);
     }
     solution->sigma[columns[i]] =
         std::sqrt(variance * variance_factor) / equations.A.col(columns[i]).norm();

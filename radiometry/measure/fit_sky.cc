@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "radiometry/measure/fit_sky.h"
 
-#include <Eigen/Dense>
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <numbers>
 #include <utility>
 
+#include "calibration/algebra/decompositions.h"
 #include "radiometry/measure/robust_weights.h"
 
 namespace insitu {
@@ -92,7 +93,7 @@ LogFit SolveLog(const std::vector<LogRow>& rows, const std::vector<Term>& terms,
     Y.row(i) = rows[i].log_radiance.head(bins).matrix().transpose();
     w[i] = weights[i];
   }
-  const Eigen::MatrixXd cofactor = (A.transpose() * w.asDiagonal() * A).inverse();
+  const Eigen::MatrixXd cofactor = InverseOfSymmetric(A.transpose() * w.asDiagonal() * A);
   const Eigen::MatrixXd X = cofactor * (A.transpose() * w.asDiagonal() * Y), V = A * X - Y;
   LogFit fit;
   fit.value.fill(Spectrum::Zero());
@@ -215,7 +216,7 @@ Spectrum LevelSigma(const LogFit& fit, const std::vector<LogRow>& rows, const Sp
     const Eigen::Vector3d a(1, by_gradation[bin], by_glow[bin]);
     Eigen::Matrix3d weights = normal / fit.variance[bin];
     weights.diagonal() += before;
-    const double of_shape = a.dot(weights.ldlt().solve(a));
+    const double of_shape = a.dot(SolveSymmetric(weights, a));
     const double of_form = std::pow(kOfCarried * (std::log(level[bin]) - seen[bin]), 2);
     sigma[bin] = std::sqrt(std::pow(kSigmaOfLevel, 2) + std::pow(fit.rms, 2) + of_shape + of_form);
   }

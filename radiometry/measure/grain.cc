@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <Eigen/Dense>
+#include <Eigen/LU>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <utility>
 
+#include "calibration/algebra/decompositions.h"
 #include "radiometry/measure/measure_image_quality.h"
 #include "radiometry/measure/robust_weights.h"
 
@@ -131,7 +132,7 @@ Eigen::Vector2d FitVariance(const std::vector<Level>& levels, int channel, Encod
     normal += weight * row * row.transpose();
     right += weight * row * grain;
   }
-  const Eigen::Vector2d fit = normal.ldlt().solve(right);
+  const Eigen::Vector2d fit = SolveSymmetric(normal, right);
   if (fit[0] < 0) return {0, std::max(0.0, right[1] / normal(1, 1))};
   if (fit[1] < 0) return {std::max(0.0, right[0] / normal(0, 0)), 0};
   return fit;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "radiometry/measure/photo_exposures.h"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -9,6 +8,7 @@
 #include <tuple>
 #include <utility>
 
+#include "calibration/algebra/decompositions.h"
 #include "calibration/files/error.h"
 #include "radiometry/measure/robust_weights.h"
 #include "reconstruction/geometry/ray_scene.h"
@@ -187,13 +187,12 @@ class ExposureEquations {
     for (int pass = 0; pass < kPasses; ++pass) {
       Eigen::VectorXd right;
       std::tie(normals, right) = Normals(series, weights, gains.value);
-      gains.value = normals.ldlt().solve(right);
+      gains.value = SolveSymmetric(normals, right);
       const std::vector<double> residuals = Residuals(series, gains.value);
       weights = HuberWeights(residuals);
       scale = std::max(0.1, kSigmaOverMedian * Median(residuals));
     }
-    gains.covariance = scale * scale * kCorrelatedPoints *
-                       normals.ldlt().solve(Eigen::MatrixXd::Identity(photos_ + 2, photos_ + 2));
+    gains.covariance = scale * scale * kCorrelatedPoints * InverseOfSymmetric(normals);
     return gains;
   }
 

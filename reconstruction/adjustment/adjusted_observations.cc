@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "reconstruction/adjustment/adjusted_observations.h"
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <cmath>
 
+#include "calibration/algebra/decompositions.h"
 #include "calibration/files/error.h"
 #include "calibration/lens/lens_residual.h"
 #include "reconstruction/network/variance_factor.h"
@@ -189,8 +189,7 @@ std::vector<PointComparison> LeaveOneOut(const SurveyNetwork& survey_network,
     const Eigen::Matrix3d share =
         Eigen::Matrix3d::Identity() -
         Eigen::Matrix3d(weight.asDiagonal() * cofactor * weight.asDiagonal());
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(share);
-    if (eigen.eigenvalues()[0] < kControlled) continue;
+    if (EigenOfSymmetric(share).values[0] < kControlled) continue;
     const NetworkPoint& point = network.points[control.point];
     const Eigen::Vector3d residual = (point.position - control.position).cwiseProduct(weight);
     const Eigen::Matrix3d inverse = share.inverse();

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "reconstruction/adjustment/adjusted_scene.h"
 
-#include <ceres/sphere_manifold.h>
-
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -13,6 +11,7 @@
 #include "reconstruction/adjustment/adjusted_unknowns.h"
 #include "reconstruction/adjustment/polygon_covariance.h"
 #include "reconstruction/geometry/plane.h"
+#include "reconstruction/network/unit_tangents.h"
 
 namespace insitu {
 namespace {
@@ -62,8 +61,7 @@ Direction AdjustedDirection(const SurveyNetwork& survey_network, const NetworkSo
   const NetworkDirection& direction = survey_network.network.directions[index];
   const std::optional<int> column = solution.columns.direction[index];
   if (!column) return {direction.unit, Eigen::Matrix3d::Zero()};
-  Eigen::Matrix<double, 3, 2, Eigen::RowMajor> unit_from_tangent;
-  ceres::SphereManifold<3>().PlusJacobian(direction.unit.data(), unit_from_tangent.data());
+  const Eigen::Matrix<double, 3, 2> unit_from_tangent = TangentsOf(direction.unit);
   return {direction.unit, unit_from_tangent *
                               Covariance(survey_network.network, solution, *column, 2, *column, 2) *
                               unit_from_tangent.transpose()};

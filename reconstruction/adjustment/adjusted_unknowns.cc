@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "reconstruction/adjustment/adjusted_unknowns.h"
 
-#include <ceres/sphere_manifold.h>
-
 #include <algorithm>
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
 #include "calibration/lens/lens_residual.h"
+#include "reconstruction/network/unit_tangents.h"
 
 namespace insitu {
 namespace {
@@ -244,14 +243,6 @@ std::vector<AdjustedPoint> AdjustedPoints(const Network& network, const NetworkS
 
 namespace {
 
-using UnitFromTangent = Eigen::Matrix<double, 3, 2, Eigen::RowMajor>;
-
-UnitFromTangent TangentsOf(const Eigen::Vector3d& unit) {
-  UnitFromTangent unit_from_tangent;
-  ceres::SphereManifold<3>().PlusJacobian(unit.data(), unit_from_tangent.data());
-  return unit_from_tangent;
-}
-
 // Of a plane's normal n after the zenith z is turned back by its own error:
 // dn - dz (z . n) + z (dz . n).
 Eigen::Matrix3d TiltCovariance(const SurveyNetwork& survey_network, const NetworkSolution& solution,
@@ -262,7 +253,7 @@ Eigen::Matrix3d TiltCovariance(const SurveyNetwork& survey_network, const Networ
   Eigen::MatrixXd by_unknowns = Eigen::MatrixXd::Zero(3, solution.columns.count);
   by_unknowns.middleCols<2>(*solution.columns.plane[plane]) = TangentsOf(n);
   if (const auto column = solution.columns.direction[*survey_network.zenith]) {
-    const UnitFromTangent dz = TangentsOf(z);
+    const Eigen::Matrix<double, 3, 2> dz = TangentsOf(z);
     by_unknowns.middleCols<2>(*column) = z * (n.transpose() * dz) - z.dot(n) * dz;
   }
   return CovarianceOf(network, solution, by_unknowns);
@@ -275,7 +266,7 @@ AdjustedPlane Adjusted(const SurveyNetwork& survey_network, const NetworkSolutio
   const Eigen::Vector3d zenith = network.directions[*survey_network.zenith].unit;
   const int column = *solution.columns.plane[index];
   const Eigen::MatrixXd covariance = Covariance(network, solution, column, 3, column, 3);
-  const UnitFromTangent tangents = TangentsOf(plane.normal);
+  const Eigen::Matrix<double, 3, 2> tangents = TangentsOf(plane.normal);
   AdjustedPlane adjusted;
   adjusted.polygon = plane.name;
   adjusted.normal = plane.normal;

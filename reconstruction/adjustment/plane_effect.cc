@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "reconstruction/adjustment/plane_effect.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <set>
 #include <vector>
 
+#include "calibration/algebra/decompositions.h"
 #include "reconstruction/network/statistics.h"
 
 namespace insitu {
@@ -67,12 +67,12 @@ Network WithoutPlanes(Network network, const std::vector<bool>& is_held) {
 // `cofactor`: of the shift. Its test is along the axis that the planes hold most.
 PlaneEffect::Shift TestedShift(const std::string& name, const Eigen::Vector3d& shift,
                                const Eigen::Matrix3d& cofactor) {
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(cofactor);
+  const SymmetricEigen<3> axes = EigenOfSymmetric(cofactor);
   PlaneEffect::Shift tested{name, shift, std::nullopt, std::nullopt};
-  const double variance = axes.eigenvalues()[2];
+  const double variance = axes.values[2];
   if (variance < kNegligibleVariance) return tested;
   tested.sigma = std::sqrt(variance);
-  tested.w = shift.dot(axes.eigenvectors().col(2)) / *tested.sigma;
+  tested.w = shift.dot(axes.vectors.col(2)) / *tested.sigma;
   return tested;
 }
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "reconstruction/adjustment/start_growth.h"
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
 
+#include "calibration/algebra/decompositions.h"
 #include "calibration/files/error.h"
 #include "reconstruction/adjustment/align_tie_points.h"
 
@@ -225,9 +225,7 @@ std::optional<StartPoint> StartGrowth::FromSights(const std::string& name, doubl
     const Eigen::Vector3d along = ray.normalized();
     normal += (Eigen::Matrix3d::Identity() - along * along.transpose()) / (sigma * sigma);
   }
-  const double weakest =
-      Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(normal, Eigen::EigenvaluesOnly)
-          .eigenvalues()[0];
+  const double weakest = EigenOfSymmetric(normal).values[0];
   return StartPoint{*position, 1 / std::sqrt(weakest)};
 }
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "reconstruction/adjustment/survey_network.h"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <set>
 
+#include "calibration/algebra/decompositions.h"
 #include "calibration/files/error_at.h"
 #include "reconstruction/geometry/plane.h"
 
@@ -37,10 +37,7 @@ Eigen::Vector3d RoundedCentroid(const Survey& survey, const StartValues& start) 
 
 // Not that of a lens without calibration, nor one with parameters that the calibration held.
 bool IsPositiveDefinite(const Eigen::MatrixXd& covariance) {
-  if (covariance.size() == 0 || !(covariance.diagonal().minCoeff() > 0)) return false;
-  const Eigen::VectorXd scale = covariance.diagonal().cwiseSqrt().cwiseInverse();
-  return Eigen::LLT<Eigen::MatrixXd>(scale.asDiagonal() * covariance * scale.asDiagonal()).info() ==
-         Eigen::Success;
+  return covariance.size() > 0 && Decorrelation(covariance).has_value();
 }
 
 bool HasPlainIntrinsics(const Camera& camera) {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "reconstruction/colmap/upright_model.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <optional>
 
+#include "calibration/algebra/decompositions.h"
 #include "reconstruction/geometry/intersection.h"
 #include "reconstruction/geometry/plane.h"
 
@@ -107,9 +107,9 @@ Eigen::Vector3d UpOfCameras(const TiePoints& tie_points) {
     const Eigen::Vector3d right = pose.rotation.conjugate() * Eigen::Vector3d::UnitX();
     if (std::abs(right.dot(mean)) < kLandscape) level += right * right.transpose();
   }
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(level);
-  const Eigen::Vector3d up = eigen.eigenvectors().col(0);
-  const bool is_decided = eigen.eigenvalues()[1] - eigen.eigenvalues()[0] > kLeastGap;
+  const SymmetricEigen<3> eigen = EigenOfSymmetric(level);
+  const Eigen::Vector3d up = eigen.vectors.col(0);
+  const bool is_decided = eigen.values[1] - eigen.values[0] > kLeastGap;
   if (!is_decided || std::abs(up.dot(mean)) < 0.9) return mean;
   return up.dot(mean) > 0 ? up : Eigen::Vector3d(-up);
 }
@@ -127,10 +127,10 @@ Eigen::Vector3d FindUp(const Survey& survey, const Located& located, const TiePo
     AddConstraint(survey, located, constraint, &sum);
   }
   const Eigen::Vector3d held = UpOfCameras(tie_points);
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(sum.matrix);
-  if (eigen.eigenvalues()[1] - eigen.eigenvalues()[0] < kLeastGap) return held;
+  const SymmetricEigen<3> eigen = EigenOfSymmetric(sum.matrix);
+  if (eigen.values[1] - eigen.values[0] < kLeastGap) return held;
   *statements = sum.count;
-  const Eigen::Vector3d up = eigen.eigenvectors().col(0);
+  const Eigen::Vector3d up = eigen.vectors.col(0);
   const double sense = sum.upwards.norm() > kLeastGap ? up.dot(sum.upwards) : up.dot(held);
   return sense >= 0 ? up : Eigen::Vector3d(-up);
 }
@@ -160,8 +160,7 @@ UprightModel FindUpright(const Survey& survey, const std::map<std::string, Camer
   UprightModel model;
   const Located located(survey, cameras, tie_points);
   const Eigen::Vector3d up = FindUp(survey, located, tie_points, &model.plumb);
-  model.world_from_model.rotation =
-      Eigen::Quaterniond::FromTwoVectors(up, Eigen::Vector3d::UnitZ());
+  model.world_from_model.rotation = RotationBetween(up, Eigen::Vector3d::UnitZ());
   std::vector<double> scales = Scales(survey, located, up);
   if (scales.empty()) return model;
   std::sort(scales.begin(), scales.end());

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "reconstruction/exchange/fit_brown.h"
 
-#include <Eigen/QR>
 #include <cmath>
 #include <vector>
 
+#include "calibration/algebra/decompositions.h"
 #include "calibration/files/error.h"
 #include "calibration/lens/fit_camera.h"
 #include "calibration/lens/lens_residual.h"
@@ -91,8 +91,7 @@ std::optional<BrownFit> FitBrown(const Camera& camera, double sensor_height_mm) 
   const Eigen::VectorXd scale = Scale(fit.lens);
   for (int iteration = 0; iteration < 50; ++iteration) {
     const Equations equations = Linearized(fit.lens, places);
-    const Eigen::VectorXd step =
-        -equations.jacobian.colPivHouseholderQr().solve(equations.residuals);
+    const Eigen::VectorXd step = -SolveLeastSquares(equations.jacobian, equations.residuals).x;
     if (!step.allFinite()) return std::nullopt;
     for (int i = 0; i < kFree; ++i) fit.lens.parameters[i] += scale[i] * step[i];
     if (step.norm() > 1e-10) continue;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "reconstruction/geometry/plane.h"
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 
+#include "calibration/algebra/decompositions.h"
 #include "calibration/files/error.h"
 
 namespace insitu {
@@ -33,8 +33,7 @@ Plane FitPlane(const std::vector<Eigen::Vector3d>& points) {
   Eigen::Matrix3d scatter = Eigen::Matrix3d::Zero();
   for (const Eigen::Vector3d& point : points)
     scatter += (point - mean) * (point - mean).transpose();
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(scatter);
-  return {eigen.eigenvectors().col(0).normalized(), mean};
+  return {EigenOfSymmetric(scatter).vectors.col(0).normalized(), mean};
 }
 
 std::vector<Eigen::Vector2d> ProjectOutline(const std::vector<Eigen::Vector3d>& vertices,

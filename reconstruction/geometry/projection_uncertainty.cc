@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "reconstruction/geometry/projection_uncertainty.h"
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
+#include "calibration/algebra/decompositions.h"
 #include "calibration/files/error.h"
 
 namespace insitu {
@@ -46,18 +46,14 @@ std::optional<ImageUncertainty> ProjectBoth(const PosedCamera& posed,
       result.covariance_px += common + common.transpose();
     }
   }
-  Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes;
-  axes.computeDirect(result.covariance_px, Eigen::EigenvaluesOnly);
-  const Eigen::Vector2d variances = axes.eigenvalues().cwiseMax(0);
+  const Eigen::Vector2d variances = EigenOfSymmetric(result.covariance_px).values.cwiseMax(0);
   result.minor_px = std::sqrt(variances[0]);
   result.major_px = std::sqrt(variances[1]);
   // by_point has no part along the line of sight, so its pseudo-inverse gives what is across it.
   const Eigen::Matrix<double, 3, 2> across_from_px =
       by_point.transpose() * (by_point * by_point.transpose()).inverse();
   const Eigen::Matrix3d across = across_from_px * result.covariance_px * across_from_px.transpose();
-  result.major_m = std::sqrt(
-      std::max(0.0, Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(across, Eigen::EigenvaluesOnly)
-                        .eigenvalues()[2]));
+  result.major_m = std::sqrt(std::max(0.0, EigenOfSymmetric(across).values[2]));
   return result;
 }
 

@@ -5,14 +5,13 @@
 #include <ceres/problem.h>
 #include <ceres/solver.h>
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <opencv2/calib3d.hpp>
 #include <opencv2/core/eigen.hpp>
 
+#include "calibration/algebra/decompositions.h"
 #include "calibration/lens/fit_camera.h"
 #include "reconstruction/network/observation_costs.h"
 
@@ -134,7 +133,7 @@ class Refinement {
     }
     jacobian.leftCols<3>() /= 2;  // Ceres' increment of a quaternion is half the angle
     const Eigen::MatrixXd normal = jacobian.transpose() * jacobian;
-    return normal.ldlt().solve(Eigen::MatrixXd::Identity(6, 6));
+    return InverseOfSymmetric(normal);
   }
 
  private:
@@ -217,9 +216,9 @@ Flatness FlatnessOf(const std::vector<ResectionPoint>& points, const Eigen::Vect
     const Eigen::Vector3d offset = point.world - origin;
     scatter += offset * offset.transpose() / static_cast<double>(points.size());
   }
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(scatter);
-  const Eigen::Vector3d spread = solver.eigenvalues().cwiseMax(0).cwiseSqrt();
-  return {solver.eigenvectors().col(0), spread[2], spread[0] <= kFlat * spread[1]};
+  const SymmetricEigen<3> axes = EigenOfSymmetric(scatter);
+  const Eigen::Vector3d spread = axes.values.cwiseMax(0).cwiseSqrt();
+  return {axes.vectors.col(0), spread[2], spread[0] <= kFlat * spread[1]};
 }
 
 // Both poses of points that are flattened onto their plane.
@@ -312,8 +311,7 @@ bool AreCollinear(const std::vector<Eigen::Vector3d>& points, double tolerance) 
     const Eigen::Vector3d offset = point - points[0] - mean;
     scatter += offset * offset.transpose();
   }
-  const Eigen::Vector3d spread =
-      Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(scatter, Eigen::EigenvaluesOnly).eigenvalues();
+  const Eigen::Vector3d spread = EigenOfSymmetric(scatter).values;
   return !(spread[1] > tolerance * tolerance * spread[2]);
 }
 

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "reconstruction/geometry/similarity.h"
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <Eigen/SVD>
 #include <algorithm>
@@ -11,6 +9,7 @@
 #include <numeric>
 #include <random>
 
+#include "calibration/algebra/decompositions.h"
 #include "calibration/files/error.h"
 #include "reconstruction/geometry/resection.h"
 
@@ -137,14 +136,14 @@ NormalEquations Normal(const std::vector<SimilarityPair>& pairs, const std::vect
 }
 
 Eigen::MatrixXd Cofactor(const NormalEquations& equations) {
-  return equations.normal.ldlt().solve(Eigen::MatrixXd::Identity(7, 7));
+  return InverseOfSymmetric(equations.normal);
 }
 
 Similarity3 LeastSquares(const std::vector<SimilarityPair>& pairs,
                          const std::vector<size_t>& indices, Similarity3 fit) {
   for (int iteration = 0; iteration < 50; ++iteration) {
     const NormalEquations equations = Normal(pairs, indices, fit);
-    const Eigen::VectorXd step = equations.normal.ldlt().solve(equations.right);
+    const Eigen::VectorXd step = SolveSymmetric(equations.normal, equations.right);
     const double angle = step.head<3>().norm();
     if (angle > 0) {
       fit.rotation = (Eigen::AngleAxisd(angle, step.head<3>() / angle) * fit.rotation).normalized();
@@ -225,8 +224,8 @@ std::optional<Similarity3> WeightedUmeyama(const std::vector<SimilarityPair>& pa
     mixed += Weight(pair) * pair.target * pair.source.transpose();
     spread += Weight(pair) * pair.source * pair.source.transpose();
   }
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> extent(spread);
-  if (!(extent.eigenvalues()[1] > 1e-8 * extent.eigenvalues()[2])) return std::nullopt;
+  const Eigen::Vector3d extent = EigenOfSymmetric(spread).values;
+  if (!(extent[1] > 1e-8 * extent[2])) return std::nullopt;
   const Eigen::JacobiSVD<Eigen::Matrix3d> svd(mixed, Eigen::ComputeFullU | Eigen::ComputeFullV);
   Eigen::Vector3d sign = Eigen::Vector3d::Ones();
   if (svd.matrixU().determinant() * svd.matrixV().determinant() < 0) sign.z() = -1;

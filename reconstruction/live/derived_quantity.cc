@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "reconstruction/live/derived_quantity.h"
 
-#include <ceres/sphere_manifold.h>
-
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+
+#include "reconstruction/network/unit_tangents.h"
 
 namespace insitu {
 namespace {
@@ -26,10 +26,8 @@ class Derivative {
   void AddDirection(int direction, const Eigen::Vector3d& gradient) {
     const auto column = solved_.solution.columns.direction[direction];
     if (!column) return;
-    Eigen::Matrix<double, 3, 2, Eigen::RowMajor> unit_from_tangent;
-    ceres::SphereManifold<3>().PlusJacobian(
-        solved_.survey_network.network.directions[direction].unit.data(), unit_from_tangent.data());
-    by_unknowns_.middleCols<2>(*column) += gradient.transpose() * unit_from_tangent;
+    const Eigen::Vector3d& unit = solved_.survey_network.network.directions[direction].unit;
+    by_unknowns_.middleCols<2>(*column) += gradient.transpose() * TangentsOf(unit);
   }
 
   double Sigma() const {

@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "reconstruction/live/one_ray.h"
 
-#include <ceres/sphere_manifold.h>
-
-#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
+#include "calibration/algebra/decompositions.h"
 #include "reconstruction/geometry/plane.h"
+#include "reconstruction/network/unit_tangents.h"
 
 namespace insitu {
 namespace {
@@ -218,10 +217,8 @@ class Ray {
       return shift;
     }
     const NetworkPlane& plane = network_.planes[index->second];
-    Eigen::Matrix<double, 3, 2, Eigen::RowMajor> normal_from_tangent;
-    ceres::SphereManifold<3>().PlusJacobian(plane.normal.data(), normal_from_tangent.data());
     MatrixXd by_plane(1, 3);
-    by_plane << -(point - plane.centroid).transpose() * normal_from_tangent, 1;
+    by_plane << -(point - plane.centroid).transpose() * TangentsOf(plane.normal), 1;
     uncertain_.AddUnknown(columns_.plane[index->second], by_plane, &shift);
     return shift;
   }
@@ -251,9 +248,7 @@ ImageUncertainty UncertaintyOf(const Value2& image, const Eigen::Matrix2d& covar
   ImageUncertainty result;
   result.pixel = image.value;
   result.covariance_px = covariance;
-  Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes;
-  axes.computeDirect(covariance, Eigen::EigenvaluesOnly);
-  const Vector2d sigmas = axes.eigenvalues().cwiseMax(0).cwiseSqrt();
+  const Vector2d sigmas = EigenOfSymmetric(covariance).values.cwiseMax(0).cwiseSqrt();
   result.minor_px = sigmas[0];
   result.major_px = sigmas[1];
   return result;

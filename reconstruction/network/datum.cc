@@ -1,18 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "reconstruction/network/datum.h"
 
-#include <ceres/sphere_manifold.h>
-
-#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
-#include <Eigen/QR>
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <optional>
 #include <variant>
 
+#include "calibration/algebra/decompositions.h"
 #include "calibration/files/error.h"
+#include "reconstruction/network/unit_tangents.h"
 
 namespace insitu {
 namespace {
@@ -52,8 +49,7 @@ PointMotions MotionsOf(const Extent& extent, const Eigen::Vector3d& x) {
 
 // Two tangents of a turned unit vector.
 Eigen::Matrix<double, 2, 3> TurnOfUnit(const Eigen::Vector3d& unit) {
-  Eigen::Matrix<double, 3, 2, Eigen::RowMajor> unit_from_tangent;
-  ceres::SphereManifold<3>().PlusJacobian(unit.data(), unit_from_tangent.data());
+  const Eigen::Matrix<double, 3, 2> unit_from_tangent = TangentsOf(unit);
   return (unit_from_tangent.transpose() * unit_from_tangent).inverse() *
          unit_from_tangent.transpose() * -CrossMatrix(unit);
 }
@@ -203,9 +199,9 @@ Datum FindDatum(const Network& network, const NetworkColumns& columns,
   const Eigen::MatrixXd seen = HeldMotions(network, rows, jacobian, g);
   held.conservativeResize(kMotions + seen.rows(), kMotions);
   held.bottomRows(seen.rows()) = seen;
-  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(held, Eigen::ComputeThinU | Eigen::ComputeFullV);
-  const auto defect = static_cast<int>((svd.singularValues().array() < kFreeSingularValue).count());
-  const Eigen::MatrixXd free = svd.matrixV().rightCols(defect);
+  const SingularValues singular = SingularValuesOf(held);
+  const auto defect = static_cast<int>((singular.values.array() < kFreeSingularValue).count());
+  const Eigen::MatrixXd free = singular.right.rightCols(defect);
   Datum datum;
   datum.motions = g * free;
   for (int k = 0; k < kMotions && defect > 0; ++k) datum.is_free[k] = free.row(k).norm() > 1e-6;
@@ -218,15 +214,15 @@ DatumWorth FindDatumWorth(const Network& network, const NetworkColumns& columns,
   const Eigen::MatrixXd held =
       HeldMotions(network, rows, jacobian, SimilarityMotions(network, columns), false);
   const Eigen::MatrixXd normal = held.transpose() * held;
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(normal);
-  const double least = kNothing * std::max(eigen.eigenvalues()[kMotions - 1], 1e-300);
+  const SymmetricEigen<Eigen::Dynamic> eigen = EigenOfSymmetric(normal);
+  const double least = kNothing * std::max(eigen.values[kMotions - 1], 1e-300);
   // Of one of the seven, or nullopt where a motion that nothing holds takes part in it.
   const auto variance = [&](int motion) -> std::optional<double> {
     double sum = 0;
     for (int k = 0; k < kMotions; ++k) {
-      const double share = std::pow(eigen.eigenvectors()(motion, k), 2);
-      if (eigen.eigenvalues()[k] > least) {
-        sum += share / eigen.eigenvalues()[k];
+      const double share = std::pow(eigen.vectors(motion, k), 2);
+      if (eigen.values[k] > least) {
+        sum += share / eigen.values[k];
       } else if (share > 1e-6) {
         return std::nullopt;
       }
@@ -253,10 +249,8 @@ std::vector<int> DatumPins(const Network& network, const NetworkColumns& columns
     photos.middleCols<3>(*columns.center[i]) =
         datum.motions.middleRows<3>(*columns.center[i]).transpose();
   }
-  const auto order = Eigen::ColPivHouseholderQR<Eigen::MatrixXd>(photos).colsPermutation();
-  std::vector<int> pins;
-  for (int k = 0; k < datum.defect(); ++k) pins.push_back(order.indices()[k]);
-  return pins;
+  const Eigen::VectorXi order = PivotOrder(photos);
+  return {order.begin(), order.begin() + datum.defect()};
 }
 
 Eigen::MatrixXd InnerConstraints(const NetworkColumns& columns, const Datum& datum) {
@@ -275,14 +269,14 @@ void MoveToStart(const NetworkColumns& columns, const std::vector<Eigen::Vector3
   for (int step = 0; step < kSteps; ++step) {
     const Eigen::MatrixXd g = SimilarityMotions(*network, columns);
     // The free motions are combinations of the seven; these are their amounts.
-    const Eigen::MatrixXd amounts = g.colPivHouseholderQr().solve(datum->motions);
+    const Eigen::MatrixXd amounts = SolveLeastSquares(g, datum->motions).x;
     const Eigen::MatrixXd b = InnerConstraints(columns, *datum);
     Eigen::VectorXd away = Eigen::VectorXd::Zero(columns.count);
     for (size_t i = 0; i < network->points.size(); ++i) {
       if (!columns.point[i]) continue;
       away.segment<3>(*columns.point[i]) = network->points[i].position - start_points[i];
     }
-    const Eigen::VectorXd back = b.colPivHouseholderQr().solve(away);
+    const Eigen::VectorXd back = SolveLeastSquares(b, away).x;
     Move(ExtentOf(*network), -amounts * back, network);
     datum->motions = SimilarityMotions(*network, columns) * amounts;
   }

@@ -3,10 +3,10 @@
 
 #include <ceres/normal_prior.h>
 
-#include <Eigen/Cholesky>
 #include <Eigen/LU>
 #include <cmath>
 
+#include "calibration/algebra/decompositions.h"
 #include "calibration/files/error.h"
 
 namespace insitu {
@@ -144,16 +144,12 @@ ceres::CostFunction* LensCost(const LensObservation& lens, const std::vector<boo
   for (size_t i = 0; i < is_free.size(); ++i) {
     if (is_free[i]) free.push_back(static_cast<int>(i));
   }
-  // Focal lengths and distortion differ by many powers of ten: scaled before it is factored.
-  const Eigen::MatrixXd covariance = lens.covariance(free, free);
-  const Eigen::VectorXd scale = covariance.diagonal().cwiseSqrt().cwiseInverse();
-  const Eigen::LLT<Eigen::MatrixXd> factor(scale.asDiagonal() * covariance * scale.asDiagonal());
-  INSITU_CHECK(factor.info() == Eigen::Success);
-  const Eigen::MatrixXd decorrelated = factor.matrixL().solve(Eigen::MatrixXd(scale.asDiagonal()));
+  const std::optional<Eigen::MatrixXd> decorrelated = Decorrelation(lens.covariance(free, free));
+  INSITU_CHECK(decorrelated);
   Eigen::MatrixXd by_parameter =
-      Eigen::MatrixXd::Zero(decorrelated.rows(), static_cast<Eigen::Index>(lens.values.size()));
+      Eigen::MatrixXd::Zero(decorrelated->rows(), static_cast<Eigen::Index>(lens.values.size()));
   for (size_t i = 0; i < free.size(); ++i) {
-    by_parameter.col(free[i]) = decorrelated.col(static_cast<Eigen::Index>(i));
+    by_parameter.col(free[i]) = decorrelated->col(static_cast<Eigen::Index>(i));
   }
   const Eigen::Map<const Eigen::VectorXd> values(lens.values.data(),
                                                  static_cast<Eigen::Index>(lens.values.size()));

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "reconstruction/network/statistics.h"
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/QR>
 #include <Eigen/SparseCholesky>
 #include <algorithm>
 #include <boost/math/distributions/chi_squared.hpp>
 #include <boost/math/distributions/normal.hpp>
 #include <cmath>
+
+#include "calibration/algebra/decompositions.h"
 
 namespace insitu {
 namespace {
@@ -42,12 +42,11 @@ SmallestEigenpairs InverseIteration(const SparseMatrix& matrix,
   Eigen::MatrixXd basis = StartVectors(static_cast<int>(matrix.rows()), count);
   for (int step = 0; step < kSteps; ++step) {
     const Eigen::MatrixXd solved = shifted.solve(basis);
-    basis = Eigen::HouseholderQR<Eigen::MatrixXd>(solved).householderQ() *
-            Eigen::MatrixXd::Identity(matrix.rows(), count);
+    basis = OrthonormalBasis(solved);
   }
   const Eigen::MatrixXd projected = basis.transpose() * (matrix * basis);
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(projected);
-  return {eigen.eigenvalues(), basis * eigen.eigenvectors()};
+  const SymmetricEigen<Eigen::Dynamic> eigen = EigenOfSymmetric(projected);
+  return {eigen.values, basis * eigen.vectors};
 }
 
 // Eigenvectors of the eigenvalues that are rounding; the smallest one at least.

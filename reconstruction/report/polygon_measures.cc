@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "reconstruction/report/polygon_measures.h"
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
@@ -9,6 +8,7 @@
 #include <set>
 #include <string>
 
+#include "calibration/algebra/decompositions.h"
 #include "reconstruction/geometry/plane.h"
 
 namespace insitu {
@@ -94,10 +94,8 @@ UncertainValue OffLevel(const AdjustedPlane& plane, const Eigen::Vector3d& zenit
   // Towards the zenith, or where that has no direction the largest sigma of any.
   const Eigen::Matrix3d& covariance = plane.tilt_covariance;
   const Eigen::Vector3d towards = plane.normal.cross(across).normalized();
-  const double variance = sine > 1e-9 ? towards.dot(covariance * towards)
-                                      : Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(
-                                            covariance, Eigen::EigenvaluesOnly)
-                                            .eigenvalues()[2];
+  const double variance =
+      sine > 1e-9 ? towards.dot(covariance * towards) : EigenOfSymmetric(covariance).values[2];
   return {std::atan2(sine, cosine), std::sqrt(std::max(0.0, variance))};
 }
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "reconstruction/report/report_points.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
+#include "calibration/algebra/decompositions.h"
 #include "calibration/files/json_file.h"
 #include "reconstruction/geometry/omega_phi_kappa.h"
 
@@ -18,15 +18,14 @@ double AzimuthDeg(const Eigen::Vector3d& axis) { return std::atan2(axis.x(), axi
 // Semi-axes of the standard ellipsoid, longest first, and where the longest points: upwards, or
 // for the ellipse in plan to the east half.
 Json::Value Ellipsoid(const Eigen::Matrix3d& covariance) {
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> space(covariance);
-  Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> plan;
-  plan.computeDirect(covariance.topLeftCorner<2, 2>());
-  Eigen::Vector3d longest = space.eigenvectors().col(2);
+  const SymmetricEigen<3> space = EigenOfSymmetric(covariance);
+  const SymmetricEigen<2> plan = EigenOfSymmetric<2>(covariance.topLeftCorner<2, 2>());
+  Eigen::Vector3d longest = space.vectors.col(2);
   if (longest.z() < 0) longest = -longest;
-  Eigen::Vector3d in_plan(plan.eigenvectors()(0, 1), plan.eigenvectors()(1, 1), 0);
+  Eigen::Vector3d in_plan(plan.vectors(0, 1), plan.vectors(1, 1), 0);
   if (in_plan.x() < 0) in_plan = -in_plan;
-  const Eigen::VectorXd semi_axes = space.eigenvalues().reverse().cwiseMax(0).cwiseSqrt();
-  const Eigen::VectorXd plan_axes = plan.eigenvalues().reverse().cwiseMax(0).cwiseSqrt();
+  const Eigen::VectorXd semi_axes = space.values.reverse().cwiseMax(0).cwiseSqrt();
+  const Eigen::VectorXd plan_axes = plan.values.reverse().cwiseMax(0).cwiseSqrt();
   Json::Value json;
   json["semi_axes_m"] = ToJson(semi_axes);
   json["azimuth_deg"] = AzimuthDeg(longest);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "reconstruction/report/report_polygons.h"
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
@@ -9,6 +8,7 @@
 #include <set>
 #include <utility>
 
+#include "calibration/algebra/decompositions.h"
 #include "calibration/files/json_file.h"
 #include "reconstruction/geometry/omega_phi_kappa.h"
 #include "reconstruction/report/polygon_measures.h"
@@ -112,9 +112,7 @@ const AdjustedPlane* FindPlane(const Adjustment& adjustment, const std::string& 
 }
 
 Json::Value DirectionReport(const Direction& direction, size_t pairs) {
-  const double largest_variance =
-      Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(direction.covariance, Eigen::EigenvaluesOnly)
-          .eigenvalues()[2];
+  const double largest_variance = EigenOfSymmetric(direction.covariance).values[2];
   const Eigen::Vector3d& unit = direction.unit;
   Json::Value json;
   json["unit"] = ToJson(Eigen::VectorXd(unit));

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "reconstruction/verdict/geometry_verdict.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <set>
 
+#include "calibration/algebra/decompositions.h"
 #include "calibration/files/wording.h"
 #include "reconstruction/verdict/image_marks.h"
 
@@ -80,9 +80,7 @@ void JudgeControlFigure(const Adjustment& adjustment, std::vector<Finding>* find
     points.col(static_cast<Eigen::Index>(i)) = adjustment.control[i].surveyed;
   }
   const Eigen::Matrix3Xd centered = points.colwise() - points.rowwise().mean();
-  const Eigen::Vector3d spread = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(
-                                     centered * centered.transpose(), Eigen::EigenvaluesOnly)
-                                     .eigenvalues();
+  const Eigen::Vector3d spread = EigenOfSymmetric<3>(centered * centered.transpose()).values;
   if (spread[1] > kNarrowControl * kNarrowControl * spread[2]) return;
   findings->push_back({Severity::kReview,
                        "the control points lie nearly on one line: the site can turn about it",

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "renderer/live/live_predictions.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <string>
 
+#include "calibration/algebra/decompositions.h"
 #include "calibration/files/json_file.h"
 #include "reconstruction/adjustment/adjusted_scene.h"
 #include "reconstruction/adjustment/adjusted_unknowns.h"
@@ -19,9 +19,7 @@ namespace insitu {
 namespace {
 
 Json::Value EllipseOf(const ImageUncertainty& image) {
-  Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes;
-  axes.computeDirect(image.covariance_px);
-  const Eigen::Vector2d major = axes.eigenvectors().col(1);
+  const Eigen::Vector2d major = EigenOfSymmetric(image.covariance_px).vectors.col(1);
   Json::Value ellipse;
   ellipse["x"] = image.pixel.x();
   ellipse["y"] = image.pixel.y();

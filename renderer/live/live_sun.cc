@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "renderer/live/live_sun.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
+#include "calibration/algebra/decompositions.h"
 #include "reconstruction/adjustment/adjusted_scene.h"
 #include "reconstruction/geometry/omega_phi_kappa.h"
 
@@ -13,9 +13,7 @@ namespace {
 
 // The larger of a direction's two sigmas [deg].
 double SigmaInDegrees(const Direction& direction) {
-  const double variance =
-      Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(direction.covariance, Eigen::EigenvaluesOnly)
-          .eigenvalues()[2];
+  const double variance = EigenOfSymmetric(direction.covariance).values[2];
   return std::sqrt(std::max(0.0, variance)) / kDegree;
 }
 

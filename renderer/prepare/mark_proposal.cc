@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "renderer/prepare/mark_proposal.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <opencv2/imgproc.hpp>
 #include <optional>
 #include <vector>
+
+#include "calibration/algebra/decompositions.h"
 
 namespace insitu {
 namespace {
@@ -108,9 +109,9 @@ std::variant<MarkProposal, NoProposal> RefineCorner(const GreyPatch& patch,
   const Eigen::Vector2d start = ToPatch(patch, pixel);
   std::vector<cv::Point2f> corner = {
       {static_cast<float>(start.x()), static_cast<float>(start.y())}};
-  Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> gradients;
-  gradients.computeDirect(StructureTensor(patch.grey, corner[0]), Eigen::EigenvaluesOnly);
-  const double weak = gradients.eigenvalues()[0], strong = gradients.eigenvalues()[1];
+  const Eigen::Vector2d gradients =
+      EigenOfSymmetric<2>(StructureTensor(patch.grey, corner[0])).values;
+  const double weak = gradients[0], strong = gradients[1];
   if (strong < kEvenSurface) return Sentence("markEven", "an even surface");
   if (weak < kEvenSurface) return Sentence("markEdge", "an edge, no corner");
   if (weak < kWeakCorner * strong) return Sentence("markEdge", "an edge, no corner");
