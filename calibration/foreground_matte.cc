@@ -44,9 +44,13 @@ Raster SharesOf(const fs::path& path, const std::vector<Code>& codes, int width,
   return share;
 }
 
+fs::path FileOf(const SitePaths& site, const Drawing& drawing, const std::string& photo) {
+  return site.survey() / drawing.folder / (photo + ".png");
+}
+
 std::optional<Raster> ReadDrawing(const SitePaths& site, const Drawing& drawing,
                                   const std::string& photo, int width, int height) {
-  const fs::path path = site.survey() / drawing.folder / (photo + ".png");
+  const fs::path path = FileOf(site, drawing, photo);
   if (!fs::exists(path)) return std::nullopt;
   const CodedPhotograph coded = ReadCodedPhotograph(path);
   if (coded.width != width || coded.height != height) {
@@ -80,6 +84,10 @@ void AddUnread(const SitePaths& site, const Drawing& drawing, std::vector<std::s
 }
 
 }  // namespace
+
+fs::path ForegroundMatteFile(const SitePaths& site, const std::string& photo) {
+  return FileOf(site, kForeground, photo);
+}
 
 std::optional<Raster> ReadForegroundMatte(const SitePaths& site, const std::string& photo,
                                           int width, int height) {

@@ -4,6 +4,7 @@
 // the sun reaches what is seen there.
 #pragma once
 
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
@@ -12,6 +13,9 @@
 #include "calibration/program/site.h"
 
 namespace insitu {
+
+// Where the first is, if there is one.
+std::filesystem::path ForegroundMatteFile(const SitePaths& site, const std::string& photo);
 
 // The share 0..1 of each pixel (code 255, or 65535 of 16 bits, is 1) in the photograph's frame, one
 // channel; nullopt: no such file. Throws InputError: not grey, of another size, not 8 or 16 bits.

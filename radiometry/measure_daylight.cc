@@ -24,7 +24,7 @@ constexpr double kUnseenSigma = 0.5;  // of what unseen surroundings are taken t
 constexpr double kCurved = 1e-3;      // share by which twice a code is not twice the light
 // While samples are being chosen: at once, within a fraction of the sigmas.
 constexpr SurroundingsDetail kSoFar = {
-    .directions = 1024, .piece_m = 0.3, .piece_directions = 64, .rounds = 3};
+    .directions = 1024, .piece_m = 0.5, .piece_directions = 64, .rounds = 2};
 
 std::map<std::string, NaturalMaterial> MaterialsOfPolygons(const SitePaths& site,
                                                            const SceneGeometry& scene,
@@ -259,7 +259,8 @@ bool KnowsReflectance(const LightSamples& samples) {
 
 // From the samples.
 void MeasureAirAndLight(const SitePaths& site, const PhotographSet& photos,
-                        const LightOptions& options, LightMeasurement* measured) {
+                        const LightOptions& options, KeptSkyBlocks* kept,
+                        LightMeasurement* measured) {
   NaturalEnvironment& environment = measured->environment;
   measured->reflectance_known = KnowsReflectance(measured->samples);
   MeasureAir(measured);
@@ -267,7 +268,7 @@ void MeasureAirAndLight(const SitePaths& site, const PhotographSet& photos,
   light = IlluminationGeometry(environment.scene, options.polar_facets);
   if (!options.uniform_ambient) {
     measured->sky = MeasureSky(site, photos, measured->samples.horizon,
-                               options.average_over_wavelength, &environment);
+                               options.average_over_wavelength, kept, &environment);
   }
   const std::vector<SurfacePoint> points =
       SurfacePoints(measured->samples.daylight, environment.scene);
@@ -285,7 +286,6 @@ void MeasureAirAndLight(const SitePaths& site, const PhotographSet& photos,
   light.sun_radiance = fit.sun_radiance;
   light.ambient_radiance = fit.ambient_radiance;
   light.sky_radiance = fit.sky_radiance;
-  measured->brightest = BrightestOf(photos);
   measured->is_simplified = options.uniform_ambient || options.bounces == 0;
   const std::vector<Sentence> warnings = DaylightWarnings(*measured);
   measured->warnings.insert(measured->warnings.end(), warnings.begin(), warnings.end());
@@ -346,19 +346,21 @@ LightMeasurement MeasureDaylight(const SitePaths& site, const LightOptions& opti
   measured.clipped = MeasureClippedShares(environment.scene, photos);
   BringToOneUnit(&photos, &measured);
   progress.Step();
-  MeasureAirAndLight(site, photos, options, &measured);
+  KeptSkyBlocks once;
+  MeasureAirAndLight(site, photos, options, &once, &measured);
+  measured.brightest = BrightestOf(photos);
   return measured;
 }
 
 LightMeasurement MeasureDaylightSoFar(const SitePaths& site, const SceneGeometry& scene,
-                                      const std::vector<Photograph>& photos,
+                                      const std::vector<Photograph>& photos, KeptSkyBlocks* kept,
                                       std::vector<Sentence>* left_out) {
   LightOptions options;
   options.around = kSoFar;
   LightMeasurement measured = WithoutSamples(site, scene, options);
   measured.samples = ReadSamples(site, scene, photos, {}, left_out);
   RequireEnough(site, &measured.samples, left_out);
-  MeasureAirAndLight(site, photos, options, &measured);
+  MeasureAirAndLight(site, photos, options, kept, &measured);
   return measured;
 }
 

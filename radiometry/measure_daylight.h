@@ -36,10 +36,10 @@ LightMeasurement MeasureDaylight(const SitePaths& site, const LightOptions& opti
 
 // The same while samples are still being chosen, from a scene and its photographs in memory:
 // samples at fault are listed in `left_out`, and so are lists that are too short. Of the
-// environment the input images are missing. Throws InputError: what is left is too little, or
-// materials.json is at fault.
+// environment the input images are missing, and the brightest value. `kept` makes the next time
+// faster. Throws InputError: what is left is too little, or materials.json or a matte is at fault.
 LightMeasurement MeasureDaylightSoFar(const SitePaths& site, const SceneGeometry& scene,
-                                      const std::vector<Photograph>& photos,
+                                      const std::vector<Photograph>& photos, KeptSkyBlocks* kept,
                                       std::vector<Sentence>* left_out);
 
 }  // namespace insitu

@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "radiometry/measure_sky.h"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
+#include <filesystem>
 #include <iterator>
 #include <set>
+#include <system_error>
+#include <utility>
 
 #include "calibration/files/wording.h"
 #include "calibration/foreground_matte.h"
-#include "radiometry/measure/sky_places.h"
 
 namespace insitu {
 
@@ -22,21 +26,48 @@ double TimesAsBright(const Spectrum& sky, const Spectrum& other, const SpectralB
   return Tristimulus(sky, bins).y() / std::max(1e-12, Tristimulus(other, bins).y());
 }
 
+// What tells one state of lens and matte from another.
+std::string StateOf(const SitePaths& site, const PosedCamera& posed) {
+  std::string state = posed.camera.lens_model();
+  for (const double value : posed.camera.intrinsics()) state += Number(" %.17g", value);
+  const std::filesystem::path matte = ForegroundMatteFile(site, posed.photo);
+  std::error_code none;
+  const auto written = std::filesystem::last_write_time(matte, none);
+  if (none) return state;
+  const auto size = std::filesystem::file_size(matte, none);
+  return state + " " + std::to_string(written.time_since_epoch().count()) + " " +
+         std::to_string(size);
+}
+
 }  // namespace
 
+const SkyBlocks& KeptSkyBlocks::Of(const SitePaths& site, const SceneGeometry& scene,
+                                   const PhotographSet& photos, size_t index) {
+  const PosedCamera& posed = scene.cameras[index];
+  Kept& kept = of_photo_[posed.photo];
+  std::string state = StateOf(site, posed);
+  if (kept.made_of == state) return kept.blocks;
+  const Camera& camera = posed.camera;
+  const auto matte = ReadForegroundMatte(site, posed.photo, camera.width(), camera.height());
+  kept.blocks = SkyBlocksOf(*photos[index], camera, matte ? &*matte : nullptr);
+  kept.made_of = std::move(state);
+  return kept.blocks;
+}
+
 SeenSky MeasureSky(const SitePaths& site, const PhotographSet& photos,
-                   const std::vector<PixelSample>& horizon, bool is_average,
+                   const std::vector<PixelSample>& horizon, bool is_average, KeptSkyBlocks* kept,
                    NaturalEnvironment* environment) {
   const SceneGeometry& scene = environment->scene;
   const RayScene rays(MeshOfPolygons(scene).mesh);
+  std::vector<const SkyBlocks*> blocks;
+  for (size_t i = 0; i < photos.size(); ++i) blocks.push_back(&kept->Of(site, scene, photos, i));
+  std::vector<std::vector<SkyRegion>> in_photo(photos.size());
+  tbb::parallel_for(size_t{0}, photos.size(), [&](size_t i) {
+    in_photo[i] = SkyRegionsIn(*blocks[i], static_cast<int>(i), scene, rays, horizon);
+  });
   std::vector<SkyRegion> regions;
-  for (size_t i = 0; i < photos.size(); ++i) {
-    const Camera& camera = scene.cameras[i].camera;
-    const auto matte =
-        ReadForegroundMatte(site, scene.cameras[i].photo, camera.width(), camera.height());
-    std::ranges::move(SkyRegionsIn(*photos[i], static_cast<int>(i), scene, rays,
-                                   matte ? &*matte : nullptr, horizon),
-                      std::back_inserter(regions));
+  for (std::vector<SkyRegion>& some : in_photo) {
+    std::ranges::move(some, std::back_inserter(regions));
   }
   std::vector<SkyPlace> places;
   std::set<int> photos_with_sky;

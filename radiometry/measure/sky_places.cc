@@ -25,97 +25,88 @@ double LogRatio(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
   return (a.array() / b.array()).log().abs().maxCoeff();
 }
 
-// A photograph in blocks.
-class Blocks {
+Eigen::Vector2d MiddleOf(const SkyBlocks& blocks, int column, int row) {
+  return Eigen::Vector2d(column + 0.5, row + 0.5) * blocks.size - Eigen::Vector2d::Constant(0.5);
+}
+
+std::optional<Eigen::Vector3d> EvenColor(const Photograph& photo, const Raster* matte, int size,
+                                         int left, int top) {
+  Eigen::Array3d sum = Eigen::Array3d::Zero(), squares = Eigen::Array3d::Zero();
+  int count = 0;
+  const int step = std::max(1, size / kPixelsAcross);
+  for (int y = top; y < top + size; y += step) {
+    for (int x = left; x < left + size; x += step) {
+      if (IsClipped(photo, x, y) || (matte && *matte->At(x, y) > 0)) return std::nullopt;
+      const Eigen::Array3d rgb = photo.linear.Rgb(x, y).array();
+      sum += rgb;
+      squares += rgb.square();
+      ++count;
+    }
+  }
+  const Eigen::Array3d mean = sum / count, variance = squares / count - mean.square();
+  if (!(mean > 0).all() || (variance > (kEvenBlock * mean).square()).any()) return std::nullopt;
+  return mean;
+}
+
+// Which blocks of a photograph are open to the sky.
+class OpenBlocks {
  public:
-  Blocks(const Photograph& photo, const PosedCamera& posed, const SceneGeometry& scene,
-         const RayScene& rays, const Raster* matte)
-      : photo_(photo), posed_(posed), scene_(scene), rays_(rays), matte_(matte) {
-    size_ = std::max(kSmallestBlock, photo.linear.width / kBlocksAcross);
-    columns_ = photo.linear.width / size_;
-    rows_ = photo.linear.height / size_;
+  OpenBlocks(const SkyBlocks& blocks, const PosedCamera& posed, const SceneGeometry& scene,
+             const RayScene& rays)
+      : blocks_(blocks),
+        world_from_cam_(posed.cam_from_world.rotation.conjugate()),
+        center_(Center(posed.cam_from_world) - scene.origin),
+        zenith_(scene.zenith.unit),
+        rays_(rays) {
     MarkOpen();
   }
 
-  int columns() const { return columns_; }
-  int rows() const { return rows_; }
-  int size() const { return size_; }
-
-  Eigen::Vector3d DirectionOf(const Eigen::Vector2d& pixel) const {
-    return posed_.cam_from_world.rotation.conjugate() * posed_.camera.Unproject(pixel);
-  }
-  Eigen::Vector2d MiddleOf(int column, int row) const {
-    return Eigen::Vector2d(column + 0.5, row + 0.5) * size_ - Eigen::Vector2d::Constant(0.5);
-  }
-
   // Its mean colour if it may be sky.
-  std::optional<Eigen::Vector3d> ColorOf(int column, int row) const {
-    for (int y = std::max(0, row - 1); y <= std::min(rows_ - 1, row + 1); ++y) {
-      for (int x = std::max(0, column - 1); x <= std::min(columns_ - 1, column + 1); ++x) {
-        if (!is_open_[y * columns_ + x]) return std::nullopt;
+  std::optional<Eigen::Vector3d> ColorOf(int block) const {
+    const int column = block % blocks_.columns, row = block / blocks_.columns;
+    for (int y = std::max(0, row - 1); y <= std::min(blocks_.rows - 1, row + 1); ++y) {
+      for (int x = std::max(0, column - 1); x <= std::min(blocks_.columns - 1, column + 1); ++x) {
+        if (!is_open_[y * blocks_.columns + x]) return std::nullopt;
       }
     }
-    return EvenColor(column * size_, row * size_);
+    return blocks_.colors[block];
   }
 
+  Eigen::Vector3d DirectionOf(int block) const { return world_from_cam_ * blocks_.middles[block]; }
+
  private:
-  bool SeesSky(const Eigen::Vector2d& pixel) const {
-    const Eigen::Vector3d direction = DirectionOf(pixel);
-    if (scene_.zenith.unit.dot(direction) < kLowest) return false;
-    return !rays_.IsOccluded({Center(posed_.cam_from_world) - scene_.origin, direction});
+  bool SeesSky(const Eigen::Vector3d& in_cam) const {
+    const Eigen::Vector3d direction = world_from_cam_ * in_cam;
+    if (zenith_.dot(direction) < kLowest) return false;
+    return !rays_.IsOccluded({center_, direction});
   }
 
   // Blocks whose corners and middle see no polygon.
   void MarkOpen() {
-    const int corner_count = (columns_ + 1) * (rows_ + 1), block_count = columns_ * rows_;
-    std::vector<bool> corners(corner_count);
-    for (int i = 0; i < corner_count; ++i) {
-      const Eigen::Vector2d corner(i % (columns_ + 1), i / (columns_ + 1));
-      corners[i] = SeesSky(corner * size_ - Eigen::Vector2d::Constant(0.5));
-    }
+    const int columns = blocks_.columns, block_count = columns * blocks_.rows;
+    std::vector<bool> corners;
+    for (const Eigen::Vector3d& corner : blocks_.corners) corners.push_back(SeesSky(corner));
     is_open_.resize(block_count);
-    for (int row = 0; row < rows_; ++row) {
-      for (int column = 0; column < columns_; ++column) {
-        const int corner = row * (columns_ + 1) + column;
-        is_open_[row * columns_ + column] =
-            corners[corner] && corners[corner + 1] && corners[corner + columns_ + 1] &&
-            corners[corner + columns_ + 2] && SeesSky(MiddleOf(column, row));
-      }
+    for (int block = 0; block < block_count; ++block) {
+      const int corner = block / columns * (columns + 1) + block % columns;
+      is_open_[block] = corners[corner] && corners[corner + 1] && corners[corner + columns + 1] &&
+                        corners[corner + columns + 2] && SeesSky(blocks_.middles[block]);
     }
   }
 
-  std::optional<Eigen::Vector3d> EvenColor(int left, int top) const {
-    Eigen::Array3d sum = Eigen::Array3d::Zero(), squares = Eigen::Array3d::Zero();
-    int count = 0;
-    const int step = std::max(1, size_ / kPixelsAcross);
-    for (int y = top; y < top + size_; y += step) {
-      for (int x = left; x < left + size_; x += step) {
-        if (IsClipped(photo_, x, y) || (matte_ && *matte_->At(x, y) > 0)) return std::nullopt;
-        const Eigen::Array3d rgb = photo_.linear.Rgb(x, y).array();
-        sum += rgb;
-        squares += rgb.square();
-        ++count;
-      }
-    }
-    const Eigen::Array3d mean = sum / count, variance = squares / count - mean.square();
-    if (!(mean > 0).all() || (variance > (kEvenBlock * mean).square()).any()) return std::nullopt;
-    return mean;
-  }
-
-  const Photograph& photo_;
-  const PosedCamera& posed_;
-  const SceneGeometry& scene_;
+  const SkyBlocks& blocks_;
+  const Eigen::Quaterniond world_from_cam_;
+  const Eigen::Vector3d center_;  // local [m]
+  const Eigen::Vector3d zenith_;
   const RayScene& rays_;
-  const Raster* matte_;
-  int size_ = 0, columns_ = 0, rows_ = 0;
   std::vector<bool> is_open_;
 };
 
-bool HoldsSample(const Blocks& blocks, const Eigen::Vector2i& block, const Eigen::Vector3d& rgb,
+bool HoldsSample(const SkyBlocks& blocks, const Eigen::Vector2i& block, const Eigen::Vector3d& rgb,
                  int photo, const std::vector<PixelSample>& horizon) {
-  const Eigen::Vector2d middle = blocks.MiddleOf(block.x(), block.y());
+  const Eigen::Vector2d middle = MiddleOf(blocks, block.x(), block.y());
   return std::ranges::any_of(horizon, [&](const PixelSample& sample) {
-    const double apart = (sample.pixel - middle).cwiseAbs().maxCoeff() / blocks.size();
+    const double apart = (sample.pixel - middle).cwiseAbs().maxCoeff() / blocks.size;
     return sample.photo == photo && apart <= kNear && (sample.rgb.array() > 0).all() &&
            LogRatio(sample.rgb, rgb) <= kSameColor;
   });
@@ -151,13 +142,30 @@ bool LooksLikeSky(const SkyRegion& region, const std::vector<SkyPlace>& sky) {
 
 }  // namespace
 
-std::vector<SkyRegion> SkyRegionsIn(const Photograph& photo, int index, const SceneGeometry& scene,
-                                    const RayScene& rays, const Raster* matte,
-                                    const std::vector<PixelSample>& horizon) {
-  const Blocks blocks(photo, scene.cameras[index], scene, rays, matte);
-  const int columns = blocks.columns(), count = columns * blocks.rows();
+SkyBlocks SkyBlocksOf(const Photograph& photo, const Camera& camera, const Raster* matte) {
+  SkyBlocks blocks;
+  blocks.size = std::max(kSmallestBlock, photo.linear.width / kBlocksAcross);
+  blocks.columns = photo.linear.width / blocks.size;
+  blocks.rows = photo.linear.height / blocks.size;
+  for (int row = 0; row <= blocks.rows; ++row) {
+    for (int column = 0; column <= blocks.columns; ++column) {
+      const Eigen::Vector2d corner = Eigen::Vector2d(column, row) * blocks.size;
+      blocks.corners.push_back(camera.Unproject(corner - Eigen::Vector2d::Constant(0.5)));
+      if (row == blocks.rows || column == blocks.columns) continue;
+      blocks.middles.push_back(camera.Unproject(MiddleOf(blocks, column, row)));
+      blocks.colors.push_back(
+          EvenColor(photo, matte, blocks.size, column * blocks.size, row * blocks.size));
+    }
+  }
+  return blocks;
+}
+
+std::vector<SkyRegion> SkyRegionsIn(const SkyBlocks& blocks, int index, const SceneGeometry& scene,
+                                    const RayScene& rays, const std::vector<PixelSample>& horizon) {
+  const OpenBlocks open(blocks, scene.cameras[index], scene, rays);
+  const int columns = blocks.columns, count = columns * blocks.rows;
   std::vector<std::optional<Eigen::Vector3d>> colors(count);
-  for (int i = 0; i < count; ++i) colors[i] = blocks.ColorOf(i % columns, i / columns);
+  for (int i = 0; i < count; ++i) colors[i] = open.ColorOf(i);
   std::vector<SkyRegion> regions;
   std::vector<bool> is_taken(count);
   for (int start = 0; start < count; ++start) {
@@ -169,11 +177,11 @@ std::vector<SkyRegion> SkyRegionsIn(const Photograph& photo, int index, const Sc
       const int block = waiting.back(), x = block % columns, y = block / columns;
       waiting.pop_back();
       const Eigen::Vector3d& rgb = *colors[block];
-      region.places.push_back({blocks.DirectionOf(blocks.MiddleOf(x, y)), rgb});
+      region.places.push_back({open.DirectionOf(block), rgb});
       region.is_marked = region.is_marked || HoldsSample(blocks, {x, y}, rgb, index, horizon);
       for (const auto& [dx, dy] : {std::pair(-1, 0), {1, 0}, {0, -1}, {0, 1}}) {
         const int next = block + dy * columns + dx;
-        if (x + dx < 0 || x + dx >= columns || y + dy < 0 || y + dy >= blocks.rows()) continue;
+        if (x + dx < 0 || x + dx >= columns || y + dy < 0 || y + dy >= blocks.rows) continue;
         if (is_taken[next] || !colors[next] || LogRatio(rgb, *colors[next]) > kSmooth) continue;
         is_taken[next] = true;
         waiting.push_back(next);

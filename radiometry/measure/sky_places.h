@@ -3,8 +3,10 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <vector>
 
+#include "calibration/lens/camera.h"
 #include "calibration/photo/photograph.h"
 #include "radiometry/measure/samples.h"
 #include "reconstruction/geometry/ray_scene.h"
@@ -25,13 +27,22 @@ struct SkyRegion {
   std::vector<SkyPlace> places;
 };
 
-// Regions of a photograph that may be sky: above the horizon, a block away from every polygon, not
-// clipped, even, outside `matte` (what stands in front, one channel; null: nothing does). Trees and
-// other things that no polygon stands for are uneven or regions of their own. `rays` is of
-// MeshOfPolygons(scene).
-std::vector<SkyRegion> SkyRegionsIn(const Photograph& photo, int index, const SceneGeometry& scene,
-                                    const RayScene& rays, const Raster* matte,
-                                    const std::vector<PixelSample>& horizon);
+// A photograph in square blocks, row by row: what of it may be sky, wherever it was taken from.
+struct SkyBlocks {
+  int size = 0, columns = 0, rows = 0;  // size [px]; what is left over at the edges is in none
+  // Mean colour of those that are not clipped, even and outside the matte.
+  std::vector<std::optional<Eigen::Vector3d>> colors;
+  std::vector<Eigen::Vector3d> corners, middles;  // unit, camera axes; (columns + 1)(rows + 1), all
+};
+
+// `matte`: what stands in front, one channel; null: nothing does.
+SkyBlocks SkyBlocksOf(const Photograph& photo, const Camera& camera, const Raster* matte);
+
+// Regions of the blocks of scene.cameras[index] that may be sky: above the horizon, a block away
+// from every polygon. Trees and other things that no polygon stands for are uneven or regions of
+// their own. `rays` is of MeshOfPolygons(scene).
+std::vector<SkyRegion> SkyRegionsIn(const SkyBlocks& blocks, int index, const SceneGeometry& scene,
+                                    const RayScene& rays, const std::vector<PixelSample>& horizon);
 
 // The marked regions, and one after the other those that have the colour of the nearest place so
 // far, the more loosely the farther off it is: sky in other photographs.

@@ -51,8 +51,9 @@ Patches PatchesOf(const SceneGeometry& scene, const SolvedLight& solved, const P
     const bool is_back =
         is_natural && scene.polygons.at(piece.polygon).normal.dot(point.normal) < 0;
     const int face = piece.is_beyond ? beyond : piece.polygon;
-    const int index = is_natural ? patches.AddOfPolygon(face, is_back, point.position)
-                                 : patches.AddPlanned(point.normal, point.position);
+    const GridPlace place = grid.At(point.position);
+    const int index = is_natural ? patches.AddOfPolygon(face, is_back, place)
+                                 : patches.AddPlanned(point.normal, place);
     INSITU_CHECK(index + 1 == std::ssize(patches.all()));
     Patch& patch = patches.all()[index];
     patch.point = point;

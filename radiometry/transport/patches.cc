@@ -17,10 +17,9 @@ constexpr double kReachOfGround = 8;  // in sizes of the focus, at least
 // No boundary at round coordinates, where planes lie: points of one would fall to either side.
 constexpr double kShift = 0.37;  // of a voxel
 
-uint64_t VoxelKey(const PatchGrid& grid, uint64_t face, const Eigen::Vector3d& position) {
-  const int level = grid.LevelAt(position);
-  const Eigen::Array3d cell = (position.array() / std::ldexp(grid.size, level) + kShift).floor();
-  uint64_t key = SplitMix64(face + (static_cast<uint64_t>(level) << 56));
+uint64_t VoxelKey(uint64_t face, const GridPlace& place) {
+  const Eigen::Array3d cell = place.Voxel();
+  uint64_t key = SplitMix64(face + (static_cast<uint64_t>(place.level) << 56));
   for (int i = 0; i < 3; ++i) {
     // Each in turn: a product alone gives voxels that mirror each other in two axes one key.
     key = SplitMix64(key ^ static_cast<uint64_t>(static_cast<int64_t>(cell[i])));
@@ -49,27 +48,24 @@ SurfacePoint PointOnFace(const TriangleMesh& mesh, const std::vector<Eigen::Vect
   return {sphere->center + sphere->radius * out, out};
 }
 
-int PatchGrid::LevelAt(const Eigen::Vector3d& position) const {
-  double squared = std::numeric_limits<double>::infinity();
+Eigen::Array3d GridPlace::Voxel() const { return (position.array() / size + kShift).floor(); }
+
+double GridPlace::OffCenter() const {
+  return ((Voxel() + 0.5 - kShift) * size - position.array()).matrix().norm();
+}
+
+GridPlace PatchGrid::At(const Eigen::Vector3d& position) const {
+  double reach = kReachOfSize * size, squared = std::numeric_limits<double>::infinity();
   for (const Eigen::AlignedBox3d& focus : foci) {
-    squared = std::min(squared, focus.squaredExteriorDistance(position));
+    const Eigen::Array3d before = (focus.min() - position).array();
+    const Eigen::Array3d outside = before.max((position - focus.max()).array()).max(0);
+    squared = std::min(squared, outside.square().sum());
+    if (squared <= reach * reach) return {position, 0, size};
   }
-  int level = 0;
-  for (double reach = kReachOfSize * size; squared > reach * reach; reach *= 2) ++level;
-  return level;
-}
-
-double PatchGrid::SizeAt(const Eigen::Vector3d& position) const {
-  return std::ldexp(size, LevelAt(position));
-}
-
-Eigen::Array3d PatchGrid::VoxelAt(const Eigen::Vector3d& position) const {
-  return (position.array() / SizeAt(position) + kShift).floor();
-}
-
-double PatchGrid::OffCenter(const Eigen::Vector3d& position) const {
-  const Eigen::Array3d middle = VoxelAt(position) + 0.5 - kShift;
-  return (middle * SizeAt(position) - position.array()).matrix().norm();
+  GridPlace place{position, 0, size};
+  for (; squared > reach * reach; reach *= 2) ++place.level;
+  place.size = std::ldexp(size, place.level);
+  return place;
 }
 
 std::optional<Eigen::Vector3d> GroundPlane::Meet(const SceneGeometry& scene, const Ray& ray) const {
@@ -124,7 +120,7 @@ void VoxelTable::Grow() {
 }
 
 int Patches::Find(uint64_t face, const Eigen::Vector3d& position) const {
-  const int own = of_voxel_.Find(VoxelKey(grid_, face, position));
+  const int own = of_voxel_.Find(VoxelKey(face, grid_.At(position)));
   if (own >= 0) return own;
   const auto same = of_face_.find(face);
   if (same == of_face_.end()) return -1;
@@ -132,9 +128,9 @@ int Patches::Find(uint64_t face, const Eigen::Vector3d& position) const {
       same->second, {}, [&](int i) { return (all_[i].point.position - position).squaredNorm(); });
 }
 
-int Patches::Add(uint64_t face, const Eigen::Vector3d& position) {
+int Patches::Add(uint64_t face, const GridPlace& place) {
   const int next = static_cast<int>(all_.size());
-  const int index = of_voxel_.Insert(VoxelKey(grid_, face, position), next);
+  const int index = of_voxel_.Insert(VoxelKey(face, place), next);
   if (index == next) {
     of_face_[face].push_back(index);
     all_.emplace_back();
@@ -150,12 +146,12 @@ int Patches::OfPlanned(const Eigen::Vector3d& normal, const Eigen::Vector3d& pos
   return Find(FaceLooking(normal), position);
 }
 
-int Patches::AddOfPolygon(int face, bool is_back, const Eigen::Vector3d& position) {
-  return Add(FaceOf(face, is_back), position);
+int Patches::AddOfPolygon(int face, bool is_back, const GridPlace& place) {
+  return Add(FaceOf(face, is_back), place);
 }
 
-int Patches::AddPlanned(const Eigen::Vector3d& normal, const Eigen::Vector3d& position) {
-  return Add(FaceLooking(normal), position);
+int Patches::AddPlanned(const Eigen::Vector3d& normal, const GridPlace& place) {
+  return Add(FaceLooking(normal), place);
 }
 
 }  // namespace insitu

@@ -62,17 +62,25 @@ struct Patch {
   Spectrum sun_after = Spectrum::Zero();
 };
 
+// A position [m], local, and its voxel.
+struct GridPlace {
+  Eigen::Vector3d position;
+  int level = 0;    // how often the size has doubled
+  double size = 1;  // of the voxel [m]
+
+  // The voxel, counted in sizes.
+  Eigen::Array3d Voxel() const;
+  // How far from its middle the position lies [m].
+  double OffCenter() const;
+};
+
 // Where pieces are smallest, and how small.
 struct PatchGrid {
   std::vector<Eigen::AlignedBox3d> foci;  // [m], local; at least one
   double size = 1;  // side of a voxel in and near the foci [m]; it doubles with distance
 
-  double SizeAt(const Eigen::Vector3d& position) const;
-  int LevelAt(const Eigen::Vector3d& position) const;  // how often the size has doubled
-  // The voxel at a position, counted in sizes.
-  Eigen::Array3d VoxelAt(const Eigen::Vector3d& position) const;
-  // How far from the middle of its voxel it lies [m].
-  double OffCenter(const Eigen::Vector3d& position) const;
+  // Takes as long as there are foci.
+  GridPlace At(const Eigen::Vector3d& position) const;
 };
 
 // The plane of the ground beyond its polygon: what is there, photographs may show.
@@ -119,12 +127,12 @@ class Patches {
   int OfPlanned(const Eigen::Vector3d& normal, const Eigen::Vector3d& position) const;
 
   // The same, made if there is none.
-  int AddOfPolygon(int face, bool is_back, const Eigen::Vector3d& position);
-  int AddPlanned(const Eigen::Vector3d& normal, const Eigen::Vector3d& position);
+  int AddOfPolygon(int face, bool is_back, const GridPlace& place);
+  int AddPlanned(const Eigen::Vector3d& normal, const GridPlace& place);
 
  private:
   int Find(uint64_t face, const Eigen::Vector3d& position) const;
-  int Add(uint64_t face, const Eigen::Vector3d& position);
+  int Add(uint64_t face, const GridPlace& place);
 
   PatchGrid grid_;
   std::vector<Patch> all_;

@@ -203,7 +203,7 @@ Json::Value LiveLight(const SitePaths& site, const SceneGeometry& scene, LinearP
   std::vector<Sentence> left_out;
   try {
     const LightMeasurement measured =
-        MeasureDaylightSoFar(site, scene, photos.Of(scene), &left_out);
+        MeasureDaylightSoFar(site, scene, photos.Of(scene), &photos.sky_blocks, &left_out);
     message["haze"] = HazeJson(measured);
     message["daylight"] = DaylightJson(measured);
     message["samples"]["haze"] =

@@ -10,6 +10,7 @@
 
 #include "calibration/photo/photograph.h"
 #include "calibration/program/site.h"
+#include "radiometry/measure_sky.h"
 #include "radiometry/natural_environment.h"
 #include "reconstruction/geometry/scene_geometry.h"
 
@@ -24,6 +25,8 @@ class LinearPhotos {
   // As scene.cameras. Throws InputError: a photograph is not there, cannot be read or is of another
   // size than its camera's.
   const std::vector<Photograph>& Of(const SceneGeometry& scene);
+
+  KeptSkyBlocks sky_blocks;  // of these
 
  private:
   SitePaths site_;

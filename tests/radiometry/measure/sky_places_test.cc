@@ -61,7 +61,8 @@ class SkyPlacesTest : public testing::Test {
     std::vector<SkyRegion> regions;
     for (size_t i = 0; i < photos_.size(); ++i) {
       for (SkyRegion& region :
-           SkyRegionsIn(photos_[i], static_cast<int>(i), scene_, rays, matte, {sample})) {
+           SkyRegionsIn(SkyBlocksOf(photos_[i], scene_.cameras[i].camera, matte),
+                        static_cast<int>(i), scene_, rays, {sample})) {
         regions.push_back(std::move(region));
       }
     }

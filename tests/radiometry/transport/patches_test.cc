@@ -26,14 +26,22 @@ SceneGeometry WithSquare(double half, const Eigen::Vector3d& normal) {
   return scene;
 }
 
+int AddOfPolygon(Patches* patches, int face, bool is_back, const Eigen::Vector3d& position) {
+  return patches->AddOfPolygon(face, is_back, patches->grid().At(position));
+}
+
+int AddPlanned(Patches* patches, const Eigen::Vector3d& normal, const Eigen::Vector3d& position) {
+  return patches->AddPlanned(normal, patches->grid().At(position));
+}
+
 TEST(PatchGrid, SizeDoublesWithDistanceFromTheNearestFocus) {
   PatchGrid grid = AboutOrigin(0.5);
-  EXPECT_EQ(grid.SizeAt({0, 0, 0}), 0.5);
-  EXPECT_EQ(grid.SizeAt({2.4, 0, 0}), 0.5);
-  EXPECT_EQ(grid.SizeAt({2.6, 0, 0}), 1);
-  EXPECT_EQ(grid.SizeAt({0, 5.1, 0}), 2);
+  EXPECT_EQ(grid.At({0, 0, 0}).size, 0.5);
+  EXPECT_EQ(grid.At({2.4, 0, 0}).size, 0.5);
+  EXPECT_EQ(grid.At({2.6, 0, 0}).size, 1);
+  EXPECT_EQ(grid.At({0, 5.1, 0}).size, 2);
   grid.foci.emplace_back(Eigen::Vector3d(0, 5, 0), Eigen::Vector3d(0, 6, 0));
-  EXPECT_EQ(grid.SizeAt({0, 5.1, 0}), 0.5);
+  EXPECT_EQ(grid.At({0, 5.1, 0}).size, 0.5);
 }
 
 TEST(Patches, APointFindsItsOwnPiece) {
@@ -43,14 +51,15 @@ TEST(Patches, APointFindsItsOwnPiece) {
     for (const bool is_back : {false, true}) {
       for (int x = -2; x < 2; ++x) {
         const Eigen::Vector3d center(x, 0, 0);
-        made[patches.AddOfPolygon(face, is_back, center)] = center;
+        made[AddOfPolygon(&patches, face, is_back, center)] = center;
         const int own = patches.OfPolygon(face, is_back, center + Eigen::Vector3d(0.3, -0.3, 0.4));
         EXPECT_EQ(own, static_cast<int>(patches.all().size()) - 1);
       }
     }
   }
   EXPECT_EQ(made.size(), 3u * 2 * 4);
-  EXPECT_EQ(patches.AddOfPolygon(1, false, {0.1, 0.2, 0}), patches.OfPolygon(1, false, {0, 0, 0}));
+  EXPECT_EQ(AddOfPolygon(&patches, 1, false, {0.1, 0.2, 0}),
+            patches.OfPolygon(1, false, {0, 0, 0}));
   EXPECT_EQ(patches.all().size(), made.size());
 }
 
@@ -60,7 +69,7 @@ TEST(Patches, VoxelsAllAroundTheOriginAreDistinct) {
   for (int x = -2; x <= 2; ++x) {
     for (int y = -2; y <= 2; ++y) {
       for (int z = -2; z <= 2; ++z) {
-        patches.AddPlanned(Eigen::Vector3d::UnitX(), 0.25 * Eigen::Vector3d(x, y, z));
+        AddPlanned(&patches, Eigen::Vector3d::UnitX(), 0.25 * Eigen::Vector3d(x, y, z));
         ++voxels;
       }
     }
@@ -73,9 +82,11 @@ TEST(Patches, PointsJustOffARoundPlaneShareAPiece) {
   for (const double size : {0.1, 0.25, 0.5, 1.0}) {
     Patches patches(AboutOrigin(size));
     for (const double z : {0.0, 0.5, 1.0, -0.4}) {
-      const int piece = patches.AddOfPolygon(0, false, {0.02, 0.02, z});
-      EXPECT_EQ(patches.AddOfPolygon(0, false, {0.02, 0.02, z - 1e-7}), piece) << size << ' ' << z;
-      EXPECT_EQ(patches.AddOfPolygon(0, false, {0.02, 0.02, z + 1e-7}), piece) << size << ' ' << z;
+      const int piece = AddOfPolygon(&patches, 0, false, {0.02, 0.02, z});
+      EXPECT_EQ(AddOfPolygon(&patches, 0, false, {0.02, 0.02, z - 1e-7}), piece)
+          << size << ' ' << z;
+      EXPECT_EQ(AddOfPolygon(&patches, 0, false, {0.02, 0.02, z + 1e-7}), piece)
+          << size << ' ' << z;
     }
   }
 }
@@ -88,7 +99,7 @@ TEST(Patches, ManyAreFoundAgain) {
   }
   std::vector<int> numbers;
   for (const Eigen::Vector3d& place : places)
-    numbers.push_back(patches.AddOfPolygon(7, true, place));
+    numbers.push_back(AddOfPolygon(&patches, 7, true, place));
   for (size_t i = 0; i < places.size(); ++i) {
     ASSERT_EQ(patches.OfPolygon(7, true, places[i]), numbers[i]) << i;
   }
@@ -106,10 +117,10 @@ TEST(VoxelTable, GrowsAndKeepsItsNumbers) {
 TEST(Patches, WhereAVoxelHoldsNoneTheNearestOfTheSameFaceStandsIn) {
   Patches patches(AboutOrigin(1));
   for (const double x : {0.5, 3.5}) {
-    const int index = patches.AddOfPolygon(0, false, {x, 0, 0});
+    const int index = AddOfPolygon(&patches, 0, false, {x, 0, 0});
     patches.all()[index].point.position = {x, 0, 0};
   }
-  const int other = patches.AddOfPolygon(1, false, {5.5, 0, 0});
+  const int other = AddOfPolygon(&patches, 1, false, {5.5, 0, 0});
   patches.all()[other].point.position = {5.5, 0, 0};
   EXPECT_EQ(patches.OfPolygon(0, false, {1.6, 0, 0}), 0);
   EXPECT_EQ(patches.OfPolygon(0, false, {5.6, 0, 0}), 1);
@@ -120,10 +131,10 @@ TEST(Patches, WhereAVoxelHoldsNoneTheNearestOfTheSameFaceStandsIn) {
 TEST(Patches, PlannedFacesThatLookTheSameWayShareAPiece) {
   Patches patches(AboutOrigin(1));
   const Eigen::Vector3d place(0.5, 0.5, 0.5);
-  const int up = patches.AddPlanned(Eigen::Vector3d::UnitZ(), place);
-  EXPECT_EQ(patches.AddPlanned(Eigen::Vector3d(0.05, 0, 1).normalized(), place), up);
-  EXPECT_NE(patches.AddPlanned(-Eigen::Vector3d::UnitZ(), place), up);
-  EXPECT_NE(patches.AddPlanned(Eigen::Vector3d(1, 0, 1).normalized(), place), up);
+  const int up = AddPlanned(&patches, Eigen::Vector3d::UnitZ(), place);
+  EXPECT_EQ(AddPlanned(&patches, Eigen::Vector3d(0.05, 0, 1).normalized(), place), up);
+  EXPECT_NE(AddPlanned(&patches, -Eigen::Vector3d::UnitZ(), place), up);
+  EXPECT_NE(AddPlanned(&patches, Eigen::Vector3d(1, 0, 1).normalized(), place), up);
   EXPECT_EQ(patches.OfPlanned(Eigen::Vector3d::UnitX(), place), -1);
   EXPECT_EQ(patches.OfPolygon(0, false, place), -1);
 }

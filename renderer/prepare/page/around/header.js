@@ -3,7 +3,7 @@
 
 import {ask, isReport, reportAddress} from "../site/api.js";
 import {showSite} from "./site_table.js";
-import {button, byId, select} from "../words/dom.js";
+import {button, byId, keepText, select} from "../words/dom.js";
 import {emptied, keptCount, newId, unconfirmed} from "../site/outbox.js";
 import {on} from "../site/signals.js";
 import {adjustedMark, mark, prediction, raysOf, state} from "../site/state.js";
@@ -83,11 +83,6 @@ function draw() {
   }
   drawSaved();
   drawSigma();
-}
-
-/** Sets text only where it differs, so that it is read out once. */
-function keepText(made, text) {
-  if (made.textContent !== text) made.textContent = text;
 }
 
 function drawSaved() {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A pane: one photograph with its own zoom, painted from tiles, and the crosshair on it.
 
-import {button, node, svg} from "../words/dom.js";
+import {button, keep, keepText, node, svg} from "../words/dom.js";
 import {drawFiducials} from "../film/fiducial_drawing.js";
 import {drawFigures} from "./figures.js";
 import {listenTo} from "./gestures.js";
@@ -30,6 +30,8 @@ export class Pane extends Zoomed {
     this.cursor = {x: 0, y: 0};
     this.isMoved = false;
     this.paintMs = 0;
+    /** @type {any[]|null} what of the photo is on the canvas; null: not all of it */
+    this.painted = null;
     this.isDrawn = false;
     /** @type {Map<string, any>} */
     this.markNodes = new Map();
@@ -132,12 +134,13 @@ export class Pane extends Zoomed {
     this.canvas.width = Math.round(box.width * ratio);
     this.canvas.height = Math.round(box.height * ratio);
     this.isDrawn = false;
+    this.painted = null; // a resized canvas is empty
     // Half a pane more on each side, so that a pan only moves the layer.
     const {width, height} = box;
     this.overlay.setAttribute("viewBox", `${-width / 2} ${-height / 2} ${2 * width} ${2 * height}`);
     if (this.isFitted) this.fit();
     else this.setView(this.k, this.tx + dx, this.ty + dy);
-    this.paint(); // at once: a resized canvas is empty
+    this.paint(); // at once
   }
 
   /** Zooms with the crosshair in the middle. */
@@ -236,59 +239,68 @@ export class Pane extends Zoomed {
     if (this.chooser.childElementCount !== names.length) {
       this.chooser.replaceChildren(...names.map(name => node("option", {value: name, text: name})));
     }
-    this.chooser.value = this.photo?.name ?? "";
+    keep(this.chooser, "value", this.photo?.name ?? "");
     const about = state.adjusted?.photos?.[this.photo?.name ?? ""],
       fault = said(this.photo, "fault");
-    this.lines.textContent = t(`lines_${ui.lines}`);
+    keepText(this.lines, t(`lines_${ui.lines}`));
     this.drawRelitNote();
     this.note.classList.toggle("fault", Boolean(fault));
-    this.note.title = fault || said(about, "why");
-    if (fault) return void (this.note.textContent = t("photoFault", {why: fault}));
-    this.note.textContent = !this.photo
-      ? ""
-      : noteOf(this.photo.name, about) +
-        `  ${Math.round(100 * this.k * devicePixelRatio)} %${ui.arrows ? `  v × ${ui.arrows}` : ""}`;
+    keep(this.note, "title", fault || said(about, "why"));
+    keepText(this.note, fault ? t("photoFault", {why: fault}) : this.photo ? this.noteOf(this.photo.name, about) : "");
+  }
+
+  /** @param {string} name */
+  noteOf(name, about) {
+    const percent = Math.round(100 * this.k * devicePixelRatio);
+    return `${orientationOf(name, about)}  ${percent} %${ui.arrows ? `  v × ${ui.arrows}` : ""}`;
   }
 
   /** In which light the photo is shown, and what is to be known of it. */
   drawRelitNote() {
-    this.relight.textContent = t(`light_${this.light}`);
-    this.relight.setAttribute("aria-pressed", String(this.light !== "photo"));
-    this.root.dataset.light = this.light;
+    keepText(this.relight, t(`light_${this.light}`));
+    const pressed = String(this.light !== "photo");
+    if (this.relight.getAttribute("aria-pressed") !== pressed) this.relight.setAttribute("aria-pressed", pressed);
+    keep(this.root.dataset, "light", this.light);
     const made = this.light === "photo" || !this.photo ? null : relit(this.index, this.light);
-    this.relitNote.hidden = !made;
+    keep(this.relitNote, "hidden", !made);
     this.relitNote.classList.toggle("fault", Boolean(made?.isFault));
-    const text = made ? `${t(`light_${this.light}`)}: ${made.text}` : "";
-    if (this.relitNote.textContent !== text) this.relitNote.textContent = text;
+    keepText(this.relitNote, made ? `${t(`light_${this.light}`)}: ${made.text}` : "");
   }
 
+  /** Anew only where something is another: the other panes stand still while a hand pans this one. */
   paint() {
+    const {photo, k, tx, ty, width} = this;
+    const picture = this.light === "photo" || !photo ? null : relit(this.index, this.light).picture;
+    const what = [photo, photo?.fault, picture, k, tx, ty, width, this.canvas.width, this.canvas.height];
+    if (this.painted && what.every((value, i) => value === this.painted?.[i])) return;
     const begin = performance.now(),
       ratio = devicePixelRatio;
     const context = (this.context ??= this.canvas.getContext("2d", {alpha: false}));
     context.setTransform(1, 0, 0, 1, 0, 0);
     context.fillStyle = "#15191c";
     context.fillRect(0, 0, this.canvas.width, this.canvas.height);
-    if (this.photo && !this.photo.fault && this.width)
-      this.paintPhoto(context, this.k * ratio, this.tx * ratio, this.ty * ratio);
+    let isWhole = true;
+    if (photo && !photo.fault && width)
+      isWhole = this.paintPhoto(context, picture, k * ratio, tx * ratio, ty * ratio);
+    this.painted = isWhole ? what : null;
     fetchTiles();
     this.paintMs = performance.now() - begin;
   }
 
-  /** All in device pixels; relit as soon as that is made. */
-  paintPhoto(context, k, tx, ty) {
-    const picture = this.light === "photo" ? null : relit(this.index, this.light).picture;
+  /** All in device pixels; relit as soon as that is made. False: tiles are still to come. */
+  paintPhoto(context, picture, k, tx, ty) {
     if (!picture) return paintTiles(context, {index: this.index, .../** @type {any} */ (this.photo)}, k, tx, ty);
     const {width, height} = /** @type {any} */ (this.photo);
     context.imageSmoothingEnabled = true;
     context.drawImage(picture, tx, ty, k * width, k * height);
+    return true;
   }
 }
 
 const kCrossHalf = 20; // CSS px, of the crosshair's layer
 const kCross = "M-16 0H-3M3 0H16M0 -16V-3M0 3V16";
 
-function noteOf(name, about) {
+function orientationOf(name, about) {
   if (!about) return "";
   if (!about.oriented) return said(about, "why") || t("notOriented");
   return t("orientedNote", {rms: about.rms_px === undefined ? "–" : about.rms_px.toFixed(2)});

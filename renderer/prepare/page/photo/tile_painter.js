@@ -6,12 +6,14 @@ import {kTile, tileIfHere, wishTile} from "./tiles.js";
 const clamp = (value, low, high) => Math.min(Math.max(value, low), high);
 
 /**
- * Onto what is seen of a canvas, all in device pixels: screen = k (p + 1/2) + t.
+ * Onto what is seen of a canvas, all in device pixels: screen = k (p + 1/2) + t. False: until tiles are
+ * here that are not yet, coarser ones stand for them.
  * @param {CanvasRenderingContext2D} context
  * @param {{index: number, width: number, height: number, levels: number}} picture
  * @param {number} k
  * @param {number} tx
  * @param {number} ty
+ * @returns {boolean}
  */
 export function paintTiles(context, picture, k, tx, ty) {
   const {index, width, height, levels} = picture;
@@ -30,13 +32,15 @@ export function paintTiles(context, picture, k, tx, ty) {
   const last = (extent, shift, size) =>
     Math.min(Math.floor((extent - shift) / k / side), Math.ceil(size / side) - 1);
   const first = shift => Math.max(0, Math.floor(-shift / k / side));
-  wishTile(index, levels - 1, 0, 0); // the overview, which is shown until finer tiles are here
+  let isWhole = wishTile(index, levels - 1, 0, 0); // the overview, which is shown until finer tiles are here
   for (let y = first(ty); y <= last(context.canvas.height, ty, height); ++y) {
     for (let x = first(tx); x <= last(context.canvas.width, tx, width); ++x) {
+      isWhole = wishTile(index, level, x, y) && isWhole;
       paintTile(context, picture, {level, x, y}, k * side, tx, ty);
     }
   }
   context.restore();
+  return isWhole;
 }
 
 /** A tile, or until it is here its part of a coarser one. */
@@ -45,7 +49,6 @@ function paintTile(context, {index, levels}, {level, x, y}, size, tx, ty) {
     right = Math.round(tx + (x + 1) * size);
   const top = Math.round(ty + y * size),
     bottom = Math.round(ty + (y + 1) * size);
-  wishTile(index, level, x, y);
   for (let up = 0; level + up < levels; ++up) {
     const tile = tileIfHere(index, level + up, x >> up, y >> up);
     if (!tile) continue;

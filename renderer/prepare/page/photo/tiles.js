@@ -43,11 +43,16 @@ export function tileIfHere(photo, level, x, y) {
   return tile;
 }
 
-/** Asks for a tile; what is not asked for again in the next frames is given up. */
+/**
+ * Asks for a tile, unless it is here: then true. What is not asked for again in the next frames is given up.
+ * @returns {boolean}
+ */
 export function wishTile(photo, level, x, y) {
   const key = `${photo}/${level}/${x}/${y}`;
-  if ((kept.has(key) && !stale.has(key)) || underway.has(key) || (failed.get(key) ?? 0) > performance.now()) return;
+  if (kept.has(key) && !stale.has(key)) return true;
+  if (underway.has(key) || (failed.get(key) ?? 0) > performance.now()) return false;
   wishes.set(key, {path: `/api/tile?photo=${photo}&level=${level}&x=${x}&y=${y}`, wanted: turn});
+  return false;
 }
 
 /**

@@ -50,6 +50,27 @@ export function svg(tag, attributes = {}, ...children) {
 }
 
 /**
+ * Sets a property only where it differs: the browser lays out and paints again for each.
+ * @param {any} element
+ * @param {string} property
+ * @param {any} value
+ */
+export function keep(element, property, value) {
+  if (element[property] !== value) element[property] = value;
+}
+
+/**
+ * The same with its text, whose node stays, too: a new one is laid out with all that is around it.
+ * @param {any} element
+ * @param {string} text
+ */
+export function keepText(element, text) {
+  const [only, more] = element.childNodes;
+  if (only instanceof Text && !more) keep(only, "data", text);
+  else keep(element, "textContent", text);
+}
+
+/**
  * The element with this id.
  * @type {(id: string) => any}
  */
