@@ -52,7 +52,7 @@ goes_on() {
   local output
   output=$(batch) || return 1
   [[ $(grep -c 'done  [0-9.]* s$' <<<"$output") -eq $((12 - before)) ]] || return 1
-  [[ $(grep -c 'done already$' <<<"$output") -eq $before && $(pictures) -eq 12 ]] &&
+  [[ $(grep -c '  done already$' <<<"$output") -eq $before && $(pictures) -eq 12 ]] &&
     echo "$before were done, $((12 - before)) are added"
 }
 check 'the next run does the rest and nothing twice' goes_on
