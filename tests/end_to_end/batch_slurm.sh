@@ -27,7 +27,6 @@ make_batch_site
 batch() { "$INSITU_BIN/insitu" batch "$plan" "$@"; }
 submit() { batch --engine slurm --threads 1; }
 array_of() { sed -n 's/.*"array" : "\([0-9]*\)".*/\1/p' "$site/work/batch/plan/slurm.json"; }
-is_queue_empty() { [[ -z $(squeue --noheader) ]]; }
 waits() { SECONDS_TO_WAIT=${1:-600} wait_for is_queue_empty; }
 
 submitted() { submit | grep -E 'array [0-9]+: 12 tasks submitted'; }
@@ -54,8 +53,9 @@ kills_a_render() {
   [[ -n $render ]] && kill -9 "$render" && echo "${partial##*/} of process $render"
 }
 check 'one of its renders is killed in the middle' kills_a_render
+has_a_picture() { [[ $(pictures) -ge 1 ]]; }
 cancels_some() {
-  SECONDS_TO_WAIT=300 wait_for test "$(pictures)" -ge 1
+  SECONDS_TO_WAIT=300 wait_for has_a_picture || return 1
   scancel "$(array_of)_11" "$(array_of)_10"
 }
 check 'two tasks are cancelled' cancels_some

@@ -62,8 +62,13 @@ wait_for() {
   done
 }
 
+is_queue_empty() { [[ -z $(squeue --noheader) ]]; }
+
+# Jobs that still run end before what watches them.
 stop_slurm() {
   local i
+  scancel --user="$(id -un)" 2>/dev/null || true
+  SECONDS_TO_WAIT=20 wait_for is_queue_empty || true
   for ((i = ${#slurm_pids[@]} - 1; i >= 0; --i)); do
     kill "${slurm_pids[i]}" 2>/dev/null || true
     wait "${slurm_pids[i]}" 2>/dev/null || true
