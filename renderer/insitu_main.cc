@@ -25,6 +25,8 @@ std::vector<Command> OtherCommands() {
           {"new", "a site's folder from photographs, with files that explain themselves"},
           {"matte", "what stands in front, from a rough drawing"},
           {"materials", "the library of materials and lamps: its list, swatches, proposals"},
+          {"batch", "views, variants, hours and qualities by a plan, here or by Slurm"},
+          {"relight", "photographs and daylight of another hour, simulated"},
           {"spectra", "the spectra that stand behind colours, in a page"},
           {"view", "the viewing page: before and after, pixel by pixel; renders as they run"},
           {"import-survey", "control points and marks of other programs for a site"},

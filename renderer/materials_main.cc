@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "calibration/program/program.h"
-#include "renderer/material_page.h"
-#include "renderer/material_proposals.h"
+#include "renderer/materials/material_page.h"
+#include "renderer/materials/material_proposals.h"
 
 namespace insitu {
 namespace {

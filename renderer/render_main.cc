@@ -12,6 +12,7 @@
 #include "calibration/foreground_matte.h"
 #include "calibration/program/program.h"
 #include "calibration/program/warnings.h"
+#include "renderer/render_quality.h"
 #include "renderer/render_site.h"
 #include "renderer/tiles/stop_signals.h"
 #include "renderer/tiles/stream_writer.h"
@@ -78,6 +79,8 @@ struct RenderCommand {
   std::string frame = NameOf(options.frame, kFrames);
   std::string sharpness = NameOf(options.sharpness, kSharpness);
   std::string tev;
+  std::string quality = NameOf(Quality::kFinal, kQualities);
+  bool is_beside = false;
   bool no_building = false, streams = false, base64 = false, timing = false;
 };
 
@@ -88,12 +91,21 @@ void AddPhotoOptions(ProgramOptions* program, RenderCommand* command) {
       {.one_of = {"photo", "pinhole"}, .text = "photo|pinhole [" + command->frame + "]"});
   program->Value("--variant", &command->site.variant,
                  "the design in variants/VARIANT instead of building/; to montages/VARIANT");
+  program->Value("--hour", &command->site.hour,
+                 "the light of work/hours/HOUR, which insitu-relight has made; to <photo>@HOUR");
   program->Flag("--no-building", &command->no_building, "render the empty site", "--variant");
 }
 
 // What decides on the pixels.
 void AddRenderOptions(ProgramOptions* program, RenderCommand* command) {
   RenderSiteOptions& options = command->options;
+  program->Value("--quality", &command->quality,
+                 "fast: 4 rays a pixel, sun and sky alone, no search for shadows; draft: 4 rays, 8 "
+                 "at outlines, one bounce; final: as the other options say",
+                 {.one_of = {"fast", "draft", "final"},
+                  .text = "fast|draft|final [" + command->quality + "]"});
+  program->Flag("--beside", &command->is_beside,
+                "a lesser quality is named <photo>~QUALITY, so that the final pictures stay");
   program->Value("--most-rays", &options.render.most_rays, "rays a pixel at most",
                  {.shows_default = true, .one_of = {"4", "8", "12", "16"}});
   program->Flag("--uniform-ambient", &options.uniform_ambient,
@@ -128,11 +140,15 @@ void AddRunOptions(ProgramOptions* program, RenderCommand* command) {
 
 void RenderAndReport(const RenderCommand& command) {
   RenderSiteOptions options = command.options;
+  SitePaths site = command.site;
   RequireVariant(command.site);
+  RequireHour(command.site);
   options.frame = kFrames.at(command.frame);
   options.sharpness = kSharpness.at(command.sharpness);
   options.with_building = !command.no_building;
   options.keeps_pictures = false;
+  if (command.is_beside) site.beside = command.quality == "final" ? "" : command.quality;
+  Lessen(kQualities.at(command.quality), &options);
   NoteStopSignals();
   options.stops = IsStopSignalled;
   const auto profile = command.timing ? std::make_unique<Profile>() : nullptr;
@@ -151,7 +167,7 @@ void RenderAndReport(const RenderCommand& command) {
   }
   if (stream) options.watcher = &*stream;
   std::fputs(WarningLines(UnreadDrawings(command.site)).c_str(), out);
-  for (const RenderSiteReport& report : RenderSite(command.site, options)) {
+  for (const RenderSiteReport& report : RenderSite(site, options)) {
     PrintReport(out, report);
     if (!report.is_within_building) PrintQuality(out, report, options);
     std::fputs(WarningLines(report.remarks).c_str(), out);

@@ -92,7 +92,9 @@ std::optional<SunShares> SunSharesOf(const MontageScene& scene, const RenderView
     const Raster& drawn = *view.drawn_shadows;
     return SunShares{drawn, Raster(drawn.width, drawn.height, 1)};
   }
-  if (!options.find_shadows || !options.with_building || !scene.interreflected) {
+  const bool is_photographed = view.relit.data.empty();  // else shadows have moved
+  if (!options.find_shadows || !options.with_building || !scene.interreflected ||
+      !is_photographed) {
     return std::nullopt;
   }
   return FindExistingShadows(scene, view.camera, InUnit(view), view.foreground.get());
@@ -147,7 +149,7 @@ std::optional<UncertaintySummary> WriteUncertaintyOf(const SitePaths& site,
   const auto corners = BuildingUncertainty(scene, camera, edges.CornersSeenFrom(eye));
   if (!corners || corners->empty()) return std::nullopt;
   const std::vector<CornerUncertainty> kept = ThinnedOut(*corners);
-  WriteUncertainty(site.montages() / (scene.cameras[camera].photo + ".uncertainty.csv"), kept);
+  WriteUncertainty(site.montage(scene.cameras[camera].photo) += ".uncertainty.csv", kept);
   return Summarize(kept);
 }
 
@@ -178,6 +180,8 @@ void WriteRenderRecord(const SitePaths& site, const std::string& photo,
   record["frame"] = FrameName(options.frame);
   record["with_building"] = options.with_building;
   record["most_rays"] = options.render.most_rays;
+  if (!options.quality.empty()) record["quality"] = options.quality;
+  if (!site.hour.empty()) record["hour"] = site.hour;
   WriteJson(site.render_record(photo), record);
 }
 
@@ -195,10 +199,10 @@ class SiteRender {
         files_(SiteInputsSha256(site, scene_.natural, building_)),
         inputs_(Sha256OfText(OptionsText(options) + "\n" + files_)),
         light_inputs_(Sha256OfText(LightOptionsText(options) + "\n" + files_)),
-        statement_(StatementOf(site, options.with_building)) {
+        statement_(StatementOf(site, options.with_building, options.quality)) {
     ThrowIfStopped();
     if (options.uniform_ambient) return;
-    const auto kept = ReadLightCache(LightCache(), light_inputs_);
+    const auto kept = ReadLightCache(site.light_cache(), light_inputs_);
     AddInterreflection(&scene_, options.bounces, kept ? &*kept : nullptr);
     if (kept) kept_points_ = GatheredPoints();
   }
@@ -222,7 +226,8 @@ class SiteRender {
     const auto start = std::chrono::steady_clock::now();
     report.result = Tiles(photograph, view, render);
     if (!view.in_unit.data.empty()) {
-      BackToPhotograph(view.photo.linear, view.in_unit, view.gain, &report.result.linear);
+      BackToPhotograph(view.relit.data.empty() ? view.photo.linear : view.relit, view.in_unit,
+                       view.gain, &report.result.linear);
     }
     report.seconds =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -245,7 +250,7 @@ class SiteRender {
   std::optional<std::string> KeepLight() const {
     if (!scene_.interreflected || GatheredPoints() == kept_points_) return std::nullopt;
     try {
-      WriteLightCache(LightCache(), light_inputs_, KeptLightOf(*scene_.interreflected));
+      WriteLightCache(site_.light_cache(), light_inputs_, KeptLightOf(*scene_.interreflected));
     } catch (const std::exception& error) {
       return std::string(error.what()) + "; the next render gathers its light anew";
     }
@@ -258,8 +263,6 @@ class SiteRender {
   }
 
  private:
-  std::filesystem::path LightCache() const { return site_.design() / "render/light.cache"; }
-
   long GatheredPoints() const {
     return scene_.interreflected->on_site.points() + scene_.interreflected->on_building.points();
   }

@@ -34,6 +34,7 @@ struct RenderSiteOptions {
   bool find_shadows = true;
   bool uniform_ambient = false;     // the paper's light as printed, instead of light among surfaces
   std::optional<int> bounces = {};  // of light among surfaces, at most; 0: sun and sky alone
+  std::string quality = {};         // what the pictures say of it; empty: final
   bool keeps_pictures = true;       // in the reports, too: as much memory as all montages together
   std::function<bool()> stops = {};  // asked before each tile, from any thread
   RenderWatcher* watcher = nullptr;  // null: nobody looks on

@@ -48,13 +48,23 @@ Raster InPinhole(const Raster& share, const Camera& lens, const Camera& pinhole)
   return seen;
 }
 
-// Photograph and grain in the site's unit.
+// What is shown, and grain, in the site's unit.
 void SetGain(const Eigen::Vector3d& gain, RenderView* view) {
+  const bool is_relit = !view->relit.data.empty();
+  if (is_relit) view->in_unit = view->relit;
   if (gain == kUnitGain) return;
   view->gain = gain;
-  view->in_unit = view->photo.linear;
+  if (!is_relit) view->in_unit = view->photo.linear;
   DivideByGain(gain, &view->in_unit);
   if (auto& grain = view->quality.grain) grain = GrainInUnit(*grain, gain);
+}
+
+Raster ReadRelitPhoto(const SitePaths& site, const std::filesystem::path& photograph,
+                      const Raster& photo) {
+  const std::filesystem::path file = site.relit_photo(photograph.stem().string());
+  RequireResult(file, "insitu-relight");
+  RequirePhotographSize(file, photo.width, photo.height);
+  return ReadPhotograph(file).linear;
 }
 
 void RequireInputImage(const InputImage& image) {
@@ -135,6 +145,10 @@ RenderView LoadView(const SitePaths& site, const MontageScene& scene,
         is_there ? scene.input_images[index] : ReadInputImage(natural.input_images[index]);
     if (share) share = InPinhole(*share, lens, pinhole);
     if (view.drawn_shadows) view.drawn_shadows = InPinhole(*view.drawn_shadows, lens, pinhole);
+  }
+  if (!site.hour.empty()) {
+    view.drawn_shadows.reset();  // they fall elsewhere
+    if (frame == Frame::kPhoto) view.relit = ReadRelitPhoto(site, photograph, view.photo.linear);
   }
   SetGain(gains[index], &view);
   if (share) {

@@ -29,7 +29,8 @@ struct RenderView {
   ImageQuality quality;  // in the site's unit
   Photograph photo;
   Eigen::Vector3d gain = kUnitGain;
-  Raster in_unit = {};  // the photograph over its gain; empty where that is 1
+  Raster relit = {};    // the photograph at the site's hour; empty where that is its own
+  Raster in_unit = {};  // the one that is shown, over its gain; empty where that is the photograph
   std::shared_ptr<const Foreground> foreground = {};  // null: nothing stands in front
   std::optional<Raster> drawn_shadows = {};           // one channel, as SunShares::share
 };

@@ -3,6 +3,7 @@
 
 #include <map>
 
+#include "calibration/files/json_file.h"
 #include "calibration/files/sha256.h"
 #include "calibration/files/whole_file.h"
 #include "calibration/photo/exif.h"
@@ -27,13 +28,16 @@ std::string SurveySha256(const SitePaths& site) {
 MontageStatement StatementOf(MontageStatement statement, const std::filesystem::path& photograph,
                              const RenderResult& result) {
   statement.photograph_sha256 = Sha256(photograph);
-  statement.is_composite = result.building_pixels + result.changed_pixels > 0;
-  statement.computed = statement.is_composite ? std::to_string(result.building_pixels) +
-                                                    " pixels of the planned building, " +
-                                                    std::to_string(result.changed_pixels) +
-                                                    " pixels of its surroundings whose light it "
-                                                    "changes; all others are the photograph's"
-                                              : "nothing: all pixels are the photograph's";
+  const bool is_simulated = !statement.simulation.empty();
+  statement.is_composite = is_simulated || result.building_pixels + result.changed_pixels > 0;
+  statement.computed = statement.is_composite
+                           ? std::to_string(result.building_pixels) +
+                                 " pixels of the planned building, " +
+                                 std::to_string(result.changed_pixels) +
+                                 " pixels of its surroundings whose light it "
+                                 "changes; all others are the photograph's" +
+                                 (is_simulated ? ", simulated at another hour" : "")
+                           : "nothing: all pixels are the photograph's";
   return statement;
 }
 
@@ -47,11 +51,17 @@ void WriteUpright(const std::filesystem::path& file, const Raster& picture,
 
 }  // namespace
 
-MontageStatement StatementOf(const SitePaths& site, bool with_building) {
+MontageStatement StatementOf(const SitePaths& site, bool with_building,
+                             const std::string& quality) {
   MontageStatement statement;
+  statement.quality = quality;
   statement.program = std::string("insitu ") + INSITU_VERSION;
   statement.survey_sha256 = SurveySha256(site);
   if (with_building) statement.model_sha256 = Sha256(site.artificial());
+  if (!site.hour.empty()) {
+    statement.simulation =
+        JsonNode::Load(site.environment()).At("simulation").At("statement").Text();
+  }
   return statement;
 }
 
@@ -60,15 +70,14 @@ std::vector<std::string> WriteMontage(const SitePaths& site,
                                       Photograph photo, Raster linear, const RenderResult& result,
                                       const MontageStatement& statement) {
   const PhaseScope phase(Phase::kFiles);
-  return WriteMontageFiles(site.montages() / photograph.stem(),
+  return WriteMontageFiles(site.montage(photograph.stem().string()),
                            {std::move(linear), std::move(photo), photograph, frame == Frame::kPhoto,
                             StatementOf(statement, photograph, result)});
 }
 
 void WriteSunShares(const SitePaths& site, const std::filesystem::path& photograph,
                     const std::optional<SunShares>& shares) {
-  const std::filesystem::path file =
-      site.montages() / (photograph.stem().string() + ".shadows.exr");
+  const std::filesystem::path file = site.montage(photograph.stem().string()) += ".shadows.exr";
   if (!shares) {
     std::filesystem::remove(file);
     return;
@@ -83,9 +92,9 @@ void WriteSunShares(const SitePaths& site, const std::filesystem::path& photogra
 
 void WriteLayers(const SitePaths& site, const std::filesystem::path& photograph,
                  const RenderResult& result) {
-  WriteUpright(site.montages() / (photograph.stem().string() + ".layers.exr"), result.layers,
-               photograph);
-  const std::filesystem::path file = site.montages() / (photograph.stem().string() + ".unseen.exr");
+  const std::filesystem::path stem = site.montage(photograph.stem().string());
+  WriteUpright(std::filesystem::path(stem) += ".layers.exr", result.layers, photograph);
+  const std::filesystem::path file = std::filesystem::path(stem) += ".unseen.exr";
   if (result.unseen_pixels == 0) {
     std::filesystem::remove(file);
     return;
@@ -99,7 +108,7 @@ void WriteLayers(const SitePaths& site, const std::filesystem::path& photograph,
 void RemoveMontage(const SitePaths& site, const std::string& photo) {
   for (const char* ending :
        {".exr", ".png", ".jpg", ".tif", ".layers.exr", ".shadows.exr", ".unseen.exr"}) {
-    std::filesystem::remove(site.montages() / (photo + ending));
+    std::filesystem::remove(site.montage(photo) += ending);
   }
 }
 

@@ -16,7 +16,7 @@
 namespace insitu {
 
 // What all pictures of a run state.
-MontageStatement StatementOf(const SitePaths& site, bool with_building);
+MontageStatement StatementOf(const SitePaths& site, bool with_building, const std::string& quality);
 
 // montages/<photo>.exr and the others (montage_files.h). What of the photograph could not be
 // delivered is returned. `linear` is the picture, of `result` the counts are taken.

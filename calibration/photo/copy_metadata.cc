@@ -106,6 +106,8 @@ void Add(const MontageStatement& statement, Exiv2::XmpData* xmp) {
   set("PhotographSha256", statement.photograph_sha256);
   set("ModelSha256", statement.model_sha256);
   set("SurveySha256", statement.survey_sha256);
+  set("Simulation", statement.simulation);
+  set("Quality", statement.quality);
   if (!statement.is_composite) return;
   const auto source = xmp->findKey(Exiv2::XmpKey("Xmp.iptcExt.DigitalSourceType"));
   if (source != xmp->end()) set("PhotographDigitalSourceType", source->toString());

@@ -33,20 +33,39 @@ void RequireResult(const fs::path& result, const std::string& program) {
   }
 }
 
-void RequireVariant(const SitePaths& site) {
-  if (site.variant.empty()) return;
+namespace {
+
+// Folders in `folder` that are not hidden.
+std::set<std::string> FoldersIn(const fs::path& folder) {
   std::set<std::string> names;
   std::error_code none;
-  for (const fs::directory_entry& entry : fs::directory_iterator(site.variants(), none)) {
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, none)) {
     const std::string name = entry.path().filename().string();
     if (entry.is_directory() && !name.starts_with('.')) names.insert(name);
   }
-  if (names.contains(site.variant)) return;
+  return names;
+}
+
+// Throws InputError; `expected`: where there is none at all.
+void RequireFolder(const fs::path& folder, const std::string& name, const std::string& expected) {
+  const std::set<std::string> names = FoldersIn(folder);
+  if (names.contains(name)) return;
   std::string known;
-  for (const std::string& name : names) known += (known.empty() ? "" : ", ") + name;
-  throw InputError(site.variants(),
-                   "has no folder \"" + site.variant + "\", expected " +
-                       (known.empty() ? "one, with the content of building/" : "one of " + known));
+  for (const std::string& other : names) known += (known.empty() ? "" : ", ") + other;
+  throw InputError(folder, "has no folder \"" + name + "\", expected " +
+                               (known.empty() ? expected : "one of " + known));
+}
+
+}  // namespace
+
+void RequireVariant(const SitePaths& site) {
+  if (site.variant.empty()) return;
+  RequireFolder(site.variants(), site.variant, "one, with the content of building/");
+}
+
+void RequireHour(const SitePaths& site) {
+  if (site.hour.empty()) return;
+  RequireFolder(site.hours(), site.hour, "one that insitu-relight has made");
 }
 
 std::vector<fs::path> ListPhotographs(const SitePaths& site) {

@@ -12,6 +12,10 @@ struct SitePaths {
   std::filesystem::path root;
   // The design that is put into the photographs: a folder of variants/; "": that in building/.
   std::string variant = {};
+  // The light of another hour: a folder of work/hours/; "": that of the photographs.
+  std::string hour = {};
+  // Results of lesser quality that stand beside the others are named by it; "": they do not.
+  std::string beside = {};
 
   std::filesystem::path photos() const { return root / "photos"; }
   std::filesystem::path boards() const { return root / "calibration"; }
@@ -30,6 +34,23 @@ struct SitePaths {
   }
 
   std::filesystem::path description() const { return root / "site.json"; }
+
+  // What results and renders at work are named by, "IMG_1@1630~draft".
+  std::string result_name(const std::string& photo) const {
+    return photo + (hour.empty() ? "" : "@" + hour) + (beside.empty() ? "" : "~" + beside);
+  }
+  // Without ending.
+  std::filesystem::path montage(const std::string& photo) const {
+    return montages() / result_name(photo);
+  }
+  std::filesystem::path hours() const { return root / "work/hours"; }
+  // The photograph as it would be at the hour, in its own frame and without its lens's distortion.
+  std::filesystem::path relit_photo(const std::string& photo) const {
+    return hours() / hour / "photos" / (photo + ".exr");
+  }
+  std::filesystem::path relit_input_image(const std::string& photo) const {
+    return hours() / hour / "input_images" / (photo + ".exr");
+  }
 
   // `camera` is a camera's name, as CamerasOfPhotos gives it; "" is the only camera of a site.
   std::filesystem::path camera(const std::string& camera = "") const {
@@ -67,19 +88,28 @@ struct SitePaths {
   std::filesystem::path lock() const { return root / "work/.lock"; }
   // What insitu-montage keeps of its stages; of those that make the building, by design.
   std::filesystem::path stages() const { return design() / "stages"; }
-  std::filesystem::path environment() const { return root / "work/environment.json"; }
+  std::filesystem::path environment() const {
+    return (hour.empty() ? root / "work" : hours() / hour) / "environment.json";
+  }
   std::filesystem::path artificial() const { return design() / "building.json"; }
   std::filesystem::path render_record(const std::string& photo) const {
-    return design() / "render" / (photo + ".json");
+    return design() / "render" / (result_name(photo) + ".json");
   }
   std::filesystem::path partial_render(const std::string& photo) const {
-    return design() / "render" / (photo + ".partial");
+    return design() / "render" / (result_name(photo) + ".partial");
+  }
+  // Light among surfaces, kept for the next render.
+  std::filesystem::path light_cache() const {
+    return design() / "render" / (result_name("light") + ".cache");
   }
 };
 
 // Throws InputError, naming those there are: the site has no such variant, or its name is no
 // folder's.
 void RequireVariant(const SitePaths& site);
+
+// The same of an hour.
+void RequireHour(const SitePaths& site);
 
 // Whether a name ends as the photographs do that we read, in any case: JPEG, PNG, TIFF, EXR and
 // raw.

@@ -131,6 +131,7 @@ Paths RenderInputs(const MontageRequest& request) {
   const SitePaths& site = request.site;
   Paths inputs = {site.environment(), site.input_image("").parent_path(), site.photos(),
                   site.survey() / "foreground", site.survey() / "shadows"};
+  if (!site.hour.empty()) inputs.push_back(site.hours() / site.hour);
   if (request.with_building) inputs.push_back(site.building());  // textures
   return inputs += Building(request);
 }
@@ -138,9 +139,9 @@ Paths RenderInputs(const MontageRequest& request) {
 Paths Montages(const MontageRequest& request) {
   Paths montages;
   for (const fs::path& photo : ListPhotographs(request.site)) {
-    for (const char* ending : {".exr", ".png", ".jpg", ".layers.exr", ".shadows.exr", ".unseen.exr",
-                               ".uncertainty.csv"}) {
-      montages.push_back(request.site.montages() / (photo.stem().string() + ending));
+    for (const char* ending : {".exr", ".png", ".jpg", ".tif", ".layers.exr", ".shadows.exr",
+                               ".unseen.exr", ".uncertainty.csv"}) {
+      montages.push_back(request.site.montage(photo.stem().string()) += ending);
     }
   }
   return montages;

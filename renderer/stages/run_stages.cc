@@ -16,7 +16,7 @@
 #include "calibration/files/wording.h"
 #include "calibration/program/child_process.h"
 #include "calibration/program/program.h"
-#include "renderer/stages/file_hashes.h"
+#include "renderer/stages/file_states.h"
 #include "renderer/stages/stage_program.h"
 #include "renderer/stages/stage_record.h"
 
@@ -24,8 +24,6 @@ namespace insitu {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr size_t kMostReasons = 4;
 
 // ---- what is printed -----------------------------------------------------------------------
 
@@ -73,51 +71,6 @@ class Console {
   std::mutex mutex_;
   std::map<size_t, std::string> running_;
 };
-
-// ---- what a stage was, and is, made from ---------------------------------------------------
-
-// The files that paths stand for, of folders all below them but hidden ones.
-std::vector<fs::path> FilesOf(const std::vector<fs::path>& paths) {
-  std::vector<fs::path> files;
-  for (const fs::path& path : paths) {
-    if (!fs::is_directory(path)) {
-      files.push_back(path);
-      continue;
-    }
-    for (const fs::directory_entry& entry :
-         fs::recursive_directory_iterator(path, fs::directory_options::follow_directory_symlink)) {
-      const bool is_hidden = entry.path().filename().string().starts_with('.');
-      if (!entry.is_directory() && !is_hidden) files.push_back(entry.path());
-    }
-  }
-  return files;
-}
-
-// How a record names a file: those of the site as they lie in it, so that it can be moved.
-std::string NameInRecord(const SitePaths& site, const fs::path& file) {
-  const fs::path relative = file.lexically_relative(site.root);
-  const bool is_outside = relative.empty() || *relative.begin() == "..";
-  return (is_outside ? fs::absolute(file).lexically_normal() : relative).generic_string();
-}
-
-FileStates StatesOf(const SitePaths& site, const std::vector<fs::path>& paths, FileHashes* hashes) {
-  FileStates states;
-  for (const fs::path& file : FilesOf(paths)) {
-    states[NameInRecord(site, file)] = hashes->Hash(file);
-  }
-  return states;
-}
-
-std::string ReasonText(const std::vector<std::string>& reasons) {
-  std::string text;
-  for (size_t i = 0; i < std::min(reasons.size(), kMostReasons); ++i) {
-    text += (i == 0 ? "" : "; ") + reasons[i];
-  }
-  if (reasons.size() > kMostReasons) {
-    text += "; and " + std::to_string(reasons.size() - kMostReasons) + " more";
-  }
-  return text;
-}
 
 // The worst of a stage's reports that are there.
 void JudgeReports(const std::vector<fs::path>& reports, StageOutcome* outcome) {

@@ -37,7 +37,8 @@ std::string PhotographInputsSha256(const SitePaths& site, const std::string& sit
   const std::string name = photograph.stem().string();
   return Sha256OfText(site_inputs + "\n" + HashLine(photograph) +
                       HashLine(site.survey() / "foreground" / (name + ".png")) +
-                      HashLine(site.survey() / "shadows" / (name + ".png")));
+                      HashLine(site.survey() / "shadows" / (name + ".png")) +
+                      (site.hour.empty() ? "" : HashLine(site.relit_photo(name))));
 }
 
 }  // namespace insitu

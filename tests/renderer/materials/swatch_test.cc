@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "renderer/swatch.h"
+#include "renderer/materials/swatch.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "renderer/material_page.h"
+#include "renderer/materials/material_page.h"
 
 #include <algorithm>
 #include <vector>
@@ -10,7 +10,7 @@
 #include "calibration/program/html_text.h"
 #include "calibration/program/program.h"
 #include "renderer/building/building_materials.h"
-#include "renderer/swatch.h"
+#include "renderer/materials/swatch.h"
 
 namespace insitu {
 namespace {

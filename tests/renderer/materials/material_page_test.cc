@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "renderer/material_page.h"
+#include "renderer/materials/material_page.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "renderer/material_proposals.h"
+#include "renderer/materials/material_proposals.h"
 
 #include <algorithm>
 #include <cctype>

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "renderer/render_quality.h"
+
+#include <algorithm>
+
+namespace insitu {
+namespace {
+
+void AtMost(int rays, int outline_rays, int bounces, RenderSiteOptions* options) {
+  RenderOptions& render = options->render;
+  render.most_rays = std::min(render.most_rays, rays);
+  render.outline_rays = std::min(render.outline_rays, outline_rays);
+  if (!options->uniform_ambient)
+    options->bounces = std::min(options->bounces.value_or(bounces), bounces);
+}
+
+}  // namespace
+
+void Lessen(Quality quality, RenderSiteOptions* options) {
+  if (quality == Quality::kFinal) return;
+  options->quality = quality == Quality::kFast ? "fast" : "draft";
+  if (quality == Quality::kDraft) return AtMost(4, 8, 1, options);
+  AtMost(4, 4, 0, options);
+  options->find_shadows = false;
+}
+
+}  // namespace insitu
