@@ -11,13 +11,14 @@ failures=0
 temporary=$(mktemp -d)
 trap 'rm -rf -- "$temporary"' EXIT
 
-# check WHAT COMMAND...: the command's status decides; its output is shown.
+# check WHAT COMMAND...: the command's status decides; its output is shown, and what is slow.
 check() {
-  local what=$1 output result=ok
+  local what=$1 output result=ok start=$SECONDS slow=''
   shift
   output=$("$@" 2>&1) || result=FAIL
   [[ $result == ok ]] || failures=$((failures + 1))
-  printf '%-4s %s%s\n' "$result" "$what" "${output:+: $output}"
+  [[ $((SECONDS - start)) -lt 5 ]] || slow=" [$((SECONDS - start)) s]"
+  printf '%-4s %s%s%s\n' "$result" "$what" "$slow" "${output:+: $output}"
 }
 
 # finish: the script's status, 1 if any assertion failed.
@@ -37,11 +38,12 @@ photo_file() { find "$1/photos" -name "$2.*"; }
 
 # check_figures WHAT COMMAND...: one assertion for each line "ok: ..." or "FAIL: ..." it prints.
 check_figures() {
-  local what=$1 line
+  local what=$1 line start=$SECONDS
   shift
   while IFS= read -r line; do
     check "$what, ${line#*: }" test "${line%%: *}" = ok
   done < <("$@" || printf 'FAIL: %s ends with an error\n' "${2##*/}")
+  [[ $((SECONDS - start)) -lt 5 ]] || printf '     %s took %d s\n' "$what" $((SECONDS - start))
 }
 
 # fresh_site: a copy of the demo site with all its results, at $site.
