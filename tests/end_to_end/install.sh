@@ -95,13 +95,13 @@ runs_elsewhere() {
   cd / && env -i PATH=/usr/bin:/bin "$insitu" montage "$site" --render.photo left >/dev/null
 }
 check 'the installed programs run on their own' runs_elsewhere
-same_bytes() { # as the build's own programs make
-  local first second
-  first=$(cd -- "$site/montages" && checksums .)
-  rm -r -- "$site/work" "$site/montages"
-  "$INSITU_BIN/insitu-montage" "$site" --render.photo left >/dev/null
-  second=$(cd -- "$site/montages" && checksums .)
-  [[ -n $first && $first == "$second" ]]
+same_bytes() { # as the build's own programs made
+  local name first second
+  for name in "$site"/montages/left.*; do
+    first=$(checksums "$name") second=$(checksums "$DEMO_SITE/montages/${name##*/}")
+    [[ ${first%% *} == "${second%% *}" ]] || { printf '%s' "${name##*/}" && return 1; }
+  done
+  [[ -s $site/montages/left.exr ]]
 }
 check 'and make the same bytes' same_bytes
 finish

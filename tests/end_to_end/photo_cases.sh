@@ -26,14 +26,11 @@ run() { "$INSITU_BIN/insitu-$1" "$site" "${@:2}" >/dev/null; }
 site=$base
 for program in calibrate reconstruct undistort light convert; do check "gallery, $program" run "$program"; done
 
-# montage_of ENDING: renders the photograph; where $building is set, with the building, in direct light:
-# colours are looked at, not light.
-montage_of() {
-  local options=(--no-building)
-  [[ -z ${building:-} ]] || options=(--no-shadow-search --bounces 0)
-  run undistort && run render "${options[@]}" --photo "$name" &&
-    [[ -s $site/montages/$name.$1 ]]
-}
+# montage_of ENDING OPTION...: renders the photograph of $site, whose input images are there.
+montage_of() { run render "${@:2}" --photo "$name" && [[ -s $site/montages/$name.$1 ]]; }
+without_building() { run undistort && montage_of "$1" --no-building; }
+# In direct light: colours are looked at, not light.
+with_building() { montage_of "$1" --no-shadow-search --bounces 0; }
 # new_site FILE: $site is the gallery with this as its photograph.
 new_site() {
   site=$temporary/site
@@ -64,24 +61,24 @@ refuses_photo() {
 
 # 03: a profile is heeded.
 new_site "$cases/03-icc-profile-ignored/p3_icc.jpg"
-check 'case 03, montage without building' montage_of jpg
+check 'case 03, montage without building' without_building jpg
 for ending in jpg png; do check "case 03, the $ending is the photograph" is_photo "$ending"; done
 check 'case 03, the exr looks like the photograph' looks_like "$photo" "$site/montages/$name.exr" 0.5
 new_site "$cases/03-icc-profile-ignored/orient6p3.jpg"
-check 'case 03, turned, montage without building' montage_of jpg
+check 'case 03, turned, montage without building' without_building jpg
 for ending in jpg png exr; do check "case 03, the turned $ending" stands_upright "$ending"; done
 
 # 04: converted, or refused by name.
 new_site "$cases/04-cmyk-lab-gamma-chromaticities/cmyk_icc.jpg"
 check 'case 04, CMYK' refuses_photo "$name.jpg: is CMYK, expected RGB or grey; convert it to sRGB"
 new_site "$cases/04-cmyk-lab-gamma-chromaticities/grey_icc.jpg"
-check 'case 04, grey with its profile, montage without building' montage_of jpg
+check 'case 04, grey with its profile, montage without building' without_building jpg
 check 'case 04, the png looks like the grey photograph' looks_like "$photo" \
   "$site/montages/$name.png" 0.5
 
 # 05: orientation.
 new_site "$cases/05-orientation-png/orient6.jpg"
-check 'case 05, montage without building' montage_of jpg
+check 'case 05, montage without building' without_building jpg
 for ending in jpg png exr; do check "case 05, the $ending" stands_upright "$ending"; done
 
 # 06: metadata that a JPEG cannot hold.
@@ -113,9 +110,9 @@ montages_in() {
   new_site "$gallery/photos/$name.jpg"
   rm -- "$photo"
   "$WRITE_PHOTOGRAPH" "$1" "$gallery/photos_linear/$name.exr" "$site/photos/$name.$2"
-  montage_of "$2" &&
+  without_building "$2" &&
     mv -- "$site/montages/$name.$2" "$temporary/$1.without.$2" &&
-    building=seen montage_of "$2" &&
+    with_building "$2" &&
     mv -- "$site/montages/$name.$2" "$temporary/$1.with.$2"
 }
 check 'sRGB, montages' montages_in srgb png
