@@ -10,6 +10,7 @@
 #include "calibration/photo/distinct_photographs.h"
 #include "calibration/photo/photograph.h"
 #include "reconstruction/adjustment/align_tie_points.h"
+#include "reconstruction/colmap/colmap_subset.h"
 #include "reconstruction/colmap/colmap_text.h"
 #include "reconstruction/colmap/read_colmap_model.h"
 #include "reconstruction/site_photos.h"
@@ -56,22 +57,24 @@ std::vector<MatchedModel> ModelsOfColmap(const SitePaths& site, const std::vecto
           (site.tie_points().parent_path() / "logs").string());
 }
 
-MatchedModel BroughtModel(const fs::path& folder, const std::vector<fs::path>& photos,
-                          const std::vector<Camera>& cameras) {
-  MatchedModel model;
-  model.colmap = ReadColmapModel(folder);
-  for (auto& [id, image] : model.colmap.images) {
+// Image for image the photographs of the site, under their own names, of the sizes of their
+// cameras. What else it holds is left out and told.
+ColmapModel SiteModel(const fs::path& folder, const std::vector<fs::path>& photos,
+                      const std::vector<Camera>& cameras, std::vector<std::string>* remarks) {
+  ColmapModel model = ReadColmapModel(folder);
+  std::set<uint32_t> of_site;
+  std::vector<std::string> others;
+  for (auto& [id, image] : model.images) {
     const fs::path name = fs::path(image.name).filename();
     const auto photo = std::find_if(photos.begin(), photos.end(), [&](const fs::path& path) {
       return path.filename() == name || path.stem() == name.stem();
     });
     if (photo == photos.end()) {
-      throw InputError(folder, "its image '" + image.name +
-                                   "' is not in the folder photos, expected a model of this "
-                                   "site's photographs");
+      others.push_back(image.name);
+      continue;
     }
     const Camera& camera = cameras[static_cast<size_t>(photo - photos.begin())];
-    const ColmapLens& lens = model.colmap.cameras.at(image.camera);
+    const ColmapLens& lens = model.cameras.at(image.camera);
     if (lens.width != camera.width() || lens.height != camera.height()) {
       throw InputError(folder, "its image '" + image.name + "' is " +
                                    SizeText(lens.width, lens.height) + ", expected " +
@@ -79,17 +82,30 @@ MatchedModel BroughtModel(const fs::path& folder, const std::vector<fs::path>& p
                                    ": keypoints must be those of the original photographs");
     }
     image.name = photo->filename();
+    of_site.insert(id);
   }
-  model.tie_points = TiePointsFromColmap(model.colmap);
-  model.tie_points.program = "COLMAP, its model brought";
-  model.tie_points.program_version = "unknown";
+  if (of_site.size() < 2) {
+    throw InputError(folder, "holds " + std::to_string(of_site.size()) +
+                                 " photographs of this site, expected two or more; " +
+                                 Listing("not in the folder photos", others));
+  }
+  if (others.empty()) return model;
+  remarks->push_back("images of the model that are " + Listing("not in the folder photos", others) +
+                     " are left out");
+  KeepImages(of_site, &model);
   return model;
 }
 
-std::string Listed(const std::vector<std::string>& names) {
-  std::string list;
-  for (const std::string& name : names) list += (list.empty() ? "'" : ", '") + name + "'";
-  return list;
+MatchedModel BroughtModel(const fs::path& folder, const std::vector<fs::path>& photos,
+                          const std::vector<Camera>& cameras) {
+  std::vector<std::string> remarks;
+  MatchedModel model;
+  model.colmap = SiteModel(folder, photos, cameras, &remarks);
+  model.tie_points = TiePointsFromColmap(model.colmap);
+  model.tie_points.remarks = remarks;
+  model.tie_points.program = "COLMAP, its model brought";
+  model.tie_points.program_version = "unknown";
+  return model;
 }
 
 std::vector<std::string> NamesOf(const TiePoints& tie_points) {
@@ -124,7 +140,7 @@ TiePoints Merged(std::vector<MatchedModel> models, const Survey& survey,
   for (size_t i = 1; i < models.size(); ++i) {
     const TiePoints& other = models[i].tie_points;
     const auto world_from_other = FitSimilarity(FindModelControl(survey, cameras, other).pairs);
-    const std::string photos = Listed(NamesOf(other));
+    const std::string photos = QuotedList(NamesOf(other));
     if (!world_from_main || !world_from_other) {
       merged.remarks.push_back("the photos " + photos +
                                " are connected among themselves only and were left out; mark three "
@@ -148,7 +164,8 @@ void NameWhatIsMissing(const std::vector<fs::path>& photos, TiePoints* tie_point
     }
   }
   if (tie_points->not_placed.empty()) return;
-  tie_points->remarks.push_back("image matching could not place " + Listed(tie_points->not_placed) +
+  tie_points->remarks.push_back("image matching could not place " +
+                                QuotedList(tie_points->not_placed) +
                                 ": it needs three control points of its own");
 }
 

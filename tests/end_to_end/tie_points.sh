@@ -80,7 +80,8 @@ check 'berlin: COLMAP'\''s binary model comes back' prints '^3 of 3 photos place
 mv -- "$site/photos/03.jpg" "$site/photos/04.jpg"
 check 'berlin: tie points of other photographs' refuses "photo '03' is not in the folder" \
   reconstruct
-check 'berlin: a model of other photographs' refuses "'03.jpg' is not in the folder photos" \
+check 'berlin: a model of other photographs, too' \
+  prints "images of the model that are not in the folder photos \\(1\\): 03.jpg are left out" \
   tie_points --model "$site/work/tie_points/model"
 cp -- "$site/photos/04.jpg" "$site/photos/05.jpg"
 check 'berlin: a photograph twice' refuses '05.jpg: is the same photograph as .04.jpg' tie_points
