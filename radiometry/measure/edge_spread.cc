@@ -3,7 +3,7 @@
 
 #include <ceres/tiny_solver.h>
 
-#include <Eigen/Cholesky>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -116,12 +116,22 @@ struct EdgeResiduals {
   }
 };
 
+// As ceres::TinySolver asks for one.
+struct NormalEquations {
+  Eigen::MatrixXd matrix;
+
+  void compute(const Eigen::MatrixXd& normal) { matrix = normal; }
+  Eigen::VectorXd solve(const Eigen::VectorXd& right) const {
+    return SolveSymmetric(matrix, right);
+  }
+};
+
 // From the expected place.
 EdgeFit FitEdge(const std::vector<EdgePixel>& pixels, double before, double behind) {
   EdgeModel model;
   model << 0, 0, std::log(0.5), before, behind - before, 0, 0;
   const EdgeResiduals problem{pixels};
-  ceres::TinySolver<EdgeResiduals, Eigen::LDLT<Eigen::MatrixXd>> solver;
+  ceres::TinySolver<EdgeResiduals, NormalEquations> solver;
   solver.options.max_num_iterations = kIterations;
   solver.Solve(problem, &model);
   Eigen::VectorXd residuals(problem.NumResiduals());
