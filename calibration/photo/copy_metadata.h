@@ -16,7 +16,7 @@ struct MontageStatement {
   std::string photograph_sha256;  // of the files; empty: there is none
   std::string model_sha256, survey_sha256;
   std::string simulation = {};  // whose light it is, where it is not the photograph's; else empty
-  std::string quality;          // "draft"; empty: final
+  std::string quality = {};     // "draft"; empty: final
 };
 
 // What is copied of it.
