@@ -35,6 +35,7 @@ in_browser 'a colleague'\''s copy' merge "$temporary/copy of it"
 in_browser 'beside the light' beside_light
 in_browser 'another light' relit
 in_browser 'German' german "${SCREENSHOTS:-}"
+in_browser 'sketches' sketches
 in_browser 'files' files
 check 'what the page wrote is read by the adjustment' \
   "$INSITU_BIN/insitu-reconstruct" "$temporary/site"
