@@ -20,7 +20,7 @@ namespace {
 struct MontageCommand {
   MontageRequest request;
   RunOptions options;
-  std::string from, to, frame;
+  std::string from, to, frame, quality, avr;
   bool no_building = false, self_calibrate = false, hard_planes = false, is_paper = false;
   std::optional<int> bounces;
 };
@@ -32,6 +32,13 @@ void AddOptions(ProgramOptions* program, MontageCommand* command) {
   program->Flag("--no-building", &command->no_building, "render the empty site", "--variant");
   program->Value("--frame", &command->frame, "pixel grid of the montages: photo or pinhole",
                  {.one_of = {"photo", "pinhole"}});
+  program->Value("--quality", &command->quality,
+                 "of the montages: fast, draft, or final, which is the default",
+                 {.one_of = {"fast", "draft", "final"}});
+  program->Value("--avr", &command->avr,
+                 "of the building 0 its silhouette, 1 its outline, 2 its form, to <photo>~avrN; 3 "
+                 "its materials, which is the default",
+                 {.one_of = {"0", "1", "2", "3"}});
   program->Flag("--tie-points", &command->request.with_tie_points,
                 "search tie points also where every photograph shows enough control");
   program->Flag("--self-calibrate", &command->self_calibrate, "adjust the lens with the site");
@@ -67,6 +74,13 @@ void Complete(MontageCommand* command) {
   }
   if (command->no_building) request.options["render"].push_back("--no-building");
   if (!command->frame.empty()) request.options["render"].push_back("--frame=" + command->frame);
+  if (!command->quality.empty()) {
+    request.options["render"].push_back("--quality=" + command->quality);
+  }
+  if (!command->avr.empty() && command->avr != "3") {
+    request.options["render"].push_back("--avr=" + command->avr);
+    request.site.beside = "avr" + command->avr;
+  }
   for (const char* stage : {"light", "render"}) {
     if (command->is_paper) request.options[stage].push_back("--uniform-ambient");
     if (!command->bounces) continue;

@@ -81,6 +81,7 @@ struct RenderCommand {
   std::string tev;
   std::string quality = NameOf(Quality::kFinal, kQualities);
   bool is_beside = false;
+  std::string avr = NameOf(AvrLevel::kMaterials, kAvrLevels);
   bool no_building = false, streams = false, base64 = false, timing = false;
 };
 
@@ -106,6 +107,10 @@ void AddRenderOptions(ProgramOptions* program, RenderCommand* command) {
                   .text = "fast|draft|final [" + command->quality + "]"});
   program->Flag("--beside", &command->is_beside,
                 "a lesser quality is named <photo>~QUALITY, so that the final pictures stay");
+  program->Value("--avr", &command->avr,
+                 "what of the building is shown: 0 its silhouette, 1 its outline, hidden parts "
+                 "dashed, 2 its form in one grey, 3 its materials; 0 to 2 to <photo>~avrN",
+                 {.one_of = {"0", "1", "2", "3"}, .text = "0|1|2|3 [" + command->avr + "]"});
   program->Value("--most-rays", &options.render.most_rays, "rays a pixel at most",
                  {.shows_default = true, .one_of = {"4", "8", "12", "16"}});
   program->Flag("--uniform-ambient", &options.uniform_ambient,
@@ -138,6 +143,14 @@ void AddRunOptions(ProgramOptions* program, RenderCommand* command) {
   program->Flag("--timing", &command->timing, "print the shares of CPU time");
 }
 
+// What results are named by that do not take the montages' place.
+std::string BesideName(const RenderCommand& command) {
+  const std::string level =
+      kAvrLevels.at(command.avr) == AvrLevel::kMaterials ? "" : "avr" + command.avr;
+  if (!command.is_beside || command.quality == NameOf(Quality::kFinal, kQualities)) return level;
+  return level.empty() ? command.quality : level + "~" + command.quality;
+}
+
 void RenderAndReport(const RenderCommand& command) {
   RenderSiteOptions options = command.options;
   SitePaths site = command.site;
@@ -147,7 +160,8 @@ void RenderAndReport(const RenderCommand& command) {
   options.sharpness = kSharpness.at(command.sharpness);
   options.with_building = !command.no_building;
   options.keeps_pictures = false;
-  if (command.is_beside) site.beside = command.quality == "final" ? "" : command.quality;
+  options.avr = kAvrLevels.at(command.avr);
+  site.beside = BesideName(command);
   Lessen(kQualities.at(command.quality), &options);
   NoteStopSignals();
   options.stops = IsStopSignalled;
@@ -159,6 +173,9 @@ void RenderAndReport(const RenderCommand& command) {
   if (streams) {
     stream.emplace(STDOUT_FILENO,
                    TextFormat(command.base64 ? StreamCoding::kBase64 : StreamCoding::kDecimal));
+  }
+  if (IsDrawn(options.avr) && (streams || !command.tev.empty())) {
+    throw InputError("--stream", "is of what is rendered, not of the drawings of --avr 0 and 1");
   }
   if (!command.tev.empty()) {
     if (streams) throw InputError("--tev", "is not had together with --stream");

@@ -6,8 +6,9 @@
 namespace insitu {
 namespace {
 
-void AtMost(int rays, int outline_rays, int bounces, RenderSiteOptions* options) {
+void AtMost(int rays, int outline_rays, int bounces, int coarseness, RenderSiteOptions* options) {
   RenderOptions& render = options->render;
+  options->light_coarseness = coarseness;
   render.most_rays = std::min(render.most_rays, rays);
   render.outline_rays = std::min(render.outline_rays, outline_rays);
   if (!options->uniform_ambient)
@@ -19,8 +20,9 @@ void AtMost(int rays, int outline_rays, int bounces, RenderSiteOptions* options)
 void Lessen(Quality quality, RenderSiteOptions* options) {
   if (quality == Quality::kFinal) return;
   options->quality = quality == Quality::kFast ? "fast" : "draft";
-  if (quality == Quality::kDraft) return AtMost(4, 8, 1, options);
-  AtMost(4, 4, 0, options);
+  if (quality == Quality::kDraft) return AtMost(4, 8, 1, 2, options);
+  AtMost(4, 4, 1, 4, options);
+  options->render.block = 4;
   options->find_shadows = false;
 }
 

@@ -162,6 +162,8 @@ std::string OptionsText(const RenderSiteOptions& options) {
                    render.fewest_rays, render.most_rays, render.outline_rays, render.tolerance,
                    render.reach, static_cast<int>(options.frame),
                    static_cast<int>(options.with_building), static_cast<int>(options.sharpness)) +
+         Formatted("block %d coarse %d avr %d ", render.block, options.light_coarseness,
+                   static_cast<int>(options.avr)) +
          Formatted("grain %d shadows %d ambient %d bounces %d",
                    static_cast<int>(options.with_grain), static_cast<int>(options.find_shadows),
                    static_cast<int>(options.uniform_ambient), options.bounces.value_or(-1));
@@ -169,8 +171,15 @@ std::string OptionsText(const RenderSiteOptions& options) {
 
 // Of the light among surfaces, which all photographs share.
 std::string LightOptionsText(const RenderSiteOptions& options) {
-  return Formatted("light, building %d bounces %d", static_cast<int>(options.with_building),
-                   options.bounces.value_or(-1));
+  return Formatted("light, building %d bounces %d coarse %d form %d",
+                   static_cast<int>(options.with_building), options.bounces.value_or(-1),
+                   options.light_coarseness, static_cast<int>(options.avr == AvrLevel::kForm));
+}
+
+// Each quality has its own, and the form without materials.
+std::filesystem::path LightCacheOf(SitePaths site, const RenderSiteOptions& options) {
+  site.beside = options.avr == AvrLevel::kForm ? "form" + options.quality : options.quality;
+  return site.light_cache();
 }
 
 // What insitu-view must know of a montage that its files do not tell.
@@ -180,9 +189,16 @@ void WriteRenderRecord(const SitePaths& site, const std::string& photo,
   record["frame"] = FrameName(options.frame);
   record["with_building"] = options.with_building;
   record["most_rays"] = options.render.most_rays;
+  if (options.avr != AvrLevel::kMaterials) record["avr"] = static_cast<int>(options.avr);
   if (!options.quality.empty()) record["quality"] = options.quality;
   if (!site.hour.empty()) record["hour"] = site.hour;
   WriteJson(site.render_record(photo), record);
+}
+
+ArtificialEnvironment BuildingShown(const SitePaths& site, const RenderSiteOptions& options) {
+  if (!options.with_building) return {};
+  ArtificialEnvironment building = ReadArtificialEnvironment(site);
+  return options.avr == AvrLevel::kForm ? FormOf(std::move(building)) : building;
 }
 
 // All photographs of a run, each of which may go on where an earlier run was stopped.
@@ -191,19 +207,18 @@ class SiteRender {
   SiteRender(const SitePaths& site, const RenderSiteOptions& options)
       : site_(site),
         options_(options),
-        building_(options.with_building ? ReadArtificialEnvironment(site)
-                                        : ArtificialEnvironment()),
+        building_(BuildingShown(site, options)),
         edges_(building_),
         gains_(ReadPhotoGains(site)),
         scene_(LoadScene(site, ReadEnvironment(site), gains_, building_)),
         files_(SiteInputsSha256(site, scene_.natural, building_)),
         inputs_(Sha256OfText(OptionsText(options) + "\n" + files_)),
         light_inputs_(Sha256OfText(LightOptionsText(options) + "\n" + files_)),
-        statement_(StatementOf(site, options.with_building, options.quality)) {
+        statement_(StatementOf(site, {options.with_building, options.avr, options.quality})) {
     ThrowIfStopped();
-    if (options.uniform_ambient) return;
-    const auto kept = ReadLightCache(site.light_cache(), light_inputs_);
-    AddInterreflection(&scene_, options.bounces, kept ? &*kept : nullptr);
+    if (options.uniform_ambient || IsDrawn(options.avr)) return;
+    const auto kept = ReadLightCache(LightCacheOf(site, options), light_inputs_);
+    AddInterreflection(&scene_, options.bounces, kept ? &*kept : nullptr, options.light_coarseness);
     if (kept) kept_points_ = GatheredPoints();
   }
 
@@ -219,12 +234,13 @@ class SiteRender {
     if (options_.with_building) {
       report.uncertainty = WriteUncertaintyOf(site_, geometry, camera, edges_);
     }
-    std::optional<SunShares> shares = SunSharesOf(scene_, view, options_);
+    std::optional<SunShares> shares;
+    if (!IsDrawn(options_.avr)) shares = SunSharesOf(scene_, view, options_);
     const RenderOptions render = OptionsFor(view, shares);
     report.point_spread = render.point_spread;
     report.has_grain = render.grain.has_value();
     const auto start = std::chrono::steady_clock::now();
-    report.result = Tiles(photograph, view, render);
+    report.result = IsDrawn(options_.avr) ? Drawn(view) : Tiles(photograph, view, render);
     if (!view.in_unit.data.empty()) {
       BackToPhotograph(view.relit.data.empty() ? view.photo.linear : view.relit, view.in_unit,
                        view.gain, &report.result.linear);
@@ -250,7 +266,8 @@ class SiteRender {
   std::optional<std::string> KeepLight() const {
     if (!scene_.interreflected || GatheredPoints() == kept_points_) return std::nullopt;
     try {
-      WriteLightCache(site_.light_cache(), light_inputs_, KeptLightOf(*scene_.interreflected));
+      WriteLightCache(LightCacheOf(site_, options_), light_inputs_,
+                      KeptLightOf(*scene_.interreflected));
     } catch (const std::exception& error) {
       return std::string(error.what()) + "; the next render gathers its light anew";
     }
@@ -281,6 +298,12 @@ class SiteRender {
     render.is_clipped = [&view](int x, int y) { return IsClipped(view.photo, x, y); };
     if (shares) render.sun_share = std::make_shared<const Raster>(shares->share);
     return render;
+  }
+
+  RenderResult Drawn(const RenderView& view) const {
+    const DrawnView drawn = {scene_, view.camera, InUnit(view), view.foreground.get()};
+    return options_.avr == AvrLevel::kSilhouette ? DrawSilhouette(drawn)
+                                                 : DrawOutline(drawn, edges_);
   }
 
   RenderResult Tiles(const std::filesystem::path& photograph, const RenderView& view,

@@ -11,6 +11,7 @@
 #include "calibration/photo/photograph.h"
 #include "calibration/program/site.h"
 #include "renderer/building/building_uncertainty.h"
+#include "renderer/levels/avr_levels.h"
 #include "renderer/render_view.h"
 #include "renderer/tiles/render_watcher.h"
 #include "renderer/trace/render.h"
@@ -34,8 +35,10 @@ struct RenderSiteOptions {
   bool find_shadows = true;
   bool uniform_ambient = false;     // the paper's light as printed, instead of light among surfaces
   std::optional<int> bounces = {};  // of light among surfaces, at most; 0: sun and sky alone
-  std::string quality = {};         // what the pictures say of it; empty: final
-  bool keeps_pictures = true;       // in the reports, too: as much memory as all montages together
+  AvrLevel avr = AvrLevel::kMaterials;
+  std::string quality = {};          // what the pictures say of it; empty: final
+  int light_coarseness = 1;          // of light among surfaces, as AddInterreflection has it
+  bool keeps_pictures = true;        // in the reports, too: as much memory as all montages together
   std::function<bool()> stops = {};  // asked before each tile, from any thread
   RenderWatcher* watcher = nullptr;  // null: nobody looks on
 

@@ -25,15 +25,28 @@ std::string SurveySha256(const SitePaths& site) {
   return Sha256OfText(text);
 }
 
+std::string WhatIsShown(AvrLevel level) {
+  switch (level) {
+    case AvrLevel::kSilhouette:
+      return "a drawing, the planned building's silhouette whatever hides it (AVR 0)";
+    case AvrLevel::kOutline:
+      return "a drawing, the planned building's outline, dashed where it is hidden (AVR 1)";
+    case AvrLevel::kForm:
+      return "the planned building's form in one grey, not in its materials (AVR 2)";
+    case AvrLevel::kMaterials:
+      break;
+  }
+  return "the planned building";
+}
+
 MontageStatement StatementOf(MontageStatement statement, const std::filesystem::path& photograph,
                              const RenderResult& result) {
   statement.photograph_sha256 = Sha256(photograph);
   const bool is_simulated = !statement.simulation.empty();
   statement.is_composite = is_simulated || result.building_pixels + result.changed_pixels > 0;
   statement.computed = statement.is_composite
-                           ? std::to_string(result.building_pixels) +
-                                 " pixels of the planned building, " +
-                                 std::to_string(result.changed_pixels) +
+                           ? std::to_string(result.building_pixels) + " pixels of " +
+                                 statement.computed + ", " + std::to_string(result.changed_pixels) +
                                  " pixels of its surroundings whose light it "
                                  "changes; all others are the photograph's" +
                                  (is_simulated ? ", simulated at another hour" : "")
@@ -51,13 +64,13 @@ void WriteUpright(const std::filesystem::path& file, const Raster& picture,
 
 }  // namespace
 
-MontageStatement StatementOf(const SitePaths& site, bool with_building,
-                             const std::string& quality) {
+MontageStatement StatementOf(const SitePaths& site, const MontageKind& kind) {
   MontageStatement statement;
-  statement.quality = quality;
+  statement.computed = WhatIsShown(kind.avr);
+  statement.quality = kind.quality;
   statement.program = std::string("insitu ") + INSITU_VERSION;
   statement.survey_sha256 = SurveySha256(site);
-  if (with_building) statement.model_sha256 = Sha256(site.artificial());
+  if (kind.with_building) statement.model_sha256 = Sha256(site.artificial());
   if (!site.hour.empty()) {
     statement.simulation =
         JsonNode::Load(site.environment()).At("simulation").At("statement").Text();

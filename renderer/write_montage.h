@@ -9,14 +9,22 @@
 
 #include "calibration/photo/montage_files.h"
 #include "calibration/program/site.h"
+#include "renderer/levels/avr_levels.h"
 #include "renderer/render_view.h"
 #include "renderer/shadows/shadow_separation.h"
 #include "renderer/trace/render.h"
 
 namespace insitu {
 
-// What all pictures of a run state.
-MontageStatement StatementOf(const SitePaths& site, bool with_building, const std::string& quality);
+// What all pictures of a run are.
+struct MontageKind {
+  bool with_building = true;
+  AvrLevel avr = AvrLevel::kMaterials;
+  std::string quality = {};  // empty: final
+};
+
+// What they state of themselves; `computed` names what of the building is in them.
+MontageStatement StatementOf(const SitePaths& site, const MontageKind& kind);
 
 // montages/<photo>.exr and the others (montage_files.h). What of the photograph could not be
 // delivered is returned. `linear` is the picture, of `result` the counts are taken.

@@ -15,12 +15,16 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr std::string_view kAvr = "avr";
+
 std::vector<std::string> OptionsFor(const BatchPlan& plan, const BatchJob& job) {
   std::vector<std::string> options = plan.options;
   options.push_back("--photo=" + job.view);
   if (!job.variant.empty()) options.push_back("--variant=" + job.variant);
   if (!job.hour.empty()) options.push_back("--hour=" + job.hour);
-  if (job.quality != "final") {
+  if (job.quality.starts_with(kAvr)) {
+    options.push_back("--avr=" + job.quality.substr(kAvr.size()));
+  } else if (job.quality != "final") {
     options.push_back("--quality=" + job.quality);
     options.emplace_back("--beside");
   }

@@ -17,7 +17,11 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::string_view kBuilding = "building", kMeasured = "measured";
-const std::vector<std::string> kPlanQualities = {"fast", "draft", "final"};
+const std::vector<std::string> kPlanQualities = {"fast", "draft", "final", "avr0", "avr1", "avr2"};
+// What the jobs say themselves.
+const std::vector<std::string> kJobsOptions = {
+    "--photo", "--variant", "--hour",   "--quality",       "--beside",
+    "--avr",   "--threads", "--stream", "--stream-base64", "--tev"};
 
 void RequireKnownKeys(const JsonNode& node, const std::set<std::string>& known) {
   for (const auto& [key, value] : node.Members()) {
@@ -42,6 +46,15 @@ std::vector<std::string> NamesIn(const JsonNode& plan, const std::string& key,
   return names;
 }
 
+// All of a few names, the first of many.
+std::string NamesText(const std::vector<std::string>& names) {
+  constexpr size_t kFew = 8;
+  if (names.size() > kFew) return QuotedList(names);
+  std::string text;
+  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
+  return text;
+}
+
 // Throws InputError at the item that is not among `known`.
 void RequireAmong(const JsonNode& plan, const std::string& key, const std::string& what,
                   const std::vector<std::string>& known) {
@@ -50,7 +63,7 @@ void RequireAmong(const JsonNode& plan, const std::string& key, const std::strin
   for (const JsonNode& item : list->Items()) {
     if (std::find(known.begin(), known.end(), item.Text()) != known.end()) continue;
     throw item.Error("is " + Quoted(item.Text()) + ", no " + what + ", expected one of " +
-                     QuotedList(known));
+                     NamesText(known));
   }
 }
 
@@ -127,6 +140,20 @@ std::vector<PlannedHour> HoursIn(const JsonNode& plan, const Json::Value& raw) {
   return hours;
 }
 
+std::vector<std::string> OptionsIn(const JsonNode& plan) {
+  const auto list = plan.Find("options");
+  if (!list) return {};
+  for (const JsonNode& item : list->Items()) {
+    const std::string text = item.Text(), name = text.substr(0, text.find('='));
+    if (!name.starts_with("--") || std::ranges::find(kJobsOptions, name) != kJobsOptions.end()) {
+      throw item.Error("is " + Quoted(text) +
+                       ", expected options of insitu-render that the plan does not say otherwise, "
+                       "as --OPTION or --OPTION=VALUE");
+    }
+  }
+  return list->Texts();
+}
+
 }  // namespace
 
 BatchPlan ReadBatchPlan(const fs::path& file) {
@@ -144,7 +171,7 @@ BatchPlan ReadBatchPlan(const fs::path& file) {
   plan.qualities = NamesIn(root, "qualities", {"final"});
   RequireAmong(root, "qualities", "quality", kPlanQualities);
   plan.hours = HoursIn(root, ReadJson(file));
-  if (const auto options = root.Find("options")) plan.options = options->Texts();
+  plan.options = OptionsIn(root);
   return plan;
 }
 

@@ -23,8 +23,8 @@ struct PlannedHour {
 //   "views": ["IMG_1"],                    missing: every photograph
 //   "variants": ["building", "tower"],     "building" is the folder building/; missing: that alone
 //   "hours": ["measured", "16:30", "2024-12-21T12:00", {"azimuth_deg": 180, "elevation_deg": 30}],
-//   "qualities": ["draft", "final"],       missing: final
-//   "options": ["--grain"]                 of insitu-render, for all jobs
+//   "qualities": ["draft", "final", "avr1"],  missing: final; avr0 to avr2: as --avr of
+//   insitu-render "options": ["--grain"]                 of insitu-render, for all jobs
 // }
 struct BatchPlan {
   std::filesystem::path file;

@@ -207,6 +207,7 @@ std::vector<MontageStage> MakeStages() {
        Montages,
        NoReports,
        Always,
+       true,
        true},
   };
 }
@@ -220,6 +221,10 @@ const std::vector<MontageStage>& MontageStages() {
 
 SitePaths RecordsOf(const MontageStage& stage, const MontageRequest& request) {
   return stage.is_of_design ? request.site : SitePaths{request.site.root};
+}
+
+std::string RecordNameOf(const MontageStage& stage, const MontageRequest& request) {
+  return stage.makes_pictures ? request.site.result_name(stage.name) : stage.name;
 }
 
 size_t StageNamed(const std::string& name) {

@@ -34,11 +34,13 @@ struct MontageStage {
   std::function<std::vector<std::filesystem::path>(const MontageRequest&)> reports;
   // Whether there is anything for it to do.
   std::function<bool(const MontageRequest&)> is_needed;
-  bool is_of_design = false;  // reads the building: one record a variant
+  bool is_of_design = false;    // reads the building: one record a variant
+  bool makes_pictures = false;  // named by SitePaths::beside: one record for each
 };
 
-// Where the records of a stage are kept.
+// Where the records of a stage are kept, and their name.
 SitePaths RecordsOf(const MontageStage& stage, const MontageRequest& request);
+std::string RecordNameOf(const MontageStage& stage, const MontageRequest& request);
 
 const std::vector<MontageStage>& MontageStages();
 

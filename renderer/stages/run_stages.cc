@@ -181,7 +181,8 @@ class Run {
     }
     const fs::path program = FindProgram(options_.programs, stage.name);
     StageRecord now = CurrentState(stage, program);
-    const std::optional<StageRecord> then = ReadStageRecord(RecordsOf(stage, request_), stage.name);
+    const std::optional<StageRecord> then =
+        ReadStageRecord(RecordsOf(stage, request_), RecordNameOf(stage, request_));
     const std::vector<std::string> reasons =
         then ? WhatChanged(*then, now) : std::vector<std::string>{"it has not run yet"};
     if (reasons.empty()) {
@@ -212,10 +213,10 @@ class Run {
     const std::string expected =
         last_seconds < 2 ? "…" : "… (" + DurationText(last_seconds) + " last time)";
     console_.SetRunning(i, Line(i, expected));
-    RemoveStageRecord(RecordsOf(stage, request_), stage.name);
+    RemoveStageRecord(RecordsOf(stage, request_), RecordNameOf(stage, request_));
     const auto start = std::chrono::steady_clock::now();
     const StageRun run = RunStageProgram(
-        command, StageLog(RecordsOf(stage, request_), stage.name),
+        command, StageLog(RecordsOf(stage, request_), RecordNameOf(stage, request_)),
         [&](const std::string& progress) { console_.SetRunning(i, Line(i, progress)); },
         [&](const std::string& line) { console_.Error(line); });
     if (run.status != 0) {
@@ -241,7 +242,7 @@ class Run {
     }
     record->outputs = StatesOf(request_.site, stage.outputs(request_), &hashes_);
     std::erase_if(record->outputs, [](const auto& file) { return file.second.empty(); });
-    WriteStageRecord(RecordsOf(stage, request_), stage.name, *record);
+    WriteStageRecord(RecordsOf(stage, request_), RecordNameOf(stage, request_), *record);
   }
 
   int StatusOf(size_t i, int status) {
@@ -249,8 +250,9 @@ class Run {
     if (status <= 2) return status;  // it has said why
     const std::string how = status > 128 ? "was ended by signal " + std::to_string(status - 128)
                                          : "ended with status " + std::to_string(status);
-    console_.Error("insitu-" + stages_[i].name + " " + how + "; what it printed is in " +
-                   StageLog(RecordsOf(stages_[i], request_), stages_[i].name).string());
+    console_.Error(
+        "insitu-" + stages_[i].name + " " + how + "; what it printed is in " +
+        StageLog(RecordsOf(stages_[i], request_), RecordNameOf(stages_[i], request_)).string());
     return 1;
   }
 

@@ -6,6 +6,7 @@
 #include <map>
 #include <span>
 
+#include "calibration/files/error.h"
 #include "radiometry/light/fresnel.h"
 #include "renderer/trace/light_split.h"
 #include "renderer/trace/through_glass.h"
@@ -53,14 +54,14 @@ double SurfaceIn(const MontageScene& scene, const Eigen::AlignedBox3d& focus) {
   return area;
 }
 
-PatchGrid GridAbout(const MontageScene& scene, const Eigen::AlignedBox3d& focus) {
+PatchGrid GridAbout(const MontageScene& scene, const Eigen::AlignedBox3d& focus, int coarseness) {
   const double size = focus.diagonal().norm();
   double piece = std::max(kSmallestPiece, size / kPiecesAcross);
   if (size > kLargeBuilding && !scene.artificial_mesh.vertices.empty()) {
     const double of_surface = std::sqrt(SurfaceIn(scene, focus) / kPiecesOfSurface);
     piece = std::clamp(of_surface, kLargeBuilding / kPiecesAcross, piece);
   }
-  return {{focus}, piece};
+  return {{focus}, coarseness * piece};
 }
 
 Daylight OpenSky(Daylight light) {
@@ -68,16 +69,17 @@ Daylight OpenSky(Daylight light) {
   return light;
 }
 
-IrradianceMapOptions MapOptions(const MontageScene& scene) {
+IrradianceMapOptions MapOptions(const MontageScene& scene, int coarseness) {
   const double size = std::min(kLargeBuilding, FocusOf(scene).diagonal().norm());
   IrradianceMapOptions options;
-  options.smallest = std::max(options.smallest, kSmallestOf * size);
-  options.calm = std::max(options.smallest, kCalmOf * size);
+  options.smallest = coarseness * std::max(options.smallest, kSmallestOf * size);
+  options.calm = std::max(options.smallest, coarseness * kCalmOf * size);
+  options.tolerance *= coarseness;
   return options;
 }
 
-IrradianceMapOptions SiteMapOptions(const MontageScene& scene) {
-  IrradianceMapOptions options = MapOptions(scene);
+IrradianceMapOptions SiteMapOptions(const MontageScene& scene, int coarseness) {
+  IrradianceMapOptions options = MapOptions(scene, coarseness);
   if (!scene.artificial_mesh.vertices.empty()) options.building = FocusOf(scene);
   return options;
 }
@@ -177,11 +179,19 @@ PlannedFaces PlannedOf(const MontageScene& scene, const OpaqueFaces& opaque,
   return {faces.mesh, faces.rays, opaque.normals, opaque.material_of_triangle, brdfs, clear};
 }
 
+InterreflectionOptions OptionsOf(std::optional<int> bounces, int coarseness) {
+  InterreflectionOptions options{.bounces = bounces};
+  options.patch_directions /= coarseness * coarseness;
+  options.point_directions /= coarseness * coarseness;
+  return options;
+}
+
 // What each piece meets, which solving takes, is let go: it is the largest part by far.
 Interreflection SolvedAmong(const TransportScene& transport, const MontageScene& scene,
-                            const InterreflectionOptions& options, const KeptLight* kept) {
+                            const InterreflectionOptions& options, const KeptLight* kept,
+                            int coarseness) {
   const Daylight& light = scene.natural.light;
-  const PatchGrid grid = GridAbout(scene, FocusOf(scene));
+  const PatchGrid grid = GridAbout(scene, FocusOf(scene), coarseness);
   if (kept) return {transport, light, grid, kept->solved, options};
   Interreflection solved(transport, light, grid, options);
   solved.Solve(OpenSky(light));
@@ -196,7 +206,7 @@ std::span<const KeptPoint> PointsOf(const KeptLight* kept,
 }  // namespace
 
 InterreflectedLight::InterreflectedLight(const MontageScene& scene, std::optional<int> bounces,
-                                         const KeptLight* kept)
+                                         const KeptLight* kept, int coarseness)
     : artificial_brdfs(DiffuseBrdfs(scene)),
       opaque(OpaqueFacesOf(scene)),
       kind_of_pane(KindsOfPanes(scene)),
@@ -204,14 +214,18 @@ InterreflectedLight::InterreflectedLight(const MontageScene& scene, std::optiona
       transport{scene.Photographed(), scene.natural_mesh,
                 PlannedOf(scene, opaque, artificial_brdfs, clear ? &*clear : nullptr),
                 LampsOf(scene)},
-      interreflection(SolvedAmong(transport, scene, {.bounces = bounces}, kept)),
-      on_site(interreflection, scene.natural_mesh, NaturalNormals(scene), SiteMapOptions(scene),
-              PointsOf(kept, &KeptLight::on_site)),
+      interreflection(
+          SolvedAmong(transport, scene, OptionsOf(bounces, coarseness), kept, coarseness)),
+      on_site(interreflection, scene.natural_mesh, NaturalNormals(scene),
+              SiteMapOptions(scene, coarseness), PointsOf(kept, &KeptLight::on_site)),
       on_building(interreflection, scene.artificial_mesh, scene.artificial_normals,
-                  MapOptions(scene), PointsOf(kept, &KeptLight::on_building)) {}
+                  MapOptions(scene, coarseness), PointsOf(kept, &KeptLight::on_building)) {}
 
-void AddInterreflection(MontageScene* scene, std::optional<int> bounces, const KeptLight* kept) {
-  scene->interreflected = std::make_shared<const InterreflectedLight>(*scene, bounces, kept);
+void AddInterreflection(MontageScene* scene, std::optional<int> bounces, const KeptLight* kept,
+                        int coarseness) {
+  INSITU_CHECK(coarseness == 1 || coarseness == 2 || coarseness == 4);
+  scene->interreflected =
+      std::make_shared<const InterreflectedLight>(*scene, bounces, kept, coarseness);
 }
 
 KeptLight KeptLightOf(const InterreflectedLight& light) {

@@ -22,9 +22,9 @@ struct KeptLight {
 };
 
 struct InterreflectedLight {
-  // `kept` of the same scene and bounces; null: none.
-  InterreflectedLight(const MontageScene& scene, std::optional<int> bounces,
-                      const KeptLight* kept = nullptr);
+  // As AddInterreflection has them.
+  InterreflectedLight(const MontageScene& scene, std::optional<int> bounces, const KeptLight* kept,
+                      int coarseness);
 
   std::vector<Spectrum> artificial_brdfs;  // of each material, its diffuse share
   OpaqueFaces opaque;
@@ -37,9 +37,11 @@ struct InterreflectedLight {
 
 // Solves the interreflection of `scene` and hands it to it. `bounces`: at most; nullopt: until they
 // change nothing; 0: sun and sky alone.
-// `kept` by KeptLightOf with the same scene and bounces: that much need not be done again.
+// `kept` by KeptLightOf with the same of all this, null: none: that much need not be done again.
+// `coarseness`: for quick looks pieces, triangles and tolerance are so many times larger, and the
+// directions that are gathered by its square fewer; 1, 2 or 4.
 void AddInterreflection(MontageScene* scene, std::optional<int> bounces,
-                        const KeptLight* kept = nullptr);
+                        const KeptLight* kept = nullptr, int coarseness = 1);
 
 KeptLight KeptLightOf(const InterreflectedLight& light);
 

@@ -83,8 +83,11 @@ std::optional<double> SpreadSigma(const ViewWork& view, int x, int y) {
 
 void AddRay(const ViewWork& view, const PixelSampler& sampler, int x, int y,
             const std::optional<double>& sigma, PixelSum& sum) {
+  const int block = view.options.block;
   const Eigen::Vector2d offset =
-      sigma ? sampler.Spread(sum.rays, *sigma) : sampler.InPixel(sum.rays);
+      sigma && block == 1 ? sampler.Spread(sum.rays, *sigma)
+                          : block * (sampler.InPixel(sum.rays) + Eigen::Vector2d(0.5, 0.5)) -
+                                Eigen::Vector2d(0.5, 0.5);
   PrimaryRay primary;
   primary.ray = SightOf(view, Eigen::Vector2d(x, y) + offset);
   primary.apparent_rgb = Behind(view, x, y);
@@ -189,18 +192,55 @@ std::optional<Eigen::Vector3d> ComputedPixel(const ViewWork& view, const PixelSu
   return composed().cwiseMax(photo.cwiseMin(0));
 }
 
+// The rays of the squares of pixels in a tile, each sampled once. The site's change, a share of
+// what the photograph shows, is told of the square's first pixel.
+class BlockSums {
+ public:
+  BlockSums(const ViewWork& view, const Tile& tile)
+      : view_(view), tile_(tile), size_(view.options.block) {
+    across_ = (tile.right - tile.left + size_ - 1) / size_;
+    sums_.resize(static_cast<size_t>(across_) * ((tile.bottom - tile.top + size_ - 1) / size_));
+  }
+
+  // `rays` is added to where they are sampled.
+  PixelSum At(int x, int y, bool near_outline, int64_t* rays) {
+    const int u = (x - tile_.left) / size_, v = (y - tile_.top) / size_;
+    const int first_x = tile_.left + u * size_, first_y = tile_.top + v * size_;
+    std::optional<PixelSum>& sum = sums_[static_cast<size_t>(v) * across_ + u];
+    if (!sum) {
+      sum = SamplePixel(view_, first_x, first_y, near_outline);
+      *rays += sum->rays;
+    }
+    if (size_ == 1 || sum->change.isZero(0)) return *sum;
+    constexpr double kMostTimes = 4;  // a bright pixel beside a dark one
+    PixelSum own = *sum;
+    const Eigen::Array3d here = Behind(view_, x, y), there = Behind(view_, first_x, first_y);
+    own.change.array() *= (here / there.max(1e-6)).max(0).min(kMostTimes);
+    return own;
+  }
+
+ private:
+  const ViewWork& view_;
+  const Tile tile_;
+  const int size_;
+  int across_ = 0;
+  std::vector<std::optional<PixelSum>> sums_;
+};
+
 FinishedTile RenderTile(const ViewWork& view, int index) {
   const Tile tile = TileAt(view.photo.width, view.photo.height, index);
   FinishedTile finished;
   finished.index = index;
   std::optional<Outline> outline;
-  if (const auto& spread = view.options.point_spread) outline = OutlineIn(view, *spread, tile);
+  if (const auto& spread = view.options.point_spread; spread && view.options.block == 1) {
+    outline = OutlineIn(view, *spread, tile);
+  }
+  BlockSums sums(view, tile);
   for (int y = tile.top; y < tile.bottom; ++y) {
     for (int x = tile.left; x < tile.right; ++x) {
       finished.is_computed.push_back(0);
       if (FrontShare(view, x, y) >= 1) continue;
-      const PixelSum sum = SamplePixel(view, x, y, outline && outline->IsNear(x, y));
-      finished.counts.rays += sum.rays;
+      const PixelSum sum = sums.At(x, y, outline && outline->IsNear(x, y), &finished.counts.rays);
       const auto computed = ComputedPixel(view, sum, outline.has_value(), x, y);
       if (!computed) continue;
       ++(sum.building_rays > 0 ? finished.counts.building : finished.counts.changed);
@@ -321,6 +361,7 @@ void RenderOptions::Check() const {
   INSITU_CHECK(most_rays >= fewest_rays && most_rays % 4 == 0);
   INSITU_CHECK(tolerance > 0);
   INSITU_CHECK(reach >= 0);
+  INSITU_CHECK(block == 1 || block == 2 || block == 4);
   INSITU_CHECK(threads >= 0);
   INSITU_CHECK(outline_rays >= most_rays && outline_rays % 4 == 0);
   INSITU_CHECK(!point_spread || (point_spread->center_sigma > 0 && point_spread->corner_sigma > 0));

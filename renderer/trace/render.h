@@ -20,6 +20,7 @@ struct RenderOptions {
   int most_rays = 16;        // a pixel, a multiple of 4
   double tolerance = 0.004;  // standard error of a pixel in sRGB units (1 = white) that is enough
   double reach = 0.5;        // change in 8-bit sRGB codes up to which the photograph's pixel stays
+  int block = 1;             // side of squares that one set of rays stands for [px]: 1, 2 or 4
   int threads = 0;           // 0: as many as there are cores
   // How the photograph spreads a point: what is computed is spread alike. nullopt: each pixel is
   // the mean over its square.

@@ -133,7 +133,7 @@ refuses_plan() { # TEXT PATTERN
   [[ $status -eq 2 && $error != *$'\n'* && $error == *$2* && $before == "$(montages)" ]]
 }
 at='"site": "site"'
-check 'a missing variant' refuses_plan "{$at, \"variants\": [\"towr\"]}" "is \"towr\", no variant, expected one of 'building' and 'low'"
+check 'a missing variant' refuses_plan "{$at, \"variants\": [\"towr\"]}" "is \"towr\", no variant, expected one of building, low"
 check 'a missing photograph' refuses_plan "{$at, \"views\": [\"lfet\"]}" 'no photograph'
 check 'a missing quality' refuses_plan "{$at, \"qualities\": [\"best\"]}" 'no quality'
 check 'a damaged plan' refuses_plan "{$at, \"views\": [\"le" 'bad.json:1'

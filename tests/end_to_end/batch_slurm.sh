@@ -49,7 +49,7 @@ kills_a_render() {
     sleep 0.02
   done
   local render
-  render=$(fuser "$partial" 2>/dev/null | awk '{ print $1 }')
+  render=$(pgrep -n -f "insitu-render $site ")
   [[ -n $render ]] && kill -9 "$render" && echo "${partial##*/} of process $render"
 }
 check 'one of its renders is killed in the middle' kills_a_render

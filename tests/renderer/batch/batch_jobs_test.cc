@@ -34,6 +34,15 @@ TEST(JobsOf, AreAllCombinationsInOrder) {
   EXPECT_THAT(jobs[1].options, testing::ElementsAre("--grain", "--photo=a"));
 }
 
+TEST(JobsOf, ALevelOfTheBuildingIsAQuality) {
+  const ScratchFolder scratch;
+  BatchPlan plan = Plan(scratch);
+  plan.qualities = {"avr1"};
+  const BatchJob job = JobsOf(plan, {""})[0];
+  EXPECT_EQ(job.Name(), "a~avr1");
+  EXPECT_THAT(job.options, testing::ElementsAre("--grain", "--photo=a", "--avr=1"));
+}
+
 TEST(JobsOf, NoTwoWriteTheSameFile) {
   const ScratchFolder scratch;
   const BatchPlan plan = Plan(scratch);

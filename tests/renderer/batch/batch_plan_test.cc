@@ -64,13 +64,15 @@ TEST_F(BatchPlanTest, ReadsAllOfIt) {
 
 TEST_F(BatchPlanTest, NamesWhatThereIsNot) {
   EXPECT_THAT(FaultOf(R"("views": ["IMG_3"])"),
-              HasSubstr("is \"IMG_3\", no photograph, expected one of 'IMG_1' and 'IMG_2'"));
+              HasSubstr("is \"IMG_3\", no photograph, expected one of IMG_1, IMG_2"));
   EXPECT_THAT(FaultOf(R"("variants": ["towr"])"),
-              HasSubstr("is \"towr\", no variant, expected one of 'building', 'low' and 'tower'"));
+              HasSubstr("is \"towr\", no variant, expected one of building, low, tower"));
   EXPECT_THAT(FaultOf(R"("variants": ["../.."])"), HasSubstr("no variant"));
   EXPECT_THAT(FaultOf(R"("qualities": ["best"])"),
-              HasSubstr("is \"best\", no quality, expected one of 'fast', 'draft' and 'final'"));
+              HasSubstr("is \"best\", no quality, expected one of fast, draft, final, avr0"));
   EXPECT_THAT(FaultOf(R"("hours": ["teatime"])"), HasSubstr("no time, expected for example 16:30"));
+  EXPECT_THAT(FaultOf(R"("options": ["--photo=IMG_1"])"), HasSubstr("is \"--photo=IMG_1\", "));
+  EXPECT_THAT(FaultOf(R"("options": ["grain"])"), HasSubstr("expected options of insitu-render"));
   EXPECT_THAT(FaultOf(R"("view": ["IMG_1"])"), HasSubstr("is no key of a plan"));
 }
 

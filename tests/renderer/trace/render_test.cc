@@ -102,6 +102,36 @@ TEST(RenderMontage, SamplesInStepsOfFourUpToTheCap) {
   EXPECT_LT(usual, 3 * once);
 }
 
+// A quick look: four rays stand for sixteen pixels, and what the building does not touch stays.
+TEST(RenderMontage, BlocksTakeASixteenthOfTheRays) {
+  SmallSite site = MakeSmallSite();
+  const MontageScene scene = site.With(Tower(site));
+  RenderOptions quick, whole;
+  quick.block = 4;
+  quick.most_rays = quick.outline_rays = whole.most_rays = whole.outline_rays = 4;
+  quick.point_spread = PointSpread{0.7, 0.7, 0, 9};
+  const RenderResult seen = RenderMontage(scene, site.camera(), site.photo, quick),
+                     truth = RenderMontage(scene, site.camera(), site.photo, whole);
+  EXPECT_NEAR(seen.mean_rays, 0.25, 1e-9);
+  double error = 0, change = 0;
+  for (size_t i = 0; i < seen.linear.data.size(); ++i) {
+    error += std::abs(seen.linear.data[i] - truth.linear.data[i]);
+    change += std::abs(truth.linear.data[i] - site.photo.data[i]);
+  }
+  EXPECT_LT(error, 0.4 * change);
+  EXPECT_EQ(seen.linear.Rgb(0, 0), site.photo.Rgb(0, 0));
+}
+
+TEST(RenderMontage, BlocksScaleAShadowByWhatEachPixelShows) {
+  SmallSite site = MakeSmallSite();
+  Texture(site);
+  RenderOptions quick;
+  quick.block = 4;
+  const RenderResult seen = RenderMontage(site.With(Tower(site)), site.camera(), site.photo, quick);
+  for (const float value : seen.linear.data) ASSERT_GE(value, 0);
+  EXPECT_GT(seen.changed_pixels, 50);
+}
+
 // The number of bins is how finely spectra are told, not how bright they are.
 TEST(RenderMontage, NineBinsGiveThePictureOfSixteen) {
   for (const bool is_interreflected : {false, true}) {
