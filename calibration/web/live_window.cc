@@ -35,7 +35,7 @@ std::string TokenIn(const std::string& message) {
 }
 
 // A window that is gone is noticed within `idle`, by pings if it has nothing to say.
-websocket::stream_base::timeout Timeouts(std::chrono::seconds idle, bool pings) {
+websocket::stream_base::timeout Timeouts(std::chrono::milliseconds idle, bool pings) {
   return {std::chrono::seconds(10), idle, pings};
 }
 
@@ -45,7 +45,7 @@ LiveWindow::LiveWindow(ServerCore& core, std::unique_ptr<ConnectionPlace> place,
                        beast::tcp_stream stream)
     : core_(core), place_(std::move(place)), socket_(std::move(stream)) {
   beast::get_lowest_layer(socket_).expires_never();
-  socket_.set_option(Timeouts(std::chrono::seconds(10), false));
+  socket_.set_option(Timeouts(core.options.times.token, false));
   socket_.read_message_max(core.options.most_bytes);
   socket_.text(true);
   socket_.auto_fragment(false);
@@ -79,7 +79,7 @@ void LiveWindow::OnMessage(std::string text) {
 void LiveWindow::Open() {
   window_ = ++core_.last_window;
   core_.windows.emplace(window_, shared_from_this());
-  socket_.set_option(Timeouts(std::chrono::seconds(60), true));
+  socket_.set_option(Timeouts(core_.options.times.window, true));
   CallThenRead([this] {
     if (core_.callbacks.on_opened) core_.callbacks.on_opened(window_);
   });

@@ -2,6 +2,7 @@
 // What a loopback server is told: its public pages, limits, and whom it calls.
 #pragma once
 
+#include <chrono>
 #include <cstddef>
 #include <functional>
 #include <map>
@@ -18,6 +19,16 @@ struct PublicResource {
   std::string text;
 };
 
+// How long the other side may be silent before it counts as gone.
+struct ServerTimes {
+  using Time = std::chrono::milliseconds;
+  Time idle{60000};     // a connection without a request, or within its head
+  Time body{30000};     // within a body
+  Time answer{120000};  // while it should read an answer
+  Time token{10000};    // a window before its token
+  Time window{60000};   // a window, which is pinged meanwhile
+};
+
 struct LoopbackServerOptions {
   int port = 0;                                            // 0: any that is free
   std::string token;                                       // as NewToken makes it
@@ -29,7 +40,8 @@ struct LoopbackServerOptions {
   size_t most_bytes = size_t{1} << 20;                     // of a body or message that comes in
   size_t most_queued_bytes = size_t{32} << 20;             // that wait for a window to read them
   size_t most_connections = 32;                            // further ones are told 503
-  void Check() const;                                      // throws InputError
+  ServerTimes times = {};
+  void Check() const;  // throws InputError
 };
 
 // Called from threads of the server, several at a time; what concerns one window comes in order,

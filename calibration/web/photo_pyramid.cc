@@ -16,15 +16,11 @@
 #include "calibration/files/error_at.h"
 #include "calibration/files/whole_file.h"
 #include "calibration/photo/photograph.h"
+#include "calibration/web/png_eighth.h"
+#include "calibration/web/tiff_eighth.h"
 
 namespace insitu {
 namespace {
-
-bool IsJpeg(const std::filesystem::path& path) {
-  char start[3] = {};
-  std::ifstream(path, std::ios::binary).read(start, sizeof start);
-  return std::string_view(start, sizeof start) == "\xff\xd8\xff";
-}
 
 // OpenCV fills up what is missing of a JPEG. A scan begins with FF DA and ends at FF D9, neither of
 // which is within; a thumbnail's end comes before the photograph's scan.
@@ -86,6 +82,12 @@ std::array<std::pair<cv::Range, cv::Range>, 2> Halvings(int size) {
 
 }  // namespace
 
+bool IsJpeg(const std::filesystem::path& path) {
+  char start[3] = {};
+  std::ifstream(path, std::ios::binary).read(start, sizeof start);
+  return std::string_view(start, sizeof start) == "\xff\xd8\xff";
+}
+
 cv::Mat ReadShownPhotograph(const std::filesystem::path& path) {
   if (IsJpeg(path)) return DecodedJpeg(path, ReadWhole(path), cv::IMREAD_COLOR);
   CodedPhotograph photo = ReadCodedPhotograph(path);
@@ -93,8 +95,9 @@ cv::Mat ReadShownPhotograph(const std::filesystem::path& path) {
 }
 
 cv::Mat ReadEighthOfPhotograph(const std::filesystem::path& path) {
-  if (!IsJpeg(path)) return {};
-  return DecodedJpeg(path, ReadWhole(path), cv::IMREAD_REDUCED_COLOR_8);
+  if (IsJpeg(path)) return DecodedJpeg(path, ReadWhole(path), cv::IMREAD_REDUCED_COLOR_8);
+  cv::Mat eighth = ReadEighthOfPng(path);
+  return eighth.empty() ? ReadEighthOfTiff(path) : eighth;
 }
 
 cv::Mat HalvedImage(const cv::Mat& image) {

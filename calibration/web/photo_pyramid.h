@@ -11,12 +11,15 @@
 
 namespace insitu {
 
+// By how the file begins.
+bool IsJpeg(const std::filesystem::path& path);
+
 // The pixels as in the file, EXIF's orientation not applied, three channels, blue first: 8 or 16
 // bit codes, or numbers, of its own colour space. Throws InputError: cannot be decoded.
 cv::Mat ReadShownPhotograph(const std::filesystem::path& path);
 
-// Of a JPEG only, in a fraction of the time: one pixel for 8 x 8, their mean; the size rounded up.
-// Empty: no JPEG. Throws InputError.
+// In a fraction of the time: one pixel for 8 x 8, their mean; the size rounded up. Empty: no JPEG,
+// nor a PNG or TIFF of the common kinds. Throws InputError: a damaged JPEG; others are empty.
 cv::Mat ReadEighthOfPhotograph(const std::filesystem::path& path);
 
 // The mean of 2 x 2 pixels each; an odd last column or row counts twice.

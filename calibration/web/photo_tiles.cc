@@ -16,7 +16,7 @@
 namespace insitu {
 namespace {
 
-constexpr int kOverview = 3;      // the level that a JPEG's decoder makes by itself
+constexpr int kOverview = 3;      // the level that ReadEighthOfPhotograph makes
 constexpr int kMostRadius = 512;  // [px]
 
 int TileCount(int size, int level) {
@@ -91,14 +91,15 @@ struct PhotoTiles::Parts {
                      [&] { return Decoded(photo, ReadShownPhotograph(PathOf(photo)), 0); });
   }
 
-  // A JPEG's own or the one that was kept, which are there soon, else of the whole.
+  // The one that was kept, or that can be read faster than the whole, else of the whole. A JPEG's
+  // own needs no keeping.
   cv::Mat Overview(int photo) {
     const std::filesystem::path& path = PathOf(photo);
-    cv::Mat eighth = ReadEighthOfPhotograph(path);
-    if (eighth.empty()) eighth = overviews.Read(path);
+    cv::Mat eighth = overviews.Read(path);
     if (!eighth.empty()) return eighth;
-    eighth = Whole(photo)->Level(kOverview);
-    overviews.Keep(path, eighth);
+    eighth = ReadEighthOfPhotograph(path);
+    if (eighth.empty()) eighth = Whole(photo)->Level(kOverview);
+    if (!IsJpeg(path)) overviews.Keep(path, eighth);
     return eighth;
   }
 

@@ -17,9 +17,8 @@ namespace {
 
 namespace beast = boost::beast;
 namespace http = boost::beast::http;
-using std::chrono::seconds;
 
-constexpr seconds kIdle(60), kBodyTime(30), kAnswerTime(120), kLinger(2);
+constexpr std::chrono::seconds kLinger(2);
 constexpr size_t kMostHeadBytes = 16384;
 
 std::string TextOf(beast::string_view text) { return {text.data(), text.size()}; }
@@ -78,7 +77,7 @@ void WebConnection::ReadHead() {
   parser_->header_limit(kMostHeadBytes);
   parser_->body_limit(core_.options.most_bytes);
   host_.clear();
-  stream_.expires_after(is_beyond_ ? kLinger : kIdle);
+  stream_.expires_after(is_beyond_ ? kLinger : core_.options.times.idle);
   http::async_read_header(
       stream_, buffer_, *parser_,
       [self = shared_from_this()](beast::error_code error, size_t) { self->OnHead(error); });
@@ -94,7 +93,7 @@ void WebConnection::OnHead(beast::error_code error) {
   if (beast::websocket::is_upgrade(parser_->get()) && request_.path == core_.options.live_path) {
     return HandOver();
   }
-  stream_.expires_after(kBodyTime);
+  stream_.expires_after(core_.options.times.body);
   http::async_read(
       stream_, buffer_, *parser_,
       [self = shared_from_this()](beast::error_code fault, size_t) { self->OnBody(fault); });
@@ -166,7 +165,7 @@ void WebConnection::Answer(WebResponse response) {
   response_.body() = std::move(response.body);
   response_.keep_alive(!closes_);
   response_.prepare_payload();
-  stream_.expires_after(kAnswerTime);
+  stream_.expires_after(core_.options.times.answer);
   http::async_write(
       stream_, response_,
       [self = shared_from_this()](beast::error_code error, size_t) { self->OnAnswered(error); });

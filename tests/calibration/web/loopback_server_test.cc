@@ -360,6 +360,48 @@ TEST_F(LoopbackServerTest, StopsWithWindowsOpen) {
   EXPECT_THROW(WebClient{port}, std::runtime_error);
 }
 
+// [s] until the other side closes.
+template <typename Read>
+double UntilClosed(Read read) {
+  const auto begin = std::chrono::steady_clock::now();
+  EXPECT_FALSE(read());
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+}
+
+// A WebClient itself gives up after five seconds.
+constexpr double kClosedByServer = 4;
+
+TEST_F(LoopbackServerTest, ClosesConnectionsThatFallSilent) {
+  using std::chrono::milliseconds;
+  options_.times = {.idle = milliseconds(500), .body = milliseconds(100)};
+  const int port = Start();
+  WebClient silent(port), halfway(port), bodiless(port);
+  EXPECT_EQ(silent.Ask("GET", "/")->status, 200);
+  halfway.Write("GET / HTTP/1.1\r\nHost: 127");
+  const double after_answer = UntilClosed([&] { return silent.ReadReply(); });
+  EXPECT_GT(after_answer, 0.4);
+  EXPECT_LT(after_answer, kClosedByServer);
+  EXPECT_LT(UntilClosed([&] { return halfway.ReadReply(); }), kClosedByServer);
+  bodiless.Write("POST /api/op HTTP/1.1\r\nHost: 127.0.0.1:" + std::to_string(port) +
+                 "\r\nAuthorization: Bearer " + options_.token + "\r\nContent-Length: 9\r\n\r\n{");
+  EXPECT_LT(UntilClosed([&] { return bodiless.ReadReply(); }), kClosedByServer);
+}
+
+TEST_F(LoopbackServerTest, ClosesWindowsThatFallSilentAndKeepsThoseThatAnswerPings) {
+  using std::chrono::milliseconds;
+  options_.times.token = options_.times.window = milliseconds(600);
+  const int port = Start();
+  WebClient without_token(port);
+  EXPECT_EQ(without_token.Upgrade("/api/live"), 101);
+  EXPECT_LT(UntilClosed([&] { return without_token.ReadMessage(); }), kClosedByServer);
+  const auto silent = OpenWindow(port), answering = OpenWindow(port);
+  std::thread reader([&] { EXPECT_EQ(answering->ReadMessage(), "still here"); });
+  ASSERT_TRUE(journal_.Waits(3));
+  EXPECT_EQ(journal_.lines().back(), "-1");
+  server_->Send("still here");
+  reader.join();
+}
+
 TEST_F(LoopbackServerTest, NamesThePortThatIsTaken) {
   options_.port = Start();
   EXPECT_EQ(InputErrorOf([&] {
