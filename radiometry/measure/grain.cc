@@ -30,15 +30,16 @@ using Pixels = Eigen::Matrix<double, kBlock * kBlock, 3>;
 
 // Takes a block's mean and gradients away: light falls off, too.
 Eigen::MatrixXd MakeRemovePlane() {
-  Eigen::MatrixXd plane(kBlock * kBlock, kPlane);
-  for (int i = 0; i < kBlock * kBlock; ++i) {
+  constexpr int kPixels = kBlock * kBlock;
+  Eigen::MatrixXd plane(kPixels, kPlane);
+  for (int i = 0; i < kPixels; ++i) {
     const int column = i % kBlock, row = i / kBlock;
     const double x = column - (kBlock - 1) / 2.0, y = row - (kBlock - 1) / 2.0;
     plane.row(i) << 1, x, y, x * y;
   }
   const Eigen::Matrix4d cofactor = Eigen::Matrix4d(plane.transpose() * plane).inverse();
   const Eigen::MatrixXd scaled = plane * cofactor;
-  return Eigen::MatrixXd::Identity(kBlock * kBlock, kBlock * kBlock) - scaled * plane.transpose();
+  return Eigen::MatrixXd::Identity(kPixels, kPixels) - scaled * plane.transpose();
 }
 
 const Eigen::MatrixXd& RemovePlane() {

@@ -147,6 +147,12 @@ Paths Montages(const MontageRequest& request) {
   return montages;
 }
 
+Paths LightReports(const MontageRequest& request) { return {LightReportPath(request.site)}; }
+
+Paths LightResults(const MontageRequest& request) {
+  return {request.site.environment(), LightReportPath(request.site), LightPagePath(request.site)};
+}
+
 std::vector<MontageStage> MakeStages() {
   const auto one = [](fs::path (SitePaths::*path)() const) {
     return [path](const MontageRequest& request) { return Paths{(request.site.*path)()}; };
@@ -186,11 +192,8 @@ std::vector<MontageStage> MakeStages() {
        "haze and daylight, measured in the photographs",
        {"reconstruct", "undistort"},
        LightInputs,
-       [](const MontageRequest& request) {
-         return Paths{request.site.environment(), LightReportPath(request.site),
-                      LightPagePath(request.site)};
-       },
-       [](const MontageRequest& request) { return Paths{LightReportPath(request.site)}; },
+       LightResults,
+       LightReports,
        Always},
       {"convert",
        "the planned building, from the architect's models",

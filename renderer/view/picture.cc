@@ -9,7 +9,7 @@
 #include "calibration/files/error.h"
 #include "calibration/files/json_file.h"
 #include "calibration/photo/photograph.h"
-#include "calibration/web/shown_image.h"
+#include "calibration/tiles/shown_image.h"
 
 namespace insitu {
 namespace {

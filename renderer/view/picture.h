@@ -13,9 +13,9 @@
 #include <string>
 #include <utility>
 
-#include "calibration/web/photo_pyramid.h"
-#include "calibration/web/photo_tiles.h"
-#include "calibration/web/pixel_value.h"
+#include "calibration/tiles/photo_pyramid.h"
+#include "calibration/tiles/photo_tiles.h"
+#include "calibration/tiles/pixel_value.h"
 #include "calibration/web/web_request.h"
 
 namespace insitu {

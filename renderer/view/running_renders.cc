@@ -8,7 +8,7 @@
 
 #include "calibration/photo/exif.h"
 #include "calibration/photo/photograph.h"
-#include "calibration/web/shown_image.h"
+#include "calibration/tiles/shown_image.h"
 
 namespace insitu {
 namespace {

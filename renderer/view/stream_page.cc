@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "calibration/files/error.h"
-#include "calibration/web/photo_tiles.h"
-#include "calibration/web/shown_image.h"
+#include "calibration/tiles/photo_tiles.h"
+#include "calibration/tiles/shown_image.h"
 #include "reconstruction/editing/edited_tables.h"
 #include "renderer/tiles/tile_stream.h"
 #include "renderer/view/picture.h"

@@ -157,7 +157,7 @@ TEST_F(LoopbackServerTest, RefusesAttacks) {
            {"GET /api/site", "Host: evil.example\r\n" + bearer, 403},
            {"GET /", "Host: evil.example\r\n", 403},
            {"GET /", "", 403},
-           {"GET /api/site", own + foreign + bearer, 400},
+           {"GET /api/site", std::string(own).append(foreign).append(bearer), 400},
            {"GET /api/site", own + bearer + "Origin: null\r\n", 403},
            {"POST /api/op", own + bearer + "Origin: http://evil.example\r\n", 403},
            {"GET /api/site", own + bearer + "Sec-Fetch-Site: cross-site\r\n", 403},

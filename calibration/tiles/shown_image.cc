@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "calibration/web/shown_image.h"
+#include "calibration/tiles/shown_image.h"
 
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
@@ -7,7 +7,7 @@
 
 #include "calibration/files/error.h"
 #include "calibration/photo/photograph.h"
-#include "calibration/web/photo_pyramid.h"
+#include "calibration/tiles/photo_pyramid.h"
 
 namespace insitu {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "calibration/web/overview_files.h"
+#include "calibration/tiles/overview_files.h"
 
 #include <exception>
 #include <opencv2/imgcodecs.hpp>

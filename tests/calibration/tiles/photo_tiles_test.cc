@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "calibration/web/photo_tiles.h"
+#include "calibration/tiles/photo_tiles.h"
 
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 #include <thread>
 
 #include "calibration/photo/photograph.h"
-#include "calibration/web/photo_pyramid.h"
+#include "calibration/tiles/photo_pyramid.h"
 #include "tests/calibration/files/scratch_folder.h"
 
 namespace insitu {

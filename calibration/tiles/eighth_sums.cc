@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "calibration/web/eighth_sums.h"
+#include "calibration/tiles/eighth_sums.h"
 
 #include <algorithm>
 

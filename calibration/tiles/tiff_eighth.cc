@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "calibration/web/tiff_eighth.h"
+#include "calibration/tiles/tiff_eighth.h"
 
 #include <tiffio.h>
 
@@ -13,7 +13,7 @@
 #include <thread>
 #include <vector>
 
-#include "calibration/web/eighth_sums.h"
+#include "calibration/tiles/eighth_sums.h"
 
 namespace insitu {
 namespace {

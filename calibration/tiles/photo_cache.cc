@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "calibration/web/photo_cache.h"
+#include "calibration/tiles/photo_cache.h"
 
 #include <utility>
 

@@ -11,7 +11,7 @@
 #include <mutex>
 #include <tuple>
 
-#include "calibration/web/photo_pyramid.h"
+#include "calibration/tiles/photo_pyramid.h"
 
 namespace insitu {
 

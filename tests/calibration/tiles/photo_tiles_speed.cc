@@ -8,7 +8,7 @@
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include "calibration/web/photo_tiles.h"
+#include "calibration/tiles/photo_tiles.h"
 
 namespace insitu {
 namespace {

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "calibration/color/color_space.h"
-#include "calibration/web/pixel_value.h"
+#include "calibration/tiles/pixel_value.h"
 
 namespace insitu {
 

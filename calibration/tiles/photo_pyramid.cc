@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "calibration/web/photo_pyramid.h"
+#include "calibration/tiles/photo_pyramid.h"
 
 #include <algorithm>
 #include <array>
@@ -16,8 +16,8 @@
 #include "calibration/files/error_at.h"
 #include "calibration/files/whole_file.h"
 #include "calibration/photo/photograph.h"
-#include "calibration/web/png_eighth.h"
-#include "calibration/web/tiff_eighth.h"
+#include "calibration/tiles/png_eighth.h"
+#include "calibration/tiles/tiff_eighth.h"
 
 namespace insitu {
 namespace {

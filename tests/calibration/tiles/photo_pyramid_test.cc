@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "calibration/web/photo_pyramid.h"
+#include "calibration/tiles/photo_pyramid.h"
 
 #include <cmath>
 #include <opencv2/imgcodecs.hpp>

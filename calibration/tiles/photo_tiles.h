@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "calibration/web/pixel_value.h"
+#include "calibration/tiles/pixel_value.h"
 
 namespace insitu {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "calibration/web/png_eighth.h"
+#include "calibration/tiles/png_eighth.h"
 
 #include <isa-l/igzip_lib.h>
 
@@ -17,7 +17,7 @@
 #include <utility>
 #include <vector>
 
-#include "calibration/web/eighth_sums.h"
+#include "calibration/tiles/eighth_sums.h"
 
 namespace insitu {
 namespace {

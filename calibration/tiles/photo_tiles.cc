@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "calibration/web/photo_tiles.h"
+#include "calibration/tiles/photo_tiles.h"
 
 #include <algorithm>
 #include <mutex>
@@ -9,9 +9,9 @@
 
 #include "calibration/files/error_at.h"
 #include "calibration/photo/photograph.h"
-#include "calibration/web/overview_files.h"
-#include "calibration/web/photo_cache.h"
-#include "calibration/web/shown_image.h"
+#include "calibration/tiles/overview_files.h"
+#include "calibration/tiles/photo_cache.h"
+#include "calibration/tiles/shown_image.h"
 
 namespace insitu {
 namespace {
