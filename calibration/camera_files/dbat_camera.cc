@@ -4,6 +4,8 @@
 #include <algorithm>
 
 #include "calibration/camera_files/camera_file_formats.h"
+#include "calibration/files/error_at.h"
+#include "calibration/files/sentence.h"
 #include "calibration/files/text_table.h"
 
 namespace insitu {
@@ -12,8 +14,12 @@ namespace {
 std::vector<double> NumbersOfCount(const XmlNode& node, size_t least, size_t most) {
   const std::vector<double> numbers = node.Numbers();
   if (numbers.size() < least || numbers.size() > most) {
-    throw node.Error(std::to_string(numbers.size()) + " numbers, expected " +
-                     std::to_string(least) + (most > least ? " or more" : ""));
+    const Json::Value count = int(numbers.size()), fewest = int(least);
+    throw node.Error(most > least
+                         ? Sentence("dbatMoreNumbers", "{count} numbers, expected {least} or more",
+                                    {{"count", count}, {"least", fewest}})
+                         : Sentence("dbatNumbers", "{count} numbers, expected {least}",
+                                    {{"count", count}, {"least", fewest}}));
   }
   return numbers;
 }
@@ -23,16 +29,21 @@ void ParseSize(const XmlNode& element, DbatCamera* camera) {
   const XmlNode sensor = element.At("sensor");
   const std::vector<std::string> sizes = SplitAt(sensor.Text(), ',');
   const auto height = sizes.size() == 2 ? ParseNumber(sizes[1]) : std::nullopt;
-  if (!height) throw sensor.Error("expected width,height in mm, the width may be \"auto\"");
+  if (!height) {
+    throw sensor.Error(
+        Sentence("dbatSensor", "expected width,height in mm, the width may be \"auto\""));
+  }
   if (!(image[0] >= 1 && image[0] < 1e6 && image[1] >= 1 && image[1] < 1e6 && *height > 0)) {
-    throw sensor.Error("image and sensor must have a size");
+    throw sensor.Error(Sentence("dbatSize", "image and sensor must have a size"));
   }
   camera->width = static_cast<int>(image[0]);
   camera->height = static_cast<int>(image[1]);
   camera->sensor_mm = *height / image[1] * Eigen::Vector2d(image[0], image[1]);
   if (sizes[0] == "auto") return;
   const auto width = ParseNumber(sizes[0]);
-  if (!width || !(*width > 0)) throw sensor.Error("the width must be positive or \"auto\"");
+  if (!width || !(*width > 0)) {
+    throw sensor.Error(Sentence("dbatWidth", "the width must be positive or \"auto\""));
+  }
   camera->sensor_mm.x() = *width;
 }
 
@@ -42,7 +53,8 @@ void ParseAspect(const XmlNode& element, DbatCamera* camera) {
   if (!aspect) return;
   camera->aspect = aspect->Number();
   if (!(camera->aspect > 0 && camera->aspect < 2)) {
-    throw aspect->Error("\"" + aspect->Text() + "\", expected a number near 1");
+    throw aspect->Error(
+        Sentence("dbatAspect", "\"{text}\", expected a number near 1", {{"text", aspect->Text()}}));
   }
   const bool has_square_pixels = element.At("sensor").Text().starts_with("auto");
   if (!has_square_pixels) camera->sensor_mm.x() /= 2 - camera->aspect;
@@ -53,15 +65,25 @@ void ParseModel(const XmlNode& element, DbatCamera* camera) {
   camera->model = static_cast<int>(model.Number());
   const bool has_affinity = camera->aspect != 1 || camera->skew != 0;
   if (camera->model == 3 || ((camera->model == 1 || camera->model == 2) && !has_affinity)) return;
-  throw model.Error("lens model " + model.Text() + (has_affinity ? " with affinity" : "") +
-                    ", expected 3, or 1 or 2 without affinity: these are what we can adjust");
+  const Json::Value text = model.Text();
+  throw model.Error(
+      has_affinity ? Sentence("dbatAffineModel",
+                              "lens model {model} with affinity, expected 3, or 1 or 2 without "
+                              "affinity: these are what we can adjust",
+                              {{"model", text}})
+                   : Sentence("dbatModel",
+                              "lens model {model}, expected 3, or 1 or 2 without affinity: these "
+                              "are what we can adjust",
+                              {{"model", text}}));
 }
 
 // cc, pp, K, P, aspect, skew. A constant of 0, as blank camera files have, is not stated.
 void ParseValues(const XmlNode& element, DbatCamera* camera) {
   if (const auto node = element.Find("cc"); node && node->Text() != "focal") {
     const double cc = NumbersOfCount(*node, 1, 1)[0];
-    if (cc < 0) throw node->Error("the camera constant must be positive");
+    if (cc < 0) {
+      throw node->Error(Sentence("dbatConstant", "the camera constant must be positive"));
+    }
     if (cc > 0) camera->cc_mm = cc;
   }
   if (const auto node = element.Find("pp"); node && node->Text() != "default") {
@@ -84,7 +106,8 @@ int ParseCount(const XmlNode& element, const std::string& name, int most) {
   if (!node) return most;
   const double count = node->Number();
   if (!(count >= 0 && count <= most)) {
-    throw node->Error("expected at most " + std::to_string(most) + " coefficients");
+    throw node->Error(
+        Sentence("dbatCoefficients", "expected at most {most} coefficients", {{"most", most}}));
   }
   return static_cast<int>(count);
 }
@@ -93,7 +116,7 @@ int ParseCount(const XmlNode& element, const std::string& name, int most) {
 void RequireCalibrated(const XmlNode& camera) {
   const XmlNode cc = camera.At("cc");
   if (!(NumbersOfCount(cc, 1, 1)[0] > 0)) {
-    throw cc.Error("is not positive, expected a calibrated camera");
+    throw cc.Error(Sentence("dbatBlank", "is not positive, expected a calibrated camera"));
   }
   NumbersOfCount(camera.At("pp"), 2, 2);
 }
@@ -112,21 +135,25 @@ DbatCamera WithDefaults(DbatCamera camera) {
 
 DbatCamera ParseDbatCamera(const XmlNode& element) {
   if (const auto unit = element.Find("unit"); unit && unit->Text() != "mm") {
-    throw unit->Error("\"" + unit->Text() + "\", expected mm");
+    throw unit->Error(
+        Sentence("dbatCameraUnit", "\"{unit}\", expected mm", {{"unit", unit->Text()}}));
   }
   DbatCamera camera;
   if (const auto id = element.Find("id")) camera.id = id->Text();
   if (const auto name = element.Find("name")) camera.name = name->Text();
   if (const auto focal = element.Find("focal")) {
     camera.focal_mm = focal->Number();
-    if (!(camera.focal_mm > 0)) throw focal->Error("the focal length must be positive");
+    if (!(camera.focal_mm > 0)) {
+      throw focal->Error(Sentence("dbatFocal", "the focal length must be positive"));
+    }
   }
   ParseSize(element, &camera);
   camera = WithDefaults(camera);
   ParseAspect(element, &camera);
   ParseValues(element, &camera);
   if (!(camera.cc_mm > 0))
-    throw element.Error("<focal> and <cc> are missing, expected one of them");
+    throw element.Error(
+        Sentence("dbatNoFocal", "<focal> and <cc> are missing, expected one of them"));
   if (camera.focal_mm == 0) camera.focal_mm = camera.cc_mm;
   ParseModel(element, &camera);
   camera.K_count = ParseCount(element, "nK", 3);
@@ -170,7 +197,8 @@ CameraFile ReadDbatCamera(const std::filesystem::path& path, const CameraFileOpt
   const auto list = root.Find("cameras");
   const std::vector<XmlNode> cameras = list ? list->Children("camera") : std::vector<XmlNode>();
   if (cameras.empty()) {
-    throw InputError(path, "no camera in it, expected DBAT's <document><cameras><camera>");
+    throw ErrorAt({path}, Sentence("dbatCameraNone",
+                                   "no camera in it, expected DBAT's <document><cameras><camera>"));
   }
   for (const XmlNode& camera : cameras) {
     const auto id = camera.Find("id");
@@ -179,9 +207,9 @@ CameraFile ReadDbatCamera(const std::filesystem::path& path, const CameraFileOpt
     return MetricCameraFile(path, camera.line(), "DBAT XML",
                             MetricFromDbat(ParseDbatCamera(camera)));
   }
-  throw InputError(path,
-                   "holds several cameras, expected one, or to stand in a folder named "
-                   "after its <id>");
+  throw ErrorAt({path}, Sentence("dbatSeveral",
+                                 "holds several cameras, expected one, or to stand in a folder "
+                                 "named after its <id>"));
 }
 
 }  // namespace insitu

@@ -6,6 +6,7 @@
 
 #include "calibration/files/error.h"
 #include "calibration/files/file_beside.h"
+#include "calibration/files/json_fault.h"
 
 namespace insitu {
 namespace {
@@ -103,7 +104,6 @@ const LibraryEntry& MaterialLibrary::Get(const JsonNode& name, const std::string
   if (found != entries_.end() && found->second.content.At("kind").Text() == kind) {
     return found->second;
   }
-  std::string message = "is \"" + name.Text() + "\", which is no " + kind + " of the library";
   size_t nearest = 4;  // edits
   std::string near_name;
   for (const auto& [other, entry] : entries_) {
@@ -112,9 +112,23 @@ const LibraryEntry& MaterialLibrary::Get(const JsonNode& name, const std::string
     nearest = edits;
     near_name = other;
   }
-  if (!near_name.empty()) message += "; is " + near_name + " meant?";
-  if (kind == kLamp) message += "; expected D65, A, blackbody or a lamp of the library";
-  throw name.Error(message + " (insitu materials lists it)");
+  Sentence near, lamps;
+  if (!near_name.empty()) {
+    near = Sentence("libraryNear", "; is {name} meant?", {{"name", near_name}});
+  }
+  if (kind == kLamp) {
+    lamps = Sentence("libraryLamps", "; expected D65, A, blackbody or a lamp of the library");
+  }
+  const Sentence what = kind == kLamp ? Sentence("libraryLamp", "no lamp")
+                                      : Sentence("libraryMaterial", "no material");
+  throw JsonFault(name,
+                  Sentence("libraryNone",
+                           "is \"{name}\", which is {what} of the library{near}{lamps} (insitu "
+                           "materials lists it)",
+                           {{"name", name.Text()},
+                            {"what", what.ToJson()},
+                            {"near", near.ToJson()},
+                            {"lamps", lamps.ToJson()}}));
 }
 
 const LibraryEntry& MaterialLibrary::Material(const JsonNode& name) const {
@@ -128,7 +142,9 @@ SpectralTable ReflectanceOf(const LibraryEntry& material) {
   if (const auto file = material.content.Find("reflectance_file")) {
     return ReadSpectralTable(FileBeside(*file));
   }
-  throw material.content.Error("has no reflectance by wavelength, which is needed here");
+  throw JsonFault(
+      material.content,
+      Sentence("libraryNoReflectance", "has no reflectance by wavelength, which is needed here"));
 }
 
 SpectralTable SpectrumOfLamp(const MaterialLibrary& library, const JsonNode& name) {
@@ -139,8 +155,11 @@ SpectralTable SpectrumOfLamp(const MaterialLibrary& library, const JsonNode& nam
 
 void RequireVisibleRange(const SpectralTable& table, const JsonNode& fault) {
   if (!table.empty() && table.front().x() <= kCoveredFrom && table.back().x() >= kCoveredTo) return;
-  throw fault.Error(
-      "does not cover the visible range, expected rows from 420 nm or less to 680 or more");
+  throw JsonFault(
+      fault,
+      Sentence(
+          "libraryRange",
+          "does not cover the visible range, expected rows from 420 nm or less to 680 or more"));
 }
 
 }  // namespace insitu

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <numbers>
 
+#include "calibration/files/json_fault.h"
 #include "radiometry/light/split_mix.h"
 
 namespace insitu {
@@ -19,23 +20,30 @@ constexpr double kUsualSpreadDeg = 40;  // of waves that the wind drives
 constexpr double kRadPerDeg = std::numbers::pi / 180;
 constexpr double kGolden = 0.6180339887498949;
 
-double Positive(const JsonNode& node, const char* what) {
+double Positive(const JsonNode& node, const Sentence& fault) {
   const double value = node.Number();
-  if (value <= 0) throw node.Error(std::string("is out of range, expected ") + what + " above 0");
+  if (value <= 0) throw JsonFault(node, fault);
   return value;
 }
+
+Sentence NoLength() { return Sentence("bumpsLength", "is out of range, expected metres above 0"); }
 
 void ReadDirection(const JsonNode& node, Bumps* bumps) {
   const auto direction = node.Find("direction");
   const auto spread = node.Find("spread_deg");
-  if (spread && !direction) throw spread->Error("stands without direction");
+  if (spread && !direction) {
+    throw JsonFault(*spread, Sentence("bumpsSpread", "stands without direction"));
+  }
   if (!direction) return;
   bumps->direction = direction->Vector3();
   if (bumps->direction->norm() == 0) {
-    throw direction->Error("is zero, expected [x, y, z] in the survey's frame");
+    throw JsonFault(*direction, Sentence("bumpsDirection",
+                                         "is zero, expected [x, y, z] in the survey's frame"));
   }
   const double degrees = spread ? spread->Number() : kUsualSpreadDeg;
-  if (degrees < 0 || degrees > 180) throw spread->Error("is out of range, expected 0 to 180");
+  if (degrees < 0 || degrees > 180) {
+    throw JsonFault(*spread, Sentence("bumpsDegrees", "is out of range, expected 0 to 180"));
+  }
   bumps->spread = degrees * kRadPerDeg;
 }
 
@@ -73,13 +81,18 @@ std::optional<Bumps> ReadBumps(const MaterialKeys& material) {
   if (!node) return std::nullopt;
   Bumps bumps;
   const JsonNode slope = node->At("rms_slope");
-  bumps.rms_slope = Positive(slope, "a slope");
-  if (bumps.rms_slope > 1) throw slope.Error("is out of range, expected at most 1");
-  bumps.longest = Positive(node->At("scale_m"), "metres");
+  bumps.rms_slope =
+      Positive(slope, Sentence("bumpsSlope", "is out of range, expected a slope above 0"));
+  if (bumps.rms_slope > 1) {
+    throw JsonFault(slope, Sentence("bumpsSteep", "is out of range, expected at most 1"));
+  }
+  bumps.longest = Positive(node->At("scale_m"), NoLength());
   bumps.shortest = bumps.longest / std::exp2(kUsualOctaves);
   if (const auto shortest = node->Find("shortest_m")) {
-    bumps.shortest = Positive(*shortest, "metres");
-    if (bumps.shortest > bumps.longest) throw shortest->Error("is longer than scale_m");
+    bumps.shortest = Positive(*shortest, NoLength());
+    if (bumps.shortest > bumps.longest) {
+      throw JsonFault(*shortest, Sentence("bumpsLonger", "is longer than scale_m"));
+    }
   }
   if (const auto spectrum = node->Find("spectrum")) bumps.spectrum = spectrum->Number();
   ReadDirection(*node, &bumps);

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 
+#include "calibration/files/json_fault.h"
 #include "radiometry/library/material_library.h"
 
 namespace insitu {
@@ -16,14 +17,17 @@ double NumberOr(const MaterialKeys& material, const std::string& key, double oth
 double Share(const MaterialKeys& material, const std::string& key, double otherwise) {
   const double share = NumberOr(material, key, otherwise);
   if (share < 0 || share > 1) {
-    throw material.At(key).Error("is out of range, expected 0 to 1");
+    throw JsonFault(material.At(key), Sentence("shareRange", "is out of range, expected 0 to 1"));
   }
   return share;
 }
 
 double ReadIndex(const MaterialKeys& material) {
   const JsonNode ior = material.At("ior");
-  if (ior.Number() <= 1) throw ior.Error("is not an index of refraction, expected above 1");
+  if (ior.Number() <= 1) {
+    throw JsonFault(ior,
+                    Sentence("materialIndex", "is not an index of refraction, expected above 1"));
+  }
   return ior.Number();
 }
 
@@ -31,7 +35,9 @@ FacetDistribution ReadDistribution(const MaterialKeys& material) {
   const auto name = material.Find("distribution");
   if (!name || name->Text() == "ggx") return FacetDistribution::kGgx;
   if (name->Text() == "beckmann") return FacetDistribution::kBeckmann;
-  throw name->Error("is \"" + name->Text() + "\", expected \"ggx\" or \"beckmann\"");
+  throw JsonFault(
+      *name, Sentence("materialDistribution", "is \"{text}\", expected \"ggx\" or \"beckmann\"",
+                      {{"text", name->Text()}}));
 }
 
 }  // namespace
@@ -41,8 +47,15 @@ std::optional<Specular> ReadSpecular(const MaterialKeys& material, bool may_be_m
   const std::string kind = node ? node->Text() : "none";
   if (kind == "none") return std::nullopt;
   if (kind != "fresnel" && kind != "mirror" && !(may_be_metal && kind == "conductor")) {
-    throw node->Error("is \"" + kind + "\", expected \"none\", \"fresnel\"" +
-                      (may_be_metal ? ", \"mirror\" or \"conductor\"" : " or \"mirror\""));
+    throw JsonFault(
+        *node,
+        may_be_metal
+            ? Sentence("materialMetal",
+                       "is \"{kind}\", expected \"none\", \"fresnel\", \"mirror\" or \"conductor\"",
+                       {{"kind", kind}})
+            : Sentence("materialSpecular",
+                       "is \"{kind}\", expected \"none\", \"fresnel\" or \"mirror\"",
+                       {{"kind", kind}}));
   }
   Specular specular{Share(material, "specular_weight", 1), {}, {}};
   if (kind == "fresnel") specular.index = ReadIndex(material);
@@ -73,16 +86,21 @@ NaturalMaterial ReadNaturalMaterial(const MaterialKeys& material) {
   result.specular = ReadSpecular(material);
   result.bumps = ReadBumps(material);
   if (result.bumps && !result.specular) {
-    throw material.At("bumps").Error(
-        "is of a surface that mirrors nothing: its photograph shows what light makes of them");
+    throw JsonFault(
+        material.At("bumps"),
+        Sentence(
+            "materialBumps",
+            "is of a surface that mirrors nothing: its photograph shows what light makes of them"));
   }
   result.diffuse_weight = NumberOr(material, "diffuse_weight", 1);
   if (result.diffuse_weight <= 0) {
-    throw material.At("diffuse_weight").Error("is out of range, expected above 0");
+    throw JsonFault(material.At("diffuse_weight"),
+                    Sentence("weightRange", "is out of range, expected above 0"));
   }
   const auto diffuse = material.Find("diffuse");
   if (diffuse && diffuse->Text() != "from photo") {
-    throw diffuse->Error("is \"" + diffuse->Text() + "\", expected \"from photo\"");
+    throw JsonFault(*diffuse, Sentence("materialDiffuse", "is \"{text}\", expected \"from photo\"",
+                                       {{"text", diffuse->Text()}}));
   }
   return result;
 }
