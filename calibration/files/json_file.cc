@@ -10,7 +10,6 @@
 #include <sstream>
 
 #include "calibration/files/error_at.h"
-#include "calibration/files/json_fault.h"
 #include "calibration/files/whole_file.h"
 
 namespace insitu {
@@ -53,15 +52,19 @@ Sentence TypeOf(const Json::Value& value) {
   }
 }
 
+// What a value is and should be, thrown from its node.
+SaidError Fault(const JsonNode& node, const Sentence& what) {
+  return {node.Error(what.text()), {node.path(), node.line()}, what};
+}
+
 Sentence NumbersExpected(size_t count, Eigen::Index expected) {
   return Sentence("jsonNumbers", "has {count} numbers, expected {expected}",
                   {{"count", int(count)}, {"expected", int(expected)}});
 }
 
 SaidError OtherType(const JsonNode& node, const Json::Value& value, const Sentence& expected) {
-  return JsonFault(node,
-                   Sentence("jsonOther", "is {what}, expected {expected}",
-                            {{"what", TypeOf(value).ToJson()}, {"expected", expected.ToJson()}}));
+  return Fault(node, Sentence("jsonOther", "is {what}, expected {expected}",
+                              {{"what", TypeOf(value).ToJson()}, {"expected", expected.ToJson()}}));
 }
 
 }  // namespace
@@ -77,8 +80,7 @@ JsonNode JsonNode::Load(const std::filesystem::path& path) {
 
 JsonNode JsonNode::At(const std::string& key) const {
   std::optional<JsonNode> node = Find(key);
-  if (!node)
-    throw JsonFault(*this, Sentence("jsonMissing", "\"{key}\" is missing", {{"key", key}}));
+  if (!node) throw Fault(*this, Sentence("jsonMissing", "\"{key}\" is missing", {{"key", key}}));
   return *std::move(node);
 }
 
@@ -117,7 +119,7 @@ double JsonNode::Number() const {
   if (!value_->isNumeric()) throw OtherType(*this, *value_, Sentence("jsonNumber", "a number"));
   const double number = value_->asDouble();
   if (!std::isfinite(number)) {
-    throw JsonFault(*this, Sentence("jsonNotFinite", "is not finite, expected a finite number"));
+    throw Fault(*this, Sentence("jsonNotFinite", "is not finite, expected a finite number"));
   }
   return number;
 }
@@ -126,8 +128,8 @@ int JsonNode::Integer() const {
   const Sentence whole("jsonWhole", "a whole number");
   if (!value_->isNumeric()) throw OtherType(*this, *value_, whole);
   if (!value_->isInt()) {
-    throw JsonFault(*this, Sentence("jsonOther", "is {what}, expected {expected}",
-                                    {{"what", value_->asString()}, {"expected", whole.ToJson()}}));
+    throw Fault(*this, Sentence("jsonOther", "is {what}, expected {expected}",
+                                {{"what", value_->asString()}, {"expected", whole.ToJson()}}));
   }
   return value_->asInt();
 }
@@ -157,7 +159,7 @@ std::vector<std::string> JsonNode::Texts() const {
 Eigen::Vector3d JsonNode::Vector3() const {
   const std::vector<double> numbers = Numbers();
   if (numbers.size() != 3) {
-    throw JsonFault(*this, NumbersExpected(numbers.size(), 3));
+    throw Fault(*this, NumbersExpected(numbers.size(), 3));
   }
   return {numbers[0], numbers[1], numbers[2]};
 }
@@ -168,7 +170,7 @@ Eigen::MatrixXd JsonNode::Matrix() const {
   for (Eigen::Index i = 0; i < matrix.rows(); ++i) {
     const std::vector<double> row = rows[i].Numbers();
     if (static_cast<Eigen::Index>(row.size()) != matrix.cols()) {
-      throw JsonFault(rows[i], NumbersExpected(row.size(), matrix.cols()));
+      throw Fault(rows[i], NumbersExpected(row.size(), matrix.cols()));
     }
     matrix.row(i) = Eigen::Map<const Eigen::RowVectorXd>(row.data(), matrix.cols());
   }

@@ -6,7 +6,7 @@
 
 #include "calibration/files/error.h"
 #include "calibration/files/file_beside.h"
-#include "calibration/files/json_fault.h"
+#include "radiometry/library/json_fault.h"
 
 namespace insitu {
 namespace {

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <numbers>
 
-#include "calibration/files/json_fault.h"
+#include "radiometry/library/json_fault.h"
 #include "radiometry/light/split_mix.h"
 
 namespace insitu {

@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-#include "calibration/files/json_fault.h"
+#include "radiometry/library/json_fault.h"
 #include "radiometry/library/material_library.h"
 
 namespace insitu {
