@@ -84,7 +84,7 @@ completes() { # EXPECTED WORDS...
   printf '%s' "$offered"
   [[ $offered == "$1" ]]
 }
-check 'commands complete' completes 'reconstruct render' re
+check 'commands complete' completes 'reconstruct render relight' re
 check 'options complete' completes '--plane-sigma' reconstruct --plane
 check 'options of stages complete' completes '--light.sky-facets' montage --light.sky
 
