@@ -126,7 +126,9 @@ BumpField::BumpField(const Bumps& bumps, const std::string& name, const Vector3d
   const uint64_t seed = SeedOf(name);
   double variance = 0;
   for (int i = 0; i < kWaves; ++i) {
-    const auto choice = [&](uint64_t what) { return Uniform(seed + 3 * i + what); };
+    const auto choice = [&](uint64_t what) {
+      return Uniform(seed + 3 * static_cast<uint64_t>(i) + what);
+    };
     const double down = (i + choice(0)) / kWaves;  // from the longest, 0..1
     const double length = bumps.longest * std::pow(bumps.shortest / bumps.longest, down);
     const Vector3d along = bumps.direction ? WaveDirection(bumps, zenith, choice(1), choice(2))
