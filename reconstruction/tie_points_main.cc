@@ -24,9 +24,11 @@ int main(int argc, char** argv) {
                 {.shows_default = true, .check = insitu::OptionCheck::kPositive});
   program.Flag("--is-needed", &is_question,
                "only answer: yes if a photo shows fewer than three control points, else no");
-  program.Value("--model", &options.model,
-                "a COLMAP model of these photos, text or binary, to take instead of running COLMAP",
-                {.check = insitu::OptionCheck::kFolder});
+  program.Value(
+      "--model", &options.model,
+      "a COLMAP model of these photos, perhaps among others, text or binary, to take instead "
+      "of running COLMAP",
+      {.check = insitu::OptionCheck::kFolder});
   program.Footer("Example:\n  insitu-tie-points sites/gallery --points 1000");
   return insitu::RunProgram(program, argc, argv, [&] {
     if (is_question) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What is solved and taken apart with dense matrices. Eigen does it; here it is compiled once
-// instead of in every room, where it took a quarter of the time of building the programs.
+// instead of in every room.
 #pragma once
 
 #include <Eigen/Core>

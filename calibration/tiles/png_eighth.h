@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The overview of a PNG in a quarter of the time that libpng and zlib take for the whole: rows are
-// summed by one thread while another one inflates the next.
+// The overview of a PNG sooner than libpng and zlib decode the whole: rows are summed by one thread
+// while another one inflates the next.
 #pragma once
 
 #include <filesystem>

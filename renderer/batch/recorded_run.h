@@ -28,8 +28,8 @@ std::vector<std::string> WhyToRun(const RecordedRun& run, FileHashes* hashes);
 struct RunOutcome {
   int status = 0;  // of the program
   double seconds = 0;
-  std::string message;  // its last line of error
-  std::vector<std::string> warnings;
+  std::string message = {};  // its last line of error
+  std::vector<std::string> warnings = {};
 };
 
 // Runs it, keeps what it prints in StageLog and, where it ended well and its inputs stayed the

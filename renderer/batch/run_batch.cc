@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <atomic>
+#include <exception>
+#include <functional>
 #include <iostream>
 #include <map>
 #include <numeric>
@@ -146,6 +148,18 @@ class Batch {
     return 0;
   }
 
+  // A record or log that cannot be written, a full disk, costs this job alone.
+  RunOutcome OutcomeOf(const BatchJob& job,
+                       const std::function<void(const std::string&)>& on_progress) {
+    try {
+      const RunOutcome outcome = RunAndRecord(RunFor(job), &hashes_, on_progress);
+      WriteOutcome(plan_.site, job, outcome);
+      return outcome;
+    } catch (const std::exception& error) {
+      return {.status = 1, .message = error.what()};
+    }
+  }
+
   int RunHere() {
     ProgressTable table(NamesOf(jobs_));
     for (size_t i = 0; i < jobs_.size(); ++i) {
@@ -157,9 +171,8 @@ class Batch {
       for (size_t at = next++; at < to_do_.size() && !ReceivedSignal(); at = next++) {
         const size_t i = to_do_[at];
         table.Run(i, "begins");
-        const RunOutcome outcome = RunAndRecord(
-            RunFor(jobs_[i]), &hashes_, [&](const std::string& how_far) { table.Run(i, how_far); });
-        WriteOutcome(plan_.site, jobs_[i], outcome);
+        const RunOutcome outcome =
+            OutcomeOf(jobs_[i], [&](const auto& told) { table.Run(i, told); });
         table.End(i, EndText(outcome), outcome.status != 0);
         if (outcome.status != 0) has_failed = true;
       }

@@ -7,6 +7,7 @@
 #include <numbers>
 #include <optional>
 
+#include "calibration/algebra/decompositions.h"
 #include "radiometry/light/fresnel.h"
 #include "radiometry/light/microfacet.h"
 #include "radiometry/spectrum/color.h"
@@ -71,7 +72,7 @@ class SwatchScene {
       const MirroredRay mirrored = ChooseMirrored(surface, roughness, to_viewer, 0, uniform);
       if (mirrored.weight > 0) sum += mirrored.weight * Around(mirrored.ray.direction);
     }
-    const auto to_frame = Eigen::Quaterniond::FromTwoVectors(normal, Vector3d::UnitZ());
+    const auto to_frame = RotationBetween(normal, Vector3d::UnitZ());
     return sum / (kFacets * kFacets) +
            MirrorLobe(roughness, to_frame * to_viewer, to_frame * to_sun_) * light_.sun_irradiance;
   }

@@ -83,7 +83,6 @@ check 'the contact sheet shows 12 pictures and marks 6 of them' marks_simulation
 
 # ---- what changed ----------------------------------------------------------------------------------
 
-sed -i 's/^v 0 /v 0.001 /' "$site"/variants/low/*.obj 2>/dev/null || true
 printf '{"rotation_deg": 3}\n' >"$site/variants/low/note.json"
 changed() { batch --explain | grep -c ' runs: .*variants/low/note.json is new'; }
 check 'a changed design is rendered anew, and no other' test "$(changed)" = 6
@@ -91,16 +90,17 @@ check 'a changed design is rendered anew, and no other' test "$(changed)" = 6
 # ---- failures --------------------------------------------------------------------------------------
 
 rm -f -- "$site"/montages/left~fast.* "$site"/montages/right~fast.*
+log=$(find "$site/work" -path '*/stages/batch/middle~fast.log' -not -path '*variants*')
 fails_and_goes_on() {
-  chmod a-r "$site/montages" 2>/dev/null
-  # A folder where the picture should be: the job fails, the others go on.
-  mkdir -p "$site/montages/left~fast.png"
-  batch_says 1 'left~fast +failed \(status 1\)'
+  # A folder where the picture should be, and one where a log should be: these jobs fail, the others go on.
+  mkdir -- "$site/montages/left~fast.png"
+  rm -f -- "$site"/montages/middle~fast.* "$log" && mkdir -p -- "$log/here"
+  batch_says 1 'left~fast +failed \(status 1\)' && batch_says 1 'middle~fast +failed \(status 1\)'
 }
 check 'a job that fails is told, with status 1' fails_and_goes_on
 check 'the others are done' test -s "$site/montages/right~fast.png"
 check 'the sheet tells it' grep -q '<b>failed:</b> failed (status 1)' "$sheet"
-rmdir "$site/montages/left~fast.png"
+rmdir -- "$site/montages/left~fast.png" "$log/here" "$log"
 check 'when the reason is gone it is done' batch_says 0 '12 of 12 pictures are there'
 
 # ---- other engines ---------------------------------------------------------------------------------
