@@ -7,7 +7,7 @@ namespace insitu {
 
 Spectrum TransmittanceOver(const Atmosphere& air, double distance) {
   INSITU_CHECK(distance >= 0);
-  return air.transmittance.pow(distance);
+  return (distance * air.transmittance.log()).exp();  // of whole packets, unlike pow
 }
 
 Spectrum ApparentColor(const Spectrum& true_color, const Atmosphere& air, double distance) {

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "renderer/shadows/shadow_separation.h"
 
-#include <Eigen/Cholesky>
+#include <tbb/parallel_for.h>
+
 #include <Eigen/LU>
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <map>
+#include <optional>
 
 #include "calibration/files/error.h"
 
@@ -41,18 +43,40 @@ struct SurfaceModel {
   Vector3d offset = Vector3d::Zero();  // of shaded pixels beyond the sun's absence
   Matrix3d covariance = Matrix3d::Identity();
   double lit = 0.85, shaded = 0.1, other = 0.05;  // shares
+};
+
+// What pixels of a surface are by its model, with what all of them share.
+class Classes {
+ public:
+  explicit Classes(const SurfaceModel& model)
+      : model_(model),
+        inverse_(model.covariance.inverse()),
+        scale_(1 / std::sqrt(std::pow(2 * M_PI, 3) * model.covariance.determinant())) {}
 
   Odds Of(const SunPixel& pixel) const {
-    const Matrix3d inverse = covariance.inverse();
-    const double scale = 1 / std::sqrt(std::pow(2 * M_PI, 3) * covariance.determinant());
-    const auto density = [&](const Vector3d& off) {
-      return scale * std::exp(-off.dot(inverse * off) / 2);
-    };
-    Odds odds{lit * density(Lit(pixel) - mean), shaded * density(Shaded(pixel) - mean - offset),
-              other * kOutlierDensity};
+    Odds odds{model_.lit * Density(Lit(pixel) - model_.mean),
+              model_.shaded * Density(Shaded(pixel) - model_.mean - model_.offset),
+              model_.other * kOutlierDensity};
     const double sum = odds.lit + odds.shaded + odds.other;
     return {odds.lit / sum, odds.shaded / sum, odds.other / sum};
   }
+
+  // Of shade against sun, by the pixel alone; what fits neither brings little.
+  double LogOdds(const SunPixel& pixel) const {
+    const Odds odds = Of(pixel);
+    const double shaded = odds.shaded + 0.3 * odds.other, lit = odds.lit + 0.7 * odds.other;
+    const double log_odds = std::log(std::max(shaded, 1e-9) / std::max(lit, 1e-9));
+    return std::clamp(log_odds, -kMostOdds, kMostOdds);
+  }
+
+ private:
+  double Density(const Vector3d& off) const {
+    return scale_ * std::exp(-off.dot(inverse_ * off) / 2);
+  }
+
+  SurfaceModel model_;
+  Matrix3d inverse_;
+  double scale_;
 };
 
 double Brightness(const SunPixel& pixel) { return pixel.lit.mean(); }
@@ -72,8 +96,9 @@ SurfaceModel Improved(const SurfaceModel& model, const std::vector<SunPixel>& pi
   double lit = 0, shaded = 0;
   Vector3d sum_lit = Vector3d::Zero(), sum_shaded = Vector3d::Zero();
   std::vector<Odds> odds;
+  const Classes classes(model);
   for (const SunPixel& pixel : pixels) {
-    odds.push_back(model.Of(pixel));
+    odds.push_back(classes.Of(pixel));
     lit += odds.back().lit;
     shaded += odds.back().shaded;
     sum_lit += odds.back().lit * Lit(pixel);
@@ -96,37 +121,36 @@ SurfaceModel Improved(const SurfaceModel& model, const std::vector<SunPixel>& pi
   return next;
 }
 
-// Of those that can be judged.
-std::map<int, SurfaceModel> ModelsOf(const std::vector<SunPixel>& pixels) {
-  std::map<int, std::vector<SunPixel>> of_surface;
-  std::map<int, size_t> counts;
+// nullopt: it cannot be judged.
+std::optional<Classes> ClassesOf(const std::vector<SunPixel>& pixels) {
+  if (pixels.size() < kFewestPixels) return std::nullopt;
+  double fall = 0;
+  for (const SunPixel& pixel : pixels) fall -= pixel.fall.mean();
+  if (fall / static_cast<double>(pixels.size()) < kLeastFall) return std::nullopt;
+  SurfaceModel model = FirstGuess(pixels);
+  for (int pass = 0; pass < kPasses; ++pass) model = Improved(model, pixels);
+  return Classes(model);
+}
+
+// Of each surface number, from at most kMostForModel of its pixels.
+std::vector<std::optional<Classes>> ClassesBySurface(const std::vector<SunPixel>& pixels) {
+  std::vector<size_t> counts;
   for (const SunPixel& pixel : pixels) {
-    if (pixel.surface >= 0) ++counts[pixel.surface];
+    if (pixel.surface < 0) continue;
+    if (counts.size() <= static_cast<size_t>(pixel.surface)) counts.resize(pixel.surface + 1);
+    ++counts[pixel.surface];
   }
-  std::map<int, size_t> seen;
+  std::vector<size_t> seen(counts.size());
+  std::vector<std::vector<SunPixel>> of_surface(counts.size());
   for (const SunPixel& pixel : pixels) {
     if (pixel.surface < 0) continue;
     const size_t step = counts[pixel.surface] / kMostForModel + 1;
     if (seen[pixel.surface]++ % step == 0) of_surface[pixel.surface].push_back(pixel);
   }
-  std::map<int, SurfaceModel> models;
-  for (const auto& [surface, of_model] : of_surface) {
-    if (of_model.size() < kFewestPixels) continue;
-    double fall = 0;
-    for (const SunPixel& pixel : of_model) fall -= pixel.fall.mean();
-    if (fall / static_cast<double>(of_model.size()) < kLeastFall) continue;
-    SurfaceModel model = FirstGuess(of_model);
-    for (int pass = 0; pass < kPasses; ++pass) model = Improved(model, of_model);
-    models[surface] = model;
-  }
-  return models;
-}
-
-// Of shade against sun, by the pixel alone; what fits neither brings little.
-double LogOdds(const SurfaceModel& model, const SunPixel& pixel) {
-  const Odds odds = model.Of(pixel);
-  const double shaded = odds.shaded + 0.3 * odds.other, lit = odds.lit + 0.7 * odds.other;
-  return std::clamp(std::log(std::max(shaded, 1e-9) / std::max(lit, 1e-9)), -kMostOdds, kMostOdds);
+  std::vector<std::optional<Classes>> classes(counts.size());
+  tbb::parallel_for(size_t{0}, counts.size(),
+                    [&](size_t i) { classes[i] = ClassesOf(of_surface[i]); });
+  return classes;
 }
 
 // The picture with what each pixel tells of itself.
@@ -138,25 +162,29 @@ class ShadowField {
         pixels_(pixels),
         evidence_(pixels.size()),
         shade_(pixels.size()),
-        is_judged_(pixels.size()) {
-    const std::map<int, SurfaceModel> models = ModelsOf(pixels);
-    for (size_t i = 0; i < pixels.size(); ++i) {
-      const auto model = models.find(pixels[i].surface);
-      if (model == models.end()) continue;
-      evidence_[i] = static_cast<float>(LogOdds(model->second, pixels[i]));
-      shade_[i] = Probability(evidence_[i]);
-      is_judged_[i] = 1;
-    }
+        is_judged_(pixels.size()),
+        couplings_(pixels.size(), Couplings{}) {
+    const std::vector<std::optional<Classes>> classes = ClassesBySurface(pixels);
+    ForEachRow([&](int y) {
+      for (size_t i = Index(0, y); i < Index(0, y + 1); ++i) {
+        const int surface = pixels[i].surface;
+        if (surface < 0 || !classes[surface]) continue;
+        evidence_[i] = static_cast<float>(classes[surface]->LogOdds(pixels[i]));
+        shade_[i] = Probability(evidence_[i]);
+        is_judged_[i] = 1;
+      }
+    });
+    ForEachRow([this](int y) { CoupleRow(y); });
   }
 
   void Sweep() {
     std::vector<float> next = shade_;
-    for (int y = 0; y < height_; ++y) {
+    ForEachRow([&](int y) {
       for (int x = 0; x < width_; ++x) {
         const size_t i = Index(x, y);
         if (is_judged_[i]) next[i] = Probability(evidence_[i] + NeighboursOdds(x, y));
       }
-    }
+    });
     shade_.swap(next);
   }
 
@@ -170,20 +198,48 @@ class ShadowField {
   }
 
  private:
+  // Right of a pixel, and below it to the left, straight and to the right: [ln odds] by which it
+  // and that neighbour draw each other, 0 across a surface's edge.
+  struct Step {
+    int x, y;
+  };
+  static constexpr std::array<Step, 4> kSteps = {{{1, 0}, {-1, 1}, {0, 1}, {1, 1}}};
+  using Couplings = std::array<float, kSteps.size()>;
+
   size_t Index(int x, int y) const { return static_cast<size_t>(y) * width_ + x; }
+  bool Holds(int x, int y) const { return x >= 0 && x < width_ && y >= 0 && y < height_; }
+  template <typename Task>
+  void ForEachRow(const Task& task) const {
+    tbb::parallel_for(0, height_, task);
+  }
   static float Probability(double log_odds) {
     return static_cast<float>(1 / (1 + std::exp(-log_odds)));
   }
 
+  void CoupleRow(int y) {
+    for (int x = 0; x < width_; ++x) {
+      const size_t i = Index(x, y);
+      if (!is_judged_[i]) continue;
+      for (size_t k = 0; k < kSteps.size(); ++k) {
+        if (!Holds(x + kSteps[k].x, y + kSteps[k].y)) continue;
+        const SunPixel& there = pixels_[Index(x + kSteps[k].x, y + kSteps[k].y)];
+        if (there.surface != pixels_[i].surface) continue;
+        const double off = (Brightness(there) - Brightness(pixels_[i])) / kLikeness;
+        couplings_[i][k] = static_cast<float>(kCoupling * std::exp(-off * off / 2));
+      }
+    }
+  }
+
   double NeighboursOdds(int x, int y) const {
-    const SunPixel& here = pixels_[Index(x, y)];
     double odds = 0;
-    for (int v = std::max(0, y - 1); v <= std::min(height_ - 1, y + 1); ++v) {
-      for (int u = std::max(0, x - 1); u <= std::min(width_ - 1, x + 1); ++u) {
-        const size_t j = Index(u, v);
-        if ((u == x && v == y) || pixels_[j].surface != here.surface) continue;
-        const double off = (Brightness(pixels_[j]) - Brightness(here)) / kLikeness;
-        odds += kCoupling * std::exp(-off * off / 2) * (2 * shade_[j] - 1);
+    for (size_t k = 0; k < kSteps.size(); ++k) {
+      const Step& step = kSteps[k];
+      if (Holds(x + step.x, y + step.y)) {
+        odds += couplings_[Index(x, y)][k] * (2 * shade_[Index(x + step.x, y + step.y)] - 1);
+      }
+      if (Holds(x - step.x, y - step.y)) {
+        const size_t j = Index(x - step.x, y - step.y);
+        odds += couplings_[j][k] * (2 * shade_[j] - 1);
       }
     }
     return odds;
@@ -193,6 +249,7 @@ class ShadowField {
   const std::vector<SunPixel>& pixels_;
   std::vector<float> evidence_, shade_;  // ln odds by the pixel alone, probability
   std::vector<char> is_judged_;
+  std::vector<Couplings> couplings_;
 };
 
 }  // namespace
