@@ -51,6 +51,14 @@ std::vector<Sentence> DaylightWarnings(const LightMeasurement& measured) {
     warnings.emplace_back(
         Sentence("lightSunUnseen", "no daylight sample sees the sun: it stays dark"));
   }
+  const Daylight& light = measured.environment.light;
+  if ((light.sun_radiance < 0).any() || (light.ambient_radiance < 0).any() ||
+      (light.sky_radiance < 0).any()) {
+    warnings.emplace_back(
+        Sentence("lightNegative",
+                 "least squares without bounds make a component of daylight negative, which no "
+                 "light is: it is used as calculated, as the paper has it"));
+  }
   if (measured.daylight_fit.condition > kPoorCondition) {
     warnings.emplace_back(
         Sentence("lightPoor",

@@ -32,6 +32,7 @@ struct LightMeasurement {
   std::vector<DaylightSample> daylight;
   std::vector<double> unseen;
   bool is_simplified = false;         // an option leaves out the light from around, or evens it
+  bool as_printed = false;            // the paper's inversions, LightOptions::as_printed
   std::vector<ClippedShare> clipped;  // empty: not looked at, or nothing is
   double brightest = 0;               // value in any photograph
   // Photographs whose codes count as light by the curve of their colour space alone: pictures that

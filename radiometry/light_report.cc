@@ -68,6 +68,30 @@ void AddSky(const LightMeasurement& measured, Json::Value* sky) {
   json["rms_of_ln"] = fit.rms;
 }
 
+// A row of the paper's table, in whose unit rho = 1 / sr at the samples: ours is 1 / pi there.
+// [Durisch92, Tab. 1]
+Json::Value TableOne(const LightMeasurement& measured) {
+  const NaturalEnvironment& environment = measured.environment;
+  const Daylight& light = environment.light;
+  const SpectralBins& bins = environment.spectra.bins();
+  const auto& table = measured.samples.daylight_spectrum;
+  const Spectrum relative = table ? Sampled(*table, bins) : IlluminantD65(bins);
+  const auto weight = [&](const Spectrum& radiance) {
+    return Tristimulus(radiance, bins).y() / Tristimulus(relative, bins).y() / std::numbers::pi;
+  };
+  Json::Value json;
+  json["input_images"] = static_cast<int>(environment.scene.cameras.size());
+  json["natural_polygons"] = static_cast<int>(environment.scene.polygons.size());
+  if (environment.scene.sun) {
+    json["omega_s"] = light.sun_solid_angle;
+    json["k_s"] = weight(light.sun_radiance);
+  }
+  json["k_u"] = weight(light.ambient_radiance);
+  json["m_h"] = light.polar_facets;
+  json["k_h"] = weight(light.sky_radiance);
+  return json;
+}
+
 void AddLight(const LightMeasurement& measured, Json::Value* light) {
   const NaturalEnvironment& environment = measured.environment;
   const SpectralBasis& spectra = environment.spectra;
@@ -84,6 +108,7 @@ void AddLight(const LightMeasurement& measured, Json::Value* light) {
   json["k_s"] = weight(daylight.sun_radiance);
   json["k_u"] = weight(daylight.ambient_radiance);
   json["k_h"] = weight(daylight.sky_radiance);
+  if (measured.as_printed) json["table_1"] = TableOne(measured);
   json["sun_radiance_sigma"] = BinsJson(fit.sun_sigma, spectra.bins());
   json["sun_irradiance_rgb"] = ToJson(SunIrradianceRgb(environment));
   json["ambient_radiance_sigma"] = BinsJson(fit.ambient_sigma, spectra.bins());
@@ -167,6 +192,16 @@ void PrintSky(const LightMeasurement& measured, std::ostream& out) {
   out << "\n";
 }
 
+void PrintTableOne(const Json::Value& row, std::ostream& out) {
+  out << "As in Table 1:     ";
+  if (row.isMember("k_s")) {
+    out << " Omega_s " << std::defaultfloat << row["omega_s"].asDouble() << " sr, k_s "
+        << std::fixed << row["k_s"].asDouble() << ",";
+  }
+  out << " k_u " << row["k_u"].asDouble() << ", m_h " << row["m_h"].asInt() << ", k_h "
+      << row["k_h"].asDouble() << "\n";
+}
+
 }  // namespace
 
 Eigen::Vector3d TransmittanceRgb(const NaturalEnvironment& environment, double distance) {
@@ -204,6 +239,7 @@ std::string BriefReport(const LightMeasurement& measured) {
   PrintSky(measured, out);
   out << "Daylight: " << measured.samples.daylight.size() << " samples, residuals " << fit.rms
       << " sigma, condition " << fit.condition << "\n";
+  if (measured.as_printed) PrintTableOne(TableOne(measured), out);
   for (size_t i = 0; i < environment.qualities.size(); ++i) {
     out << environment.scene.cameras[i].photo << ": ";
     PrintQuality(environment.qualities[i], out);

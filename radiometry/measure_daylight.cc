@@ -68,7 +68,7 @@ std::vector<HazeSample> HazeSamples(const LightSamples& samples, const SpectralB
   return haze;
 }
 
-void MeasureAir(LightMeasurement* measured) {
+void MeasureAir(bool as_printed, LightMeasurement* measured) {
   NaturalEnvironment& environment = measured->environment;
   const Spectrum horizon = HorizonColor(measured->samples.horizon, environment.spectra);
   measured->haze = HazeSamples(measured->samples, environment.spectra);
@@ -77,16 +77,21 @@ void MeasureAir(LightMeasurement* measured) {
         Sentence("lightNoHaze", "samples.json has no haze samples: the air is taken as clear"));
     measured->air_fit.air.horizon = horizon;
   } else {
-    measured->air_fit = FitAtmosphere(measured->haze, horizon, environment.spectra.bins());
+    measured->air_fit =
+        FitAtmosphere(measured->haze, horizon, environment.spectra.bins(), as_printed);
   }
   environment.air = measured->air_fit.air;
 }
 
-Daylight IlluminationGeometry(const SceneGeometry& scene, int polar_facets) {
+Daylight IlluminationGeometry(const SceneGeometry& scene, const LightOptions& options) {
   Daylight light;
   light.zenith_direction = scene.zenith.unit;
   light.sun_direction = scene.sun ? scene.sun->unit : scene.zenith.unit;
-  light.polar_facets = polar_facets;
+  light.polar_facets = options.polar_facets;
+  if (options.as_printed) {
+    light.sun_solid_angle = kPrintedSolidAngle;
+    light.sun_is_one_direction = true;
+  }
   return light;
 }
 
@@ -196,6 +201,7 @@ DaylightFitOptions FitOptions(const LightMeasurement& measured, const LightOptio
   const SkyFit& sky = measured.sky.fit;
   DaylightFitOptions fit;
   fit.average_over_wavelength = options.average_over_wavelength;
+  fit.as_printed = options.as_printed;
   if (table) fit.relative_spectrum = Sampled(*table, bins);
   if (measured.reflectance_known && sky.level) fit.sky = {*sky.level, sky.level_sigma};
   return fit;
@@ -262,10 +268,10 @@ void MeasureAirAndLight(const SitePaths& site, const PhotographSet& photos,
                         const LightOptions& options, KeptSkyBlocks* kept,
                         LightMeasurement* measured) {
   NaturalEnvironment& environment = measured->environment;
-  measured->reflectance_known = KnowsReflectance(measured->samples);
-  MeasureAir(measured);
+  measured->reflectance_known = !options.as_printed && KnowsReflectance(measured->samples);
+  MeasureAir(options.as_printed, measured);
   Daylight& light = environment.light;
-  light = IlluminationGeometry(environment.scene, options.polar_facets);
+  light = IlluminationGeometry(environment.scene, options);
   if (!options.uniform_ambient) {
     measured->sky = MeasureSky(site, photos, measured->samples.horizon,
                                options.average_over_wavelength, kept, &environment);
@@ -275,7 +281,9 @@ void MeasureAirAndLight(const SitePaths& site, const PhotographSet& photos,
   const RayScene rays(MeshOfPolygons(environment.scene).mesh);
   measured->daylight = DaylightSamples(*measured, TraceLight(points, rays, light));
   const bool has_sun = environment.scene.sun.has_value();
-  measured->brdf = SampleBrdf(measured->samples, environment.spectra, &measured->warnings);
+  measured->brdf = options.as_printed
+                       ? Spectrum(environment.spectra.Ones() / std::numbers::pi)
+                       : SampleBrdf(measured->samples, environment.spectra, &measured->warnings);
   DaylightFit& fit = measured->daylight_fit;
   if (options.uniform_ambient) {
     fit = FitDaylight(measured->daylight, measured->brdf, has_sun, environment.spectra.bins(),
@@ -287,6 +295,7 @@ void MeasureAirAndLight(const SitePaths& site, const PhotographSet& photos,
   light.ambient_radiance = fit.ambient_radiance;
   light.sky_radiance = fit.sky_radiance;
   measured->is_simplified = options.uniform_ambient || options.bounces == 0;
+  measured->as_printed = options.as_printed;
   const std::vector<Sentence> warnings = DaylightWarnings(*measured);
   measured->warnings.insert(measured->warnings.end(), warnings.begin(), warnings.end());
   if (measured->reflectance_known) {
@@ -299,7 +308,8 @@ LightMeasurement WithoutSamples(const SitePaths& site, SceneGeometry scene,
   LightMeasurement measured;
   NaturalEnvironment& environment = measured.environment;
   environment.scene = std::move(scene);
-  environment.spectra = SpectralBasis(Rec709(), {options.bins});
+  environment.spectra =
+      SpectralBasis(Rec709(), {options.bins}, options.as_printed ? Ntsc1953() : Rec709());
   environment.materials = MaterialsOfPolygons(site, environment.scene, &measured.warnings);
   return measured;
 }
@@ -330,6 +340,7 @@ void RequireEnough(const SitePaths& site, LightSamples* samples, std::vector<Sen
 void LightOptions::Check() const {
   INSITU_CHECK(bins >= kFewestBins && bins <= kMaxBins);
   INSITU_CHECK(polar_facets >= 1 && polar_facets <= kMostPolarFacets);
+  INSITU_CHECK(uniform_ambient || !as_printed);
 }
 
 LightMeasurement MeasureDaylight(const SitePaths& site, const LightOptions& options) {
@@ -342,7 +353,8 @@ LightMeasurement MeasureDaylight(const SitePaths& site, const LightOptions& opti
   PhotographSet photos = FindPhotographs(site, environment.scene, &measured.exposures);
   environment.input_images = ListInputImages(site, environment.scene);
   MeasurePhotographs(photos, &progress, &measured);
-  measured.samples = ReadSamples(site, environment.scene, photos);
+  measured.samples = ReadSamples(site, environment.scene, photos,
+                                 options.as_printed ? SampleOptions{.radius = 0} : SampleOptions{});
   measured.clipped = MeasureClippedShares(environment.scene, photos);
   BringToOneUnit(&photos, &measured);
   progress.Step();

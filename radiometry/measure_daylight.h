@@ -23,6 +23,10 @@ struct LightOptions {
   int bins = kMaxBins;   // 16, or 9 as the paper's mode
   int polar_facets = 8;  // m_h
   bool average_over_wavelength = false;
+  // Both inversions as printed: the image function at each sample instead of a mean about it, rho =
+  // 1, least squares without weights and bounds, D65 times the plain mean of k, one sun direction
+  // of 0.0004 sr, Appendix A on NTSC's primaries; with uniform_ambient. [Durisch92, §4, §7]
+  bool as_printed = false;
   bool uniform_ambient = false;     // Eq. (4) as printed, instead of photographed surroundings
   std::optional<int> bounces = {};  // of light among surfaces, at most; 0: sun and sky alone
   SurroundingsDetail around = {};

@@ -11,7 +11,7 @@ namespace insitu {
 namespace {
 
 constexpr char kFormat[] = "insitu natural environment";
-constexpr int kVersion = 2;               // 1: no input images, no covariances
+constexpr int kVersion = 3;               // 1: no input images, no covariances; 2: no primaries
 constexpr double kReferenceDistance = 1;  // d_a [m]
 
 Json::Value InteriorToJson(const Camera& camera) {
@@ -120,6 +120,7 @@ Json::Value LightToJson(const Daylight& light, const SpectralBins& bins) {
   Json::Value json;
   json["sun_direction"] = ToJson(light.sun_direction);
   json["sun_solid_angle"] = light.sun_solid_angle;
+  json["sun_is_one_direction"] = light.sun_is_one_direction;
   json["zenith_direction"] = ToJson(light.zenith_direction);
   json["polar_facets"] = light.polar_facets;
   json["sun_radiance"] = BinsJson(light.sun_radiance, bins);
@@ -279,7 +280,8 @@ Atmosphere ReadAir(const JsonNode& node, const SpectralBins& bins) {
   Atmosphere air;
   air.horizon = ReadBins(node.At("horizon"), bins);
   air.transmittance = ReadBins(node.At("transmittance_per_m"), bins, 1);
-  if (!(air.transmittance > 0 && air.transmittance <= 1).all()) {
+  constexpr double kMost = 1.01;  // least squares as printed may come out above 1
+  if (!(air.transmittance > 0 && air.transmittance <= kMost).all()) {
     throw node.At("transmittance_per_m").Error("is out of range, expected above 0 and up to 1");
   }
   const JsonNode distance = node.At("reference_distance_m");
@@ -302,6 +304,7 @@ Daylight ReadLight(const JsonNode& node, const SpectralBins& bins) {
   Daylight light;
   light.sun_direction = ReadUnit(node.At("sun_direction"));
   light.sun_solid_angle = node.At("sun_solid_angle").Number();
+  light.sun_is_one_direction = node.At("sun_is_one_direction").Boolean();
   light.zenith_direction = ReadUnit(node.At("zenith_direction"));
   light.polar_facets = node.At("polar_facets").Integer();
   if (light.polar_facets < 1 || light.polar_facets > kMostPolarFacets) {
@@ -312,6 +315,31 @@ Daylight ReadLight(const JsonNode& node, const SpectralBins& bins) {
   light.sky_radiance = ReadBins(node.At("sky_radiance"), bins);
   if (const auto shape = node.Find("sky_shape")) ReadSkyShape(*shape, bins, &light);
   return light;
+}
+
+// Chromaticities x, y, those of the white last.
+Json::Value PrimariesToJson(const RgbPrimaries& primaries) {
+  Json::Value json(Json::arrayValue);
+  for (const Eigen::Vector2d& xy :
+       {primaries.red, primaries.green, primaries.blue, primaries.white}) {
+    json.append(ToJson(Eigen::VectorXd(xy)));
+  }
+  return json;
+}
+
+Eigen::Vector2d ReadChromaticity(const JsonNode& node) {
+  const std::vector<double> xy = node.Numbers();
+  if (xy.size() != 2 || !(xy[0] >= 0 && xy[1] > 0 && xy[0] + xy[1] <= 1)) {
+    throw node.Error("is no chromaticity, expected x and y");
+  }
+  return {xy[0], xy[1]};
+}
+
+RgbPrimaries ReadPrimaries(const JsonNode& node) {
+  const std::vector<JsonNode> items = node.Items();
+  if (items.size() != 4) throw node.Error("expected those of red, green, blue and white");
+  const auto at = [&items](size_t i) { return ReadChromaticity(items[i]); };
+  return {at(0), at(1), at(2), at(3)};
 }
 
 SpectralBins ReadSpectralBins(const JsonNode& node) {
@@ -341,6 +369,7 @@ Json::Value DescriptionOf(const NaturalEnvironment& environment,
   json["format"] = kFormat;
   json["version"] = kVersion;
   json["bins"] = bins.count;
+  json["basis_primaries"] = PrimariesToJson(environment.spectra.basis_primaries());
   json["scene"] = SceneToJson(environment, file.parent_path());
   json["materials"] = Json::Value(Json::objectValue);
   for (const auto& [name, material] : environment.materials) {
@@ -362,7 +391,8 @@ NaturalEnvironment ReadEnvironment(const SitePaths& site) {
                         ": run insitu-light again");
   }
   NaturalEnvironment environment;
-  environment.spectra = SpectralBasis(Rec709(), ReadSpectralBins(root.At("bins")));
+  environment.spectra = SpectralBasis(Rec709(), ReadSpectralBins(root.At("bins")),
+                                      ReadPrimaries(root.At("basis_primaries")));
   const SpectralBins& bins = environment.spectra.bins();
   ReadScene(root.At("scene"), &environment);
   environment.materials = ReadMaterials(root, environment.scene);

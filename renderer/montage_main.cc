@@ -47,7 +47,9 @@ void AddOptions(ProgramOptions* program, MontageCommand* command) {
                  "bounces of light among surfaces; 0: sun and sky alone; without: all",
                  {.check = OptionCheck::kNonNegative});
   program->Flag("--paper", &command->is_paper,
-                "the paper's uniform ambient light instead of light among surfaces", "--bounces");
+                "light and rendering to the letter of the paper, as --light.paper and "
+                "--render.paper",
+                "--bounces");
   program->Value("--from", &command->from, "leave the stages before this one as they are");
   program->Value("--to", &command->to, "leave the stages after this one as they are");
   program->Value("--jobs", &command->options.jobs, "stages at a time",
@@ -82,7 +84,7 @@ void Complete(MontageCommand* command) {
     request.site.beside = "avr" + command->avr;
   }
   for (const char* stage : {"light", "render"}) {
-    if (command->is_paper) request.options[stage].push_back("--uniform-ambient");
+    if (command->is_paper) request.options[stage].push_back("--paper");
     if (!command->bounces) continue;
     request.options[stage].push_back("--bounces=" + std::to_string(*command->bounces));
   }

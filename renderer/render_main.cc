@@ -115,6 +115,10 @@ void AddRenderOptions(ProgramOptions* program, RenderCommand* command) {
                  {.shows_default = true, .one_of = {"4", "8", "12", "16"}});
   program->Flag("--uniform-ambient", &options.uniform_ambient,
                 "the paper's ambient light, alike everywhere, instead of light among surfaces");
+  program->Flag("--paper", &options.as_printed,
+                "to the letter of the paper: --uniform-ambient --no-shadow-search --sharpness "
+                "ideal, Hall and Greenberg's mirrors, the horizon's colour for all that leaves, "
+                "surfaces looked up by their image attribute alone; after insitu-light --paper");
   program->Flag("!--no-shadow-search", &options.find_shadows,
                 "take what no polygon shades as lit by the sun, whatever the photograph shows");
   program->Value("--reach", &options.render.reach,
@@ -161,6 +165,11 @@ void RenderAndReport(const RenderCommand& command) {
   options.with_building = !command.no_building;
   options.keeps_pictures = false;
   options.avr = kAvrLevels.at(command.avr);
+  if (options.as_printed) {
+    options.uniform_ambient = true;
+    options.find_shadows = false;
+    options.sharpness = Sharpness::kIdeal;
+  }
   site.beside = BesideName(command);
   Lessen(kQualities.at(command.quality), &options);
   NoteStopSignals();

@@ -164,9 +164,10 @@ std::string OptionsText(const RenderSiteOptions& options) {
                    static_cast<int>(options.with_building), static_cast<int>(options.sharpness)) +
          Formatted("block %d coarse %d avr %d ", render.block, options.light_coarseness,
                    static_cast<int>(options.avr)) +
-         Formatted("grain %d shadows %d ambient %d bounces %d",
+         Formatted("grain %d shadows %d ambient %d printed %d bounces %d",
                    static_cast<int>(options.with_grain), static_cast<int>(options.find_shadows),
-                   static_cast<int>(options.uniform_ambient), options.bounces.value_or(-1));
+                   static_cast<int>(options.uniform_ambient), static_cast<int>(options.as_printed),
+                   options.bounces.value_or(-1));
 }
 
 // Of the light among surfaces, which all photographs share.
@@ -216,6 +217,7 @@ class SiteRender {
         light_inputs_(Sha256OfText(LightOptionsText(options) + "\n" + files_)),
         statement_(StatementOf(site, {options.with_building, options.avr, options.quality})) {
     ThrowIfStopped();
+    scene_.as_printed = options.as_printed;
     if (options.uniform_ambient || IsDrawn(options.avr)) return;
     const auto kept = ReadLightCache(LightCacheOf(site, options), light_inputs_);
     AddInterreflection(&scene_, options.bounces, kept ? &*kept : nullptr, options.light_coarseness);

@@ -34,6 +34,7 @@ struct RenderSiteOptions {
   // uniform_ambient, nor where somebody has drawn them.
   bool find_shadows = true;
   bool uniform_ambient = false;     // the paper's light as printed, instead of light among surfaces
+  bool as_printed = false;          // MontageScene::as_printed, with uniform_ambient
   std::optional<int> bounces = {};  // of light among surfaces, at most; 0: sun and sky alone
   AvrLevel avr = AvrLevel::kMaterials;
   std::string quality = {};          // what the pictures say of it; empty: final

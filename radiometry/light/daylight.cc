@@ -59,7 +59,8 @@ std::vector<Eigen::Vector3d> SunPoints(const Daylight& light) {
   const double golden_angle = kPi * (3 - std::sqrt(5.0));
   std::vector<Eigen::Vector3d> points;
   for (int i = 0; i < kSunPoints; ++i) {
-    const double cosine = 1 - light.sun_solid_angle / (2 * kPi) * (i + 0.5) / kSunPoints;
+    const double disc = light.sun_is_one_direction ? 0 : light.sun_solid_angle;
+    const double cosine = 1 - disc / (2 * kPi) * (i + 0.5) / kSunPoints;
     points.emplace_back(axes * Spherical(cosine, i * golden_angle));
   }
   return points;

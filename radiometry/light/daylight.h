@@ -15,12 +15,15 @@ namespace insitu {
 // The sun's disc seen from the earth: a cone of half angle 0.2666 degrees. Departure: the paper's
 // 0.0004 sr is six discs; only k_s Omega_s enters Eq. (3), but soft shadows need the true disc.
 constexpr double kSolarSolidAngle = 6.8e-5;  // [sr]
+constexpr double kPrintedSolidAngle = 4e-4;  // [sr], the paper's [Durisch92, Tab. 1]
 
 constexpr int kMostPolarFacets = 16;  // of an environment that is to be rendered
 
 struct Daylight {
-  Eigen::Vector3d sun_direction = Eigen::Vector3d::UnitZ();     // unit, world, towards the sun
-  double sun_solid_angle = kSolarSolidAngle;                    // [sr]
+  Eigen::Vector3d sun_direction = Eigen::Vector3d::UnitZ();  // unit, world, towards the sun
+  double sun_solid_angle = kSolarSolidAngle;                 // [sr]
+  // The paper's: all its light comes from sun_direction, which the solid angle only scales.
+  bool sun_is_one_direction = false;
   Spectrum sun_radiance = Spectrum::Zero();                     // k_s L
   Spectrum ambient_radiance = Spectrum::Zero();                 // k_u L
   Eigen::Vector3d zenith_direction = Eigen::Vector3d::UnitZ();  // unit, world
@@ -46,7 +49,8 @@ struct SkyFacets {
 };
 SkyFacets MakeSkyFacets(const Eigen::Vector3d& zenith, int polar_facets);
 
-// Directions to points spread evenly over the sun's disc, as a sunflower's seeds: unit, world.
+// Directions to points spread evenly over the sun's disc, as a sunflower's seeds, or to its middle
+// if it is one direction: unit, world.
 constexpr int kSunPoints = 16;
 std::vector<Eigen::Vector3d> SunPoints(const Daylight& light);
 

@@ -127,7 +127,8 @@ std::vector<PhotographedColor> LookUpColors(const PhotographedSite& site, int po
     }
   }
   const double left = colors.empty() ? 1 : 1 - colors.front().weight;
-  if (left > 0) AddOthers(site, attribute, surface, left, &colors);
+  const bool asks_others = !site.by_attribute_alone || !attribute;
+  if (left > 0 && asks_others) AddOthers(site, attribute, surface, left, &colors);
   if (colors.size() == 1) colors.front().weight = 1;
   return colors;
 }

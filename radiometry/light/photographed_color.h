@@ -45,6 +45,7 @@ struct PhotographedSite {
   const std::vector<LocalImage>& images;  // in the order of scene.cameras
   const Atmosphere& air;
   const SpectralBasis& spectra;
+  bool by_attribute_alone = false;  // as printed: no other photo, unless there is no attribute
 };
 
 // What one photograph shows of a place.
@@ -58,7 +59,7 @@ struct PhotographedColor {
 // frame, and where it does not show the point (out of frame, hidden, other side), as up to three
 // others do, those that resolve it best, by the pixels on its area: so that what moves from one
 // photo to another does so without a seam, but for the outline of what hides it from one. Empty:
-// none shows it.
+// none shows it. Departure: the paper asks the attribute's alone.
 std::vector<PhotographedColor> LookUpColors(const PhotographedSite& site, int polygon,
                                             const SurfacePoint& surface);
 

@@ -17,7 +17,7 @@ constexpr double kSingular = 1e16;  // condition reported then
 
 // With y = L - L_inf and tau = exp(-beta), Eq. (7) reads y = a exp(-beta d), a = L_0 - L_inf.
 struct Exponential {
-  double extinction = 0;  // beta >= 0 [1/m]
+  double extinction = 0;  // beta [1/m]
   double contrast = 0;    // a
 };
 
@@ -25,6 +25,7 @@ struct Exponential {
 struct Observations {
   Eigen::ArrayXd distance, contrast;
   Eigen::ArrayXd root_weight;  // 1 / sigma, times the root of the robust weight
+  bool is_bounded = true;      // extinction >= 0
 };
 
 Eigen::ArrayXd Residuals(const Observations& seen, const Exponential& x) {
@@ -51,7 +52,7 @@ Exponential Step(const Observations& seen, const Exponential& x, double damping)
   N.diagonal() *= 1 + damping;
   const Eigen::Vector2d step = SolveSymmetric(N, J.transpose() * Residuals(seen, x).matrix());
   const double extinction = x.extinction + step[0];
-  if (extinction <= 0) return {0, BestContrast(seen, 0)};
+  if (seen.is_bounded && extinction <= 0) return {0, BestContrast(seen, 0)};
   return {extinction, x.contrast + step[1]};
 }
 
@@ -76,9 +77,9 @@ Exponential FitExponential(const Observations& seen) {
 }
 
 Observations Observe(const std::vector<HazeSample>& samples, const Spectrum& horizon, int bin,
-                     const std::vector<double>& weights) {
+                     const std::vector<double>& weights, bool is_bounded) {
   const int n = static_cast<int>(samples.size());
-  Observations seen{Eigen::ArrayXd(n), Eigen::ArrayXd(n), Eigen::ArrayXd(n)};
+  Observations seen{Eigen::ArrayXd(n), Eigen::ArrayXd(n), Eigen::ArrayXd(n), is_bounded};
   for (int i = 0; i < n; ++i) {
     seen.distance[i] = samples[i].distance;
     seen.contrast[i] = samples[i].apparent_color[bin] - horizon[bin];
@@ -106,17 +107,28 @@ void SetPrecision(const Observations& seen, const Exponential& x, int bin, Atmos
 }
 
 AtmosphereFit FitBins(const std::vector<HazeSample>& samples, const Spectrum& horizon,
-                      const SpectralBins& bins, const std::vector<double>& weights) {
+                      const SpectralBins& bins, const std::vector<double>& weights,
+                      bool is_bounded) {
   AtmosphereFit fit;
   fit.air.horizon = horizon;
   for (int bin = 0; bin < bins.count; ++bin) {
-    const Observations seen = Observe(samples, horizon, bin, weights);
+    const Observations seen = Observe(samples, horizon, bin, weights, is_bounded);
     const Exponential x = FitExponential(seen);
     fit.air.transmittance[bin] = std::exp(-x.extinction);
     fit.true_color[bin] = x.contrast + horizon[bin];
     SetPrecision(seen, x, bin, &fit);
   }
   return fit;
+}
+
+// All of the same sigma, the root mean square of theirs in each bin.
+std::vector<HazeSample> AlikeInSigma(std::vector<HazeSample> samples) {
+  Spectrum variance = Spectrum::Zero();
+  for (const HazeSample& sample : samples) variance += sample.sigma.square();
+  for (HazeSample& sample : samples) {
+    sample.sigma = (variance / static_cast<double>(samples.size())).sqrt();
+  }
+  return samples;
 }
 
 // Per sample: root mean square over the bins, in units of sigma.
@@ -145,13 +157,15 @@ void CheckSamples(const std::vector<HazeSample>& samples, const SpectralBins& bi
 
 }  // namespace
 
-AtmosphereFit FitAtmosphere(const std::vector<HazeSample>& samples, const Spectrum& horizon,
-                            const SpectralBins& bins) {
-  CheckSamples(samples, bins);
-  AtmosphereFit fit = FitBins(samples, horizon, bins, std::vector<double>(samples.size(), 1.0));
+AtmosphereFit FitAtmosphere(const std::vector<HazeSample>& given, const Spectrum& horizon,
+                            const SpectralBins& bins, bool as_printed) {
+  CheckSamples(given, bins);
+  const std::vector<HazeSample> samples = as_printed ? AlikeInSigma(given) : given;
+  AtmosphereFit fit =
+      FitBins(samples, horizon, bins, std::vector<double>(samples.size(), 1.0), !as_printed);
   std::vector<double> magnitudes = ResidualMagnitudes(samples, fit, bins);
-  for (int pass = 0; pass < kRobustPasses; ++pass) {
-    fit = FitBins(samples, horizon, bins, HuberWeights(magnitudes));
+  for (int pass = 0; pass < (as_printed ? 0 : kRobustPasses); ++pass) {
+    fit = FitBins(samples, horizon, bins, HuberWeights(magnitudes), true);
     magnitudes = ResidualMagnitudes(samples, fit, bins);
   }
   fit.rms = Eigen::VectorXd::Map(magnitudes.data(), magnitudes.size()).norm() /

@@ -26,9 +26,10 @@ struct AtmosphereFit {
 };
 
 // Solves [Durisch92, Eq. (7)] per bin for tau and L_0 by Gauss-Newton from tau = 1 and the nearest
-// sample, tau held within (0, 1]. Samples that contradict the others count less (robust_weights.h).
+// sample. Departure: weighted by the samples' sigmas; those that contradict the others count less
+// (robust_weights.h); tau is held within (0, 1]. `as_printed`: none of it, and tau may pass 1.
 // Needs >= 2 samples at different distances (INSITU_CHECK).
 AtmosphereFit FitAtmosphere(const std::vector<HazeSample>& samples, const Spectrum& horizon,
-                            const SpectralBins& bins);
+                            const SpectralBins& bins, bool as_printed = false);
 
 }  // namespace insitu

@@ -2,6 +2,7 @@
 #include "radiometry/measure/fit_daylight.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "calibration/algebra/decompositions.h"
@@ -55,6 +56,7 @@ struct DaylightObservations {
   const SpectralBins& bins;
   std::vector<double> weights;  // of the samples
   std::optional<WeighedSky> sky = {};
+  bool is_bounded = true;  // no component below zero
 };
 
 Equations SetUp(const DaylightObservations& observed, int bin) {
@@ -143,23 +145,38 @@ void SetPrecision(const Equations& equations, const std::vector<int>& columns, S
   }
 }
 
-Solution Solve(const Equations& equations) {
+// Least squares, whatever the sign.
+Eigen::Vector3d SolveUnbounded(const Equations& equations, const std::vector<int>& columns) {
+  const LeastSquaresSolution scaled =
+      SolveLeastSquares(ScaledColumns(equations.A, columns), equations.y, kRankTolerance);
+  Eigen::Vector3d x = Eigen::Vector3d::Zero();
+  for (size_t i = 0; i < columns.size(); ++i) {
+    x[columns[i]] = scaled.x(static_cast<Eigen::Index>(i)) / equations.A.col(columns[i]).norm();
+  }
+  return x;
+}
+
+Solution Solve(const Equations& equations, bool is_bounded) {
   Solution solution;
   const std::vector<int> columns = InfluentialColumns(equations.A);
   if (columns.empty()) return solution;
-  solution.radiance = SolveNonNegative(equations, columns);
+  solution.radiance =
+      is_bounded ? SolveNonNegative(equations, columns) : SolveUnbounded(equations, columns);
   SetPrecision(equations, columns, &solution);
   return solution;
 }
 
+// The three components and their sigmas.
+std::array<Spectrum*, 6> PartsOf(DaylightFit* fit) {
+  return {&fit->sun_radiance, &fit->ambient_radiance, &fit->sky_radiance,
+          &fit->sun_sigma,    &fit->ambient_sigma,    &fit->sky_sigma};
+}
+
 DaylightFit SolveBins(const DaylightObservations& observed) {
   DaylightFit fit;
-  for (Spectrum* part : {&fit.sun_radiance, &fit.ambient_radiance, &fit.sky_radiance,
-                         &fit.sun_sigma, &fit.ambient_sigma, &fit.sky_sigma}) {
-    part->setZero();
-  }
+  for (Spectrum* part : PartsOf(&fit)) part->setZero();
   for (int bin = 0; bin < observed.bins.count; ++bin) {
-    const Solution x = Solve(SetUp(observed, bin));
+    const Solution x = Solve(SetUp(observed, bin), observed.is_bounded);
     fit.sun_radiance[bin] = x.radiance[0];
     fit.ambient_radiance[bin] = x.radiance[1];
     fit.sky_radiance[bin] = x.radiance[2];
@@ -178,6 +195,13 @@ Spectrum AverageOverWavelength(const Spectrum& radiance, const Spectrum& relativ
                                const SpectralBins& bins) {
   return relative_spectrum *
          (Tristimulus(radiance, bins).y() / Tristimulus(relative_spectrum, bins).y());
+}
+
+// As printed: the plain mean of k over the bins. [Durisch92, §4.3]
+Spectrum PlainMeanOverWavelength(const Spectrum& radiance, const Spectrum& relative_spectrum,
+                                 const SpectralBins& bins) {
+  return relative_spectrum *
+         (radiance.head(bins.count) / relative_spectrum.head(bins.count)).mean();
 }
 
 Spectrum ModelRadiance(const DaylightFit& fit, const Spectrum& brdf, const DaylightSample& sample) {
@@ -243,6 +267,16 @@ double SkyOverSigma(const DaylightFit& fit, const SkyObservation& sky, const Spe
   return std::sqrt(residual.head(bins.count).square().mean());
 }
 
+// All of the same sigma, the root mean square of theirs in each bin.
+std::vector<DaylightSample> AlikeInSigma(std::vector<DaylightSample> samples) {
+  Spectrum variance = Spectrum::Zero();
+  for (const DaylightSample& sample : samples) variance += sample.sigma.square();
+  for (DaylightSample& sample : samples) {
+    sample.sigma = (variance / static_cast<double>(samples.size())).sqrt();
+  }
+  return samples;
+}
+
 // Robust: weights and solution take turns.
 DaylightFit FitRobustly(DaylightObservations* observed) {
   observed->weights.assign(observed->samples.size(), 1.0);
@@ -272,6 +306,18 @@ DaylightFit FitWithSky(const SkyObservation& sky, DaylightFit fit, DaylightObser
   return fit;
 }
 
+// [Durisch92, §4.3] to the letter.
+DaylightFit FitAsPrinted(const std::vector<DaylightSample>& samples, const Spectrum& brdf,
+                         bool has_sun, const SpectralBins& bins, const Spectrum& relative) {
+  const std::vector<DaylightSample> alike = AlikeInSigma(samples);
+  DaylightObservations observed{alike, brdf, has_sun, bins, {}, {}, false};
+  observed.weights.assign(alike.size(), 1.0);
+  DaylightFit fit = SolveBins(observed);
+  SetResiduals(alike, brdf, bins, &fit);
+  for (Spectrum* part : PartsOf(&fit)) *part = PlainMeanOverWavelength(*part, relative, bins);
+  return fit;
+}
+
 bool HaveSurroundings(const std::vector<DaylightSample>& samples) {
   const auto with = std::count_if(samples.begin(), samples.end(),
                                   [](const auto& sample) { return sample.surroundings; });
@@ -289,17 +335,18 @@ DaylightFit FitDaylight(const std::vector<DaylightSample>& samples, const Spectr
     INSITU_CHECK((sample.sigma.head(bins.count) > 0).all());
   }
   const bool has_surroundings = HaveSurroundings(samples);
+  const Spectrum relative = options.relative_spectrum.value_or(IlluminantD65(bins));
+  if (options.as_printed) {
+    INSITU_CHECK(!has_surroundings);
+    return FitAsPrinted(samples, brdf, has_sun, bins, relative);
+  }
   DaylightObservations observed{samples, brdf, has_sun, bins, {}, {}};
   DaylightFit fit = FitRobustly(&observed);
   if (has_surroundings && options.sky) fit = FitWithSky(*options.sky, fit, &observed);
   SetResiduals(samples, brdf, bins, &fit);
   if (has_surroundings) SpreadSurroundings(samples, &fit);
   if (options.average_over_wavelength) {
-    const Spectrum relative = options.relative_spectrum.value_or(IlluminantD65(bins));
-    for (Spectrum* part : {&fit.sun_radiance, &fit.ambient_radiance, &fit.sky_radiance,
-                           &fit.sun_sigma, &fit.ambient_sigma, &fit.sky_sigma}) {
-      *part = AverageOverWavelength(*part, relative, bins);
-    }
+    for (Spectrum* part : PartsOf(&fit)) *part = AverageOverWavelength(*part, relative, bins);
   }
   return fit;
 }

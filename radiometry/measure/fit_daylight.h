@@ -28,6 +28,9 @@ struct SkyObservation {
 
 struct DaylightFitOptions {
   bool average_over_wavelength = false;  // the paper's one spectrum for all three components
+  // The inversion as printed: unweighted least squares that may come out negative, and for each
+  // component the plain mean of k over the bins; without `surroundings` and `sky`.
+  bool as_printed = false;
   std::optional<Spectrum> relative_spectrum = std::nullopt;  // that one; nullopt: D65
   std::optional<SkyObservation> sky = std::nullopt;          // counts with `surroundings` alone
 };

@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "calibration/files/json_file.h"
+#include "calibration/photo/raster.h"
 #include "radiometry/library/material_library.h"
 #include "reconstruction/geometry/ray_scene.h"
 
@@ -120,6 +121,7 @@ void MeasureColor(const PhotographedScene& scene, const JsonNode& node, int radi
     squares += (photo.linear.Rgb(at.x(), at.y()) - sample->rgb).array().square();
   }
   const Eigen::Array3d variance = squares / std::max(1.0, n - 1);
+  if (radius == 0) sample->rgb = Interpolate(photo.linear, sample->pixel);
   if (sample->rgb.sum() > 0) sample->unevenness = variance.sqrt().sum() / sample->rgb.sum();
   const Eigen::Array3d sigma_of_mean = (variance / n).sqrt();
   sample->rgb_sigma =

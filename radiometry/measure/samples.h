@@ -30,7 +30,9 @@ struct PixelSample {
 };
 
 struct SampleOptions {
-  int radius = 2;  // [px], the colour is the mean over (2 radius + 1)^2 pixels of the same surface
+  // [px], the colour is the mean over (2 radius + 1)^2 pixels of the same surface; 0: the image
+  // function at the sample itself, as [Durisch92, §4.2] has it.
+  int radius = 2;
 
   void Check() const;  // throws CheckError that names the field that is wrong
 };

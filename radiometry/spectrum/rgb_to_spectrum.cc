@@ -86,11 +86,16 @@ PiecewiseBasis FindBasis(const Eigen::Vector3d& tristimulus, const SpectralBins&
 }
 
 SpectralBasis::SpectralBasis(const RgbPrimaries& primaries, const SpectralBins& bins)
-    : bins_(bins) {
+    : SpectralBasis(primaries, bins, primaries) {}
+
+SpectralBasis::SpectralBasis(const RgbPrimaries& primaries, const SpectralBins& bins,
+                             const RgbPrimaries& basis_primaries)
+    : bins_(bins), basis_primaries_(basis_primaries) {
   const Eigen::Matrix3d rgb_from_xyz = RgbFromXyz(primaries);
   const Eigen::Matrix3d primary_xyz = rgb_from_xyz.inverse();  // columns red, green, blue
+  const Eigen::Matrix3d basis_xyz = RgbFromXyz(basis_primaries).inverse();
   for (int i = 0; i < 3; ++i) {
-    basis_.col(i) = Evaluate(FindBasis(primary_xyz.col(2 - i), bins), bins).matrix();
+    basis_.col(i) = Evaluate(FindBasis(basis_xyz.col(2 - i), bins), bins).matrix();
   }
   const Eigen::Matrix<double, 3, kMaxBins> matching = ColorMatching(bins);
   rgb_from_spectrum_ = rgb_from_xyz * matching / matching.row(1).sum();

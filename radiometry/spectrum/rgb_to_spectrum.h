@@ -35,8 +35,12 @@ PiecewiseBasis FindBasis(const Eigen::Vector3d& tristimulus, const SpectralBins&
 class SpectralBasis {
  public:
   explicit SpectralBasis(const RgbPrimaries& primaries = Rec709(), const SpectralBins& bins = {});
+  // RGB of one space on the basis functions of another's primaries, whose white plays no part.
+  SpectralBasis(const RgbPrimaries& primaries, const SpectralBins& bins,
+                const RgbPrimaries& basis_primaries);
 
   const SpectralBins& bins() const { return bins_; }
+  const RgbPrimaries& basis_primaries() const { return basis_primaries_; }
   // 1 in every bin that is used, 0 beyond.
   Spectrum Ones() const;
 
@@ -57,6 +61,7 @@ class SpectralBasis {
 
  private:
   SpectralBins bins_;
+  RgbPrimaries basis_primaries_;
   Eigen::Matrix<double, kMaxBins, 3> basis_;
   Eigen::Matrix<double, 3, kMaxBins> rgb_from_spectrum_;
   Eigen::Matrix3d weights_from_rgb_;

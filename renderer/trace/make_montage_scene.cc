@@ -195,7 +195,8 @@ MontageScene WithoutImages(NaturalEnvironment natural, const ArtificialEnvironme
     scene.inverse_facet_directions.push_back(direction.cast<float>().array().inverse());
   }
   // A cone of half angle a holds 2 pi (1 - cos a) steradians.
-  const double cosine = 1 - site.light.sun_solid_angle / (2 * std::numbers::pi);
+  const double disc = site.light.sun_is_one_direction ? 0 : site.light.sun_solid_angle;
+  const double cosine = 1 - disc / (2 * std::numbers::pi);
   scene.solar_disc_radius = std::sqrt(1 - cosine * cosine) / cosine;
   return scene;
 }

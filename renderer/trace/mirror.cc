@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "radiometry/light/fresnel.h"
 #include "radiometry/light/split_mix.h"
@@ -33,6 +34,21 @@ Spectrum SunReaching(const MontageScene& scene, const Ray& to_sun, bool with_bui
   const Spectrum through =
       with_building ? TransmittanceAlong(scene, to_sun) : Spectrum::Ones().eval();
   return through * scene.natural.light.sun_radiance * scene.natural.light.sun_solid_angle;
+}
+
+// A highlight without masking, (n + 2) / (8 pi) cos^n of the angle between half vector and normal,
+// n = 2 / m^2 - 2. [Hall & Greenberg 1983, after Blinn 1977; the factor keeps its energy]
+double BlinnLobe(const Roughness& roughness, const Vector3d& to_viewer, const Vector3d& to_light) {
+  if (to_viewer.z() <= 0 || to_light.z() <= 0) return 0;
+  const double power = std::max(1.0, 2 / (roughness.slope * roughness.slope) - 2);
+  const double cosine = (to_viewer + to_light).normalized().z();
+  return (power + 2) / (8 * std::numbers::pi) * std::pow(cosine, power);
+}
+
+double LobeOf(const MontageScene& scene, const Roughness& roughness, const Vector3d& to_viewer,
+              const Vector3d& to_light) {
+  return scene.as_printed ? BlinnLobe(roughness, to_viewer, to_light)
+                          : MirrorLobe(roughness, to_viewer, to_light);
 }
 
 }  // namespace
@@ -84,13 +100,13 @@ Spectrum LightsInRoughMirror(const MontageScene& scene, const SurfacePoint& surf
   const Vector3d view = to_frame * to_viewer;
   const Vector3d origin = surface.position + clearance * surface.normal;
   Spectrum radiance = Spectrum::Zero();
-  if (const double lobe = MirrorLobe(roughness, view, to_frame * light.sun); lobe > 0) {
+  if (const double lobe = LobeOf(scene, roughness, view, to_frame * light.sun); lobe > 0) {
     radiance += lobe * SunReaching(scene, {origin, light.sun}, with_building);
   }
   if (!with_building) return radiance;
   for (const LampSpectrum& lamp : scene.lamps) {
     const LampLight arriving = LampLightAt(scene, lamp, origin, light);
-    const double lobe = MirrorLobe(roughness, view, to_frame * arriving.direction);
+    const double lobe = LobeOf(scene, roughness, view, to_frame * arriving.direction);
     if (lobe > 0) radiance += lobe * arriving.normal_irradiance;
   }
   return radiance;

@@ -125,6 +125,9 @@ struct MontageScene {
   std::shared_ptr<const SurfaceTextures> textures = {};  // of the building; null: none
   // Width that a ray of the sharpest photograph stands for, one of four of a pixel [rad].
   double ray_angle = 0;
+  // Rays as the paper prints them: what leaves has the horizon's colour, surfaces are looked up by
+  // their image attribute alone, rough mirrors are Hall and Greenberg's.
+  bool as_printed = false;
 
   const SpectralMaterial& MaterialOfTriangle(int triangle) const {
     return artificial_materials[material_of_triangle[triangle]];
@@ -138,7 +141,8 @@ struct MontageScene {
   }
 
   PhotographedSite Photographed() const {
-    return {natural.scene, natural_rays, polygon_of_triangle, images, natural.air, natural.spectra};
+    return {natural.scene, natural_rays,    polygon_of_triangle, images,
+            natural.air,   natural.spectra, as_printed};
   }
 };
 

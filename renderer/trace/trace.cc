@@ -35,12 +35,14 @@ double CosineTo(const SurfacePoint& surface, const Eigen::Vector3d& to_viewer) {
 Spectrum MirrorImage(const MontageScene& scene, const SurfacePoint& surface,
                      const Roughness& roughness, const Eigen::Vector3d& to_viewer,
                      const LightDirections& light, World world, int depth, double clearance) {
+  // As printed the mirror image is sharp, however rough the surface. [Hall & Greenberg 1983]
   const bool is_rough = roughness.slope > 0;
+  const Roughness of_rays = scene.as_printed ? Roughness{} : roughness;
   // Behind a first mirror one facet is enough.
-  const int facets = is_rough && depth == 0 ? kFacetsPerRay : 1;
+  const int facets = of_rays.slope > 0 && depth == 0 ? kFacetsPerRay : 1;
   Spectrum image = Spectrum::Zero();
   for (int i = 0; i < facets; ++i) {
-    const MirroredRay mirrored = ChooseMirrored(surface, roughness, to_viewer, clearance,
+    const MirroredRay mirrored = ChooseMirrored(surface, of_rays, to_viewer, clearance,
                                                 SpreadAfter(FacetChoice(light, depth), i));
     if (mirrored.weight <= 0) continue;
     LightDirections further = light;
@@ -262,13 +264,18 @@ Spectrum BuildingColor(const MontageScene& scene, const SurfacePoint& surface,
               : TotalIrradiance(daylight, DaylightOnBuilding(scene, surface, light)));
   const double cosine = CosineTo(surface, to_viewer);
   const Spectrum mirror = MirrorReflectance(material, cosine);
-  if ((mirror <= 0).all()) return ReflectedRadiance(material.diffuse_weight, material.brdf, E);
+  const Spectrum diffuse = ReflectedRadiance(material.diffuse_weight, material.brdf, E);
+  if ((mirror <= 0).all()) return diffuse;
+  if (scene.as_printed) {
+    return diffuse + mirror * MirrorImage(scene, surface, material.specular->roughness, to_viewer,
+                                          Part(light, scene, mirror), World::kWithBuilding, depth,
+                                          kBuildingClearance);
+  }
   // What meets a second facet is mirrored again or goes on to the ground: all of it in the shape of
   // a first reflection. [Turquin 2019]
   const double single = MirroredShare(material.specular->roughness, cosine);
   const Spectrum again = (1 - single) * mirror;
-  const Spectrum L =
-      (1 - mirror) * (1 + again) * ReflectedRadiance(material.diffuse_weight, material.brdf, E);
+  const Spectrum L = (1 - mirror) * (1 + again) * diffuse;
   const Spectrum share = mirror * (1 + again / single);
   return L + share * MirrorImage(scene, surface, material.specular->roughness, to_viewer,
                                  Part(light, scene, share), World::kWithBuilding, depth,
@@ -295,7 +302,7 @@ Spectrum TraceSecondary(const MontageScene& scene, const Ray& ray, const LightDi
     }
   }
   // Case B. Departure: the paper leaves open what a ray below the horizon returns.
-  if (!hit) hit = FindGround(scene, ray);
+  if (!hit && !scene.as_printed) hit = FindGround(scene, ray);
   if (!hit) {
     const Spectrum sky = SkyColor(scene, ray.direction);
     return light.sees_lights ? Spectrum(sky + SunAlong(scene, ray.direction)) : sky;

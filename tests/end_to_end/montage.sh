@@ -92,7 +92,7 @@ check 'a flag of a stage before the site' "$INSITU_BIN/insitu" montage \
 check 'bounces of light are for light and render' explains \
   'light +runs: its options are --bounces=1, were --uniform-ambient' --bounces 1
 check 'so is the paper'\''s ambient light' explains \
-  'render +runs: its options are .*--uniform-ambient, were .*--bounces=1' --paper
+  'render +runs: its options are .*--paper, were .*--bounces=1' --paper
 check 'but not both' fails 2 ': --bounces excludes --paper' --bounces 1 --paper
 check 'an unknown option' fails 2 \
   '^--light.bin: insitu-light has no such option, expected one of .*--bins' --light.bin 9

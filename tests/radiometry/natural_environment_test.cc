@@ -130,6 +130,8 @@ TEST_P(BinsTest, EnvironmentReturnsToTheLastBit) {
   const Spectrum used = measured.environment.spectra.Ones();
   measured.environment.light.sky_shape = {used / 3, used * 0.7};
   measured.environment.light.photographed_sky = used / 7;
+  measured.environment.light.sun_is_one_direction = true;
+  measured.environment.spectra = SpectralBasis(Rec709(), {GetParam()}, Ntsc1953());
   WriteEnvironment(truth.site, measured);
   const NaturalEnvironment& a = measured.environment;
   const NaturalEnvironment b = ReadEnvironment(truth.site);
@@ -137,6 +139,8 @@ TEST_P(BinsTest, EnvironmentReturnsToTheLastBit) {
   EXPECT_EQ(b.input_images[1].file, truth.site.input_image("B"));
   ExpectSameImages(a.input_images, b.input_images);
   EXPECT_EQ(a.spectra.bins().count, b.spectra.bins().count);
+  EXPECT_TRUE(a.spectra.basis() == b.spectra.basis());
+  EXPECT_TRUE(b.light.sun_is_one_direction);
   EXPECT_TRUE((a.air.horizon == b.air.horizon).all());
   EXPECT_TRUE((a.air.transmittance == b.air.transmittance).all());
   EXPECT_EQ(a.light.sun_direction, b.light.sun_direction);
@@ -188,8 +192,8 @@ TEST(ReadEnvironment, FaultsNameFileAndLine) {
   };
   EXPECT_NE(error_after("", "").find("is not a covariance of 12 unknowns"), std::string::npos);
   scene.polygons[1].covariance = SomeCovariance(12);
-  const std::string version = error_after("\"version\" : 2", "\"version\" : 1");
-  EXPECT_NE(version.find("expected 2: run insitu-light again"), std::string::npos) << version;
+  const std::string version = error_after("\"version\" : 3", "\"version\" : 1");
+  EXPECT_NE(version.find("expected 3: run insitu-light again"), std::string::npos) << version;
   const std::string covariance = error_after("\"covariance\"", "\"covariances\"");
   EXPECT_NE(covariance.find("expected the same of all cameras"), std::string::npos) << covariance;
   const std::string image = error_after("\"input_image\"", "\"image\"");

@@ -95,6 +95,20 @@ TEST(SunIrradiance, Eq3_HalfTheDiscGivesHalfTheLight) {
   EXPECT_NEAR(seen.sun, kSolarSolidAngle / 2, kSolarSolidAngle / 16);
 }
 
+// Half of what stands in the way of a disc stands in the way of its middle, or does not.
+TEST(SunIrradiance, Eq3_AsPrintedTheSunIsOneDirection) {
+  Daylight light;
+  light.sun_direction = Eigen::Vector3d(0.6, 0, 0.8);
+  light.sun_solid_angle = kPrintedSolidAngle;
+  light.sun_is_one_direction = true;
+  for (const Eigen::Vector3d& point : SunPoints(light)) {
+    EXPECT_LT((point - light.sun_direction).norm(), 1e-15);
+  }
+  const auto beside = [](const Eigen::Vector3d& d) { return d.x() < 0.6001; };
+  const LightGeometry seen = MeasureLight(light, {}, Eigen::Vector3d::UnitZ(), beside);
+  EXPECT_NEAR(seen.sun, 0.8 * 4e-4, 1e-12);
+}
+
 TEST(AmbientIrradiance, Eq4_IsPiTimesRadianceWhateverStandsAround) {
   const Daylight light = SomeDaylight();
   const LightGeometry seen = MeasureLight(light, MakeSkyFacets(kZenith, 2), -kZenith, Never);

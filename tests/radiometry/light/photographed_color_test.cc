@@ -106,6 +106,25 @@ TEST_F(PhotographedColorTest, WhatThatOneDoesNotShowAnotherDoes) {
   EXPECT_FALSE(LookUp(3, 15));
 }
 
+TEST_F(PhotographedColorTest, AsPrintedTheAttributeAloneIsAsked) {
+  const auto seen = [&](double x, double y, bool by_attribute_alone) {
+    const RayScene rays(MeshOfPolygons(scene_).mesh);
+    std::vector<LocalImage> images;
+    for (size_t i = 0; i < photos_.size(); ++i) {
+      images.emplace_back(scene_.cameras[i], scene_.origin, photos_[i]);
+    }
+    const std::vector<int> polygons = MeshOfPolygons(scene_).polygon_of_triangle;
+    return LookUpColors({scene_, rays, polygons, images, air_, spectra_, by_attribute_alone}, 0,
+                        {{x, y, 0}, Eigen::Vector3d::UnitZ()})
+        .size();
+  };
+  EXPECT_EQ(seen(8, -8, false), 1u);  // out of its photograph's frame, in the other's
+  EXPECT_EQ(seen(8, -8, true), 0u);
+  EXPECT_EQ(seen(-12, 4, true), 1u);
+  scene_.polygons[0].photo = std::nullopt;
+  EXPECT_EQ(seen(8, -8, true), 1u);
+}
+
 TEST_F(PhotographedColorTest, WhatStandsBeforeItHidesIt) {
   scene_.polygons[0].photo = 1;
   ExpectColor(0, 0, 0);  // which the first one shows

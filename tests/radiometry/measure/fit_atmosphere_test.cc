@@ -55,6 +55,20 @@ TEST(FitAtmosphere, Eq7_TwoSamplesSuffice) {
   EXPECT_LT((fit.air.transmittance - Haze().transmittance).abs().maxCoeff(), 1e-10);
 }
 
+TEST(FitAtmosphere, AsPrintedNeitherSigmasNorBoundsCount) {
+  Atmosphere brightening = Haze();
+  brightening.transmittance.setConstant(1.0004);
+  const AtmosphereFit fit = FitAtmosphere(ExactSamples(brightening), Haze().horizon, {}, true);
+  EXPECT_LT((fit.air.transmittance - 1.0004).abs().maxCoeff(), 1e-9);
+  std::vector<HazeSample> samples = ExactSamples(Haze());
+  samples[3].apparent_color += 0.05;  // which the robust fit leaves out
+  const AtmosphereFit alike = FitAtmosphere(samples, Haze().horizon, {}, true);
+  samples[3].sigma *= 1000;
+  const AtmosphereFit weighed = FitAtmosphere(samples, Haze().horizon, {}, true);
+  EXPECT_LT((alike.air.transmittance - weighed.air.transmittance).abs().maxCoeff(), 1e-9);
+  EXPECT_GT((alike.air.transmittance - Haze().transmittance).abs().maxCoeff(), 1e-5);
+}
+
 TEST(FitAtmosphere, Eq7_ClearAirStaysClear) {
   Atmosphere clear = Haze();
   clear.transmittance.setOnes();

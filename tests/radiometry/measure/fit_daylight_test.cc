@@ -8,6 +8,7 @@
 
 #include "calibration/files/error.h"
 #include "radiometry/spectrum/color.h"
+#include "radiometry/spectrum/rgb_to_spectrum.h"
 
 namespace insitu {
 namespace {
@@ -70,6 +71,46 @@ TEST(FitDaylight, WeightsAreNeverNegative) {
   EXPECT_TRUE((fit.sky_radiance > 0).all());
   EXPECT_TRUE((fit.sun_radiance > 0).all());
   EXPECT_TRUE((fit.ambient_sigma > 0).all());
+}
+
+DaylightFitOptions AsPrinted() {
+  DaylightFitOptions options;
+  options.as_printed = true;
+  return options;
+}
+
+// [Durisch92, §4.3]: k(lambda) of each bin, then the plain mean, times D65.
+TEST(FitDaylight, AsPrintedAveragesTheWeightsOverTheSpectrum) {
+  const SpectralBins bins{9};
+  const Spectrum used = SpectralBasis(Rec709(), bins).Ones();
+  const DaylightFit fit = FitDaylight(ExactSamples(Truth()), kBrdf, true, bins, AsPrinted());
+  const Spectrum D65 = IlluminantD65(bins);
+  const auto expected = [&](const Spectrum& radiance) -> Spectrum {
+    double k = 0;
+    for (int bin = 0; bin < 9; ++bin) k += radiance[bin] / D65[bin] / 9;
+    return used * k * D65;
+  };
+  EXPECT_LT((fit.sun_radiance - expected(Truth().sun_radiance)).abs().maxCoeff(), 1e-5);
+  EXPECT_LT((fit.ambient_radiance - expected(Truth().ambient_radiance)).abs().maxCoeff(), 1e-10);
+  EXPECT_LT((fit.sky_radiance - expected(Truth().sky_radiance)).abs().maxCoeff(), 1e-10);
+}
+
+TEST(FitDaylight, AsPrintedNoSampleWeighsMoreAndNoWeightIsHeldAtZero) {
+  Daylight impossible = Truth();
+  impossible.ambient_radiance.setConstant(-0.05);
+  EXPECT_LT(FitDaylight(ExactSamples(impossible), kBrdf, true, {}, AsPrinted())
+                .ambient_radiance.maxCoeff(),
+            0);
+  std::vector<DaylightSample> samples = ExactSamples(Truth());
+  samples[5].true_color *= 1.5;  // which the robust fit leaves out
+  const DaylightFit alike = FitDaylight(samples, kBrdf, true, {}, AsPrinted());
+  samples[5].sigma *= 1000;
+  const DaylightFit weighed = FitDaylight(samples, kBrdf, true, {}, AsPrinted());
+  EXPECT_LT(RelativeError(weighed.sky_radiance, alike.sky_radiance), 1e-9);
+  EXPECT_GT(
+      RelativeError(alike.sky_radiance,
+                    FitDaylight(ExactSamples(Truth()), kBrdf, true, {}, AsPrinted()).sky_radiance),
+      0.01);
 }
 
 TEST(FitDaylight, OvercastHasNoSun) {

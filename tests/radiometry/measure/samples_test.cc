@@ -83,6 +83,20 @@ TEST_F(SamplesTest, SigmaIsThatOfTheMeanWithAFloorOfOnePercent) {
   EXPECT_NEAR(sample.rgb_sigma.x(), 0.2 / 5, 0.002);
 }
 
+TEST_F(SamplesTest, AsPrintedItIsTheImageFunctionAtTheSample) {
+  Raster& image = photos_[0].linear;
+  for (int y = 0; y < image.height; ++y) {
+    for (int x = 0; x < image.width; ++x) {
+      image.SetRgb(x, y, Eigen::Vector3d(0.001 * x, 0.001 * y, (x + y) % 2));
+    }
+  }
+  const PixelSample sample =
+      ReadSamples(synthetic_.site, synthetic_.scene, photos_, {.radius = 0}).daylight[0];
+  ASSERT_EQ(sample.photo, 0);
+  EXPECT_NEAR(sample.rgb.x(), 0.001 * sample.pixel.x(), 1e-6);
+  EXPECT_NEAR(sample.rgb.y(), 0.001 * sample.pixel.y(), 1e-6);
+}
+
 TEST_F(SamplesTest, ColorComesFromTheSameSurfaceOnly) {
   // Half a pixel before the wall's foot the patch would reach onto the wall.
   Raster& image = photos_[0].linear;

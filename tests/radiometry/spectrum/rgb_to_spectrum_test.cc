@@ -126,6 +126,24 @@ TEST(SpectralBasis, SpectraOfColorsInGamutAreNotNegative) {
   }
 }
 
+TEST(SpectralBasis, RgbOfOneSpaceStandsOnThePrimariesOfAnother) {
+  const SpectralBasis own(Rec709(), {9}), ntsc(Ntsc1953(), {9});
+  const SpectralBasis mixed(Rec709(), {9}, Ntsc1953());
+  const auto same_shape = [](const Spectrum& a, const Spectrum& b) {
+    return (a / a.sum() - b / b.sum()).abs().maxCoeff() < 1e-12;
+  };
+  for (int i = 0; i < 3; ++i) {
+    EXPECT_TRUE(same_shape(mixed.basis().col(i).array(), ntsc.basis().col(i).array())) << i;
+  }
+  const Eigen::Vector3d rgb(0.7, 0.4, 0.2);
+  EXPECT_LT((mixed.RgbFromSpectrum(mixed.SpectrumFromRgb(rgb)) - rgb).norm(), 1e-13);
+  EXPECT_GT((mixed.SpectrumFromRgb(rgb) - own.SpectrumFromRgb(rgb)).abs().maxCoeff(), 0.01);
+  EXPECT_LT(
+      (Tristimulus(mixed.SpectrumFromRgb(rgb), {9}) - Tristimulus(own.SpectrumFromRgb(rgb), {9}))
+          .norm(),
+      1e-13);
+}
+
 TEST(SpectralBasis, UnusedBinsStayEmpty) {
   const SpectralBasis spectra(Rec709(), {9});
   EXPECT_EQ(spectra.Ones().sum(), 9);

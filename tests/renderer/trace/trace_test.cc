@@ -75,6 +75,34 @@ TEST(CaseB, BelowTheHorizonTheGroundGoesOnBeyondItsPolygon) {
   EXPECT_NEAR(Red(scene, L), kLawnRadiance, 0.02);  // no photo shows it: its material's mean
 }
 
+TEST(CaseB, AsPrintedWhatLeavesHasTheHorizonsColorBelowTheHorizonToo) {
+  MontageScene scene = MakeSmallSite().With({});
+  scene.as_printed = true;
+  const Ray ray = {{150, 0, 2}, Eigen::Vector3d(1, 0, -0.1).normalized()};
+  const Spectrum L = TraceSecondary(scene, ray, WholeSky(scene), World::kWithBuilding, 1);
+  EXPECT_TRUE((L == scene.natural.air.horizon).all());
+}
+
+// Hall and Greenberg: k_d rho E + k_s F L_mirror, sharp whatever the roughness; in a ray's world
+// without sun a rough mirror is a smooth one's equal.
+TEST(CaseC, AsPrintedMirrorsAddToTheDiffusePartAndAreSharp) {
+  SmallSite site = MakeSmallSite();
+  site.natural.light.sun_radiance.setZero();
+  SurfaceMaterial glossy = Grey(0.5);
+  glossy.specular = Specular{0.3, std::nullopt};
+  SurfaceMaterial rough = glossy;
+  rough.specular->roughness = {0.3, FacetDistribution::kBeckmann};
+  const auto color_of = [&](const SurfaceMaterial& material) {
+    MontageScene scene = site.With(Plate(site, {0, 0, 2}, 1, material));
+    scene.as_printed = true;
+    return TracePrimary(scene, Primary(scene, {0, -10, 6}, {0, 0, 2})).rgb.x();
+  };
+  const MontageScene scene = site.With({});
+  const double horizon = Red(scene, scene.natural.air.horizon);
+  EXPECT_NEAR(color_of(glossy), color_of(Grey(0.5)) + 0.3 * horizon, 1e-6);
+  EXPECT_NEAR(color_of(rough), color_of(glossy), 1e-12);
+}
+
 // Open plate: sun 2 cos 45, sky pi 0.3, ambient pi 0.05, albedo over pi.
 TEST(CaseC, OpenHorizontalPlateHasItsClosedForm) {
   const SmallSite site = MakeSmallSite();

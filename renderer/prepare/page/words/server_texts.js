@@ -190,6 +190,9 @@ export const kServerTexts = {
   lightNoReflectance:
     "die Albedo der Tageslichtproben fehlt: sie gilt als 1, und der Bau wird neben seiner Umgebung zu dunkel",
   lightOvercast: "keine Sonnenrichtung gemessen: der Himmel gilt als bedeckt",
+  lightNegative:
+    "die kleinsten Quadrate ohne Schranken machen einen Anteil des Tageslichts negativ, was kein Licht ist: er wird wie " +
+    "gerechnet verwendet, so wie der Aufsatz es tut",
   lightSunUnseen: "keine Tageslichtprobe sieht die Sonne: sie bleibt dunkel",
   lightUnseen:
     "Tageslichtproben, die viel Licht von Flächen erhalten, die kein Foto zeigt, und weniger zählen: {samples}",
