@@ -175,6 +175,13 @@ check 'light of two materials ends the run' fails 1 'insitu-light: the verdict i
 check 'unless it is wanted' montage --despite-fail
 cp -- "$DEMO_SITE/survey/samples.json" "$site/survey/samples.json"
 
+to_the_letter() {
+  "$INSITU_BIN/insitu" montage "$site" --paper --no-building >/dev/null || return
+  grep -E '^As in Table 1: +Omega_s 0\.0004 sr, k_s [0-9.]+, k_u [0-9.-]+, m_h 2, k_h [0-9.-]+$' \
+    "$site/work/stages/light.log"
+}
+check 'to the letter of the paper, with a row of its table' to_the_letter
+
 # On disks of their own, which only root can make.
 if mkdir -- "$temporary/disk" && mount -t tmpfs -o size=3m tmpfs "$temporary/disk" 2>/dev/null; then
   trap 'umount -l "$temporary/disk" 2>/dev/null; rm -rf -- "$temporary"' EXIT
