@@ -73,6 +73,7 @@ class Converter {
 
   void Add(const fs::path& path);
   Conversion Finish();
+  const std::vector<fs::path>& files() const { return files_; }  // that the models named
 
  private:
   void Warn(const fs::path& file, const std::string& message) {
@@ -82,7 +83,8 @@ class Converter {
   void ResolveMaterials();
   int MaterialOf(const SurfaceNames& names);
   int Unlisted(const SurfaceNames& names);
-  std::string TextureOf(const SurfaceNames& names);
+  std::string TextureOf(const SurfaceNames& names) const;
+  void TakeMeanColor(const SurfaceNames& names, SurfaceMaterial* material);
   void WarnOfMaterials();
   void WarnOfSolids();
   void DropHidden(const std::vector<std::optional<int>>& material_of_surface);
@@ -94,6 +96,7 @@ class Converter {
   BuildingMaterials materials_;
   ModelMesh mesh_;
   std::vector<ModelLamp> lamps_;  // in the world
+  std::vector<fs::path> files_;
   std::map<const BuildingMaterial*, int> index_of_material_;
   std::map<std::string, int> index_of_unlisted_;
   std::set<std::string> grey_, own_color_, hidden_;
@@ -129,11 +132,12 @@ void Converter::Add(const fs::path& path) {
   report.spheres = static_cast<int>(model.mesh.spheres.size());
   const Eigen::AlignedBox3d box = BoxOf(model.mesh);
   if (!box.isEmpty()) report.box_in_units = {box.min() / unit, box.max() / unit};
-  report.placement = ReadPlacement(site_, path.filename().string(), unit);
+  report.placement = ReadPlacement(site_, path.filename().string(), unit, model.map_from_model);
   report.entities = model.entities;
   report.skipped = model.skipped;
   report.degenerate_faces = model.degenerate_faces;
   LocateTextures(site_, path, &model);
+  files_.insert(files_.end(), model.files.begin(), model.files.end());
   for (std::string& note : NotesOnModel(path, model, report.placement)) {
     conversion_.warnings.push_back(std::move(note));
   }
@@ -149,10 +153,22 @@ void Converter::Add(const fs::path& path) {
   conversion_.models.push_back(std::move(report));
 }
 
-std::string Converter::TextureOf(const SurfaceNames& names) {
+std::string Converter::TextureOf(const SurfaceNames& names) const {
   if (names.texture.empty()) return "";
   std::error_code none;
   return fs::proximate(names.texture, site_.building(), none).string();
+}
+
+// An image that cannot be read costs itself alone.
+void Converter::TakeMeanColor(const SurfaceNames& names, SurfaceMaterial* material) {
+  try {
+    const Vector3d mean = MeanColor(ReadPhotograph(names.texture).linear);
+    material->diffuse_rgb = material->diffuse_rgb.cwiseProduct(mean).cwiseMin(1);
+  } catch (const InputError& error) {
+    conversion_.warnings.push_back(std::string(error.what()) + ": the texture is left out of \"" +
+                                   material->name + "\"");
+    material->texture.clear();
+  }
 }
 
 int Converter::Unlisted(const SurfaceNames& names) {
@@ -171,11 +187,7 @@ int Converter::Unlisted(const SurfaceNames& names) {
   if (has_color) {
     material.texture = TextureOf(names);
     material.diffuse_rgb = names.rgb.value_or(Vector3d(Vector3d::Ones()));
-    if (!material.texture.empty()) {
-      material.diffuse_rgb =
-          material.diffuse_rgb.cwiseProduct(MeanColor(ReadPhotograph(names.texture).linear))
-              .cwiseMin(1);
-    }
+    if (!material.texture.empty()) TakeMeanColor(names, &material);
     if (names.opacity < 1) {
       material.glass = Glass{.weight = 1 - names.opacity,
                              .is_solid = names.is_solid,
@@ -319,7 +331,7 @@ Conversion Converter::Finish() {
 }
 
 ModelList ModelsOf(const SitePaths& site, const ConvertOptions& options) {
-  return options.models.empty() ? ListModels(site) : ModelList{options.models, {}};
+  return options.models.empty() ? ListModels(site) : ModelList{options.models, {}, {}};
 }
 
 fs::path FileOf(const SitePaths& site, const Conversion& conversion) {
@@ -343,7 +355,7 @@ void ConvertOptions::Check() const { import.Check(); }
 
 Conversion ConvertBuilding(const SitePaths& site, const ConvertOptions& options) {
   options.Check();
-  const ModelList models = ModelsOf(site, options);
+  ModelList models = ModelsOf(site, options);
   Converter converter(site, options);
   Progress progress("the building", static_cast<int>(models.files.size()) + 1);
   for (const fs::path& model : models.files) {
@@ -352,6 +364,8 @@ Conversion ConvertBuilding(const SitePaths& site, const ConvertOptions& options)
   }
   Conversion conversion = converter.Finish();
   conversion.chord_tolerance = options.import.dxf.chord_tolerance;
+  std::string unread = UnreadFiles(site, models.others, converter.files());
+  if (!unread.empty()) models.warnings.push_back(std::move(unread));
   conversion.warnings.insert(conversion.warnings.begin(), models.warnings.begin(),
                              models.warnings.end());
   return conversion;
@@ -373,27 +387,6 @@ void RequireSurface(const SitePaths& site, const Conversion& conversion) {
   throw InputError(file, "has no surface to show, expected faces, meshes or solids; it has " +
                              (entities.empty() ? "nothing" : Listed(entities)) +
                              (reasons.empty() ? "" : "; " + Listed(reasons)));
-}
-
-std::string MaterialsTemplate(const SitePaths& site, const ConvertOptions& options) {
-  options.Check();
-  std::map<std::string, std::map<std::string, Json::Value>> sections;
-  for (const fs::path& path : ModelsOf(site, options).files) {
-    for (const SurfaceNames& names : ReadModel(path, options.import).mesh.surfaces) {
-      Json::Value entry;
-      const Vector3d grey = Vector3d::Constant(0.5);
-      entry["diffuse_rgb"] = ToJson(Eigen::VectorXd(names.rgb.value_or(grey)));
-      entry["specular"] = "none";
-      sections["layers"].try_emplace(names.layer, entry);
-      if (!names.block.empty()) sections["blocks"].try_emplace(names.block, entry);
-      if (!names.material.empty()) sections["materials"].try_emplace(names.material, entry);
-    }
-  }
-  Json::Value root;
-  for (const auto& [section, entries] : sections) {
-    for (const auto& [name, entry] : entries) root[section][name] = entry;
-  }
-  return root.toStyledString();
 }
 
 }  // namespace insitu

@@ -54,7 +54,7 @@ struct Conversion {
   std::map<std::string, std::optional<Eigen::Vector3d>> unlisted;
   std::vector<std::string> warnings;  // entities skipped, names without a material, ...
 
-  std::string BriefReport() const;  // triangles, bounding box, largest 30 layers, warnings
+  std::string BriefReport() const;  // triangles, bounding box, largest 30 elements, warnings
 };
 
 // Reads the models in building/ (of files with one name but several endings, the first of DXF, IFC,
@@ -68,8 +68,5 @@ Conversion ConvertBuilding(const SitePaths& site, const ConvertOptions& options 
 // Throws InputError: no surface, naming what the models hold instead and why it was left out; a
 // building of under a millimetre or over 100 km.
 void RequireSurface(const SitePaths& site, const Conversion& conversion);
-
-// A materials.json with an entry for every layer, block and material name of the models.
-std::string MaterialsTemplate(const SitePaths& site, const ConvertOptions& options = {});
 
 }  // namespace insitu

@@ -9,6 +9,7 @@
 #include "renderer/convert.h"
 #include "renderer/convert_report.h"
 #include "renderer/formats/temporary_folder.h"
+#include "renderer/materials_template.h"
 
 namespace insitu {
 namespace {

@@ -243,17 +243,19 @@ std::string Conversion::BriefReport() const {
   if (!box.isEmpty()) {
     report += "  from " + Written(box.min()) + " to " + Written(box.max()) + " m\n";
   }
-  constexpr size_t kMostLayers = 30;
-  std::vector<std::pair<std::string, int>> largest(triangles_of_layer.begin(),
-                                                   triangles_of_layer.end());
-  if (largest.size() > kMostLayers) {
-    std::ranges::stable_sort(largest, std::greater(), &std::pair<std::string, int>::second);
+  constexpr size_t kMostElements = 30;
+  std::vector<std::pair<std::string, ElementMeasures>> largest(elements.begin(), elements.end());
+  std::ranges::stable_sort(largest, std::greater(),
+                           [](const auto& element) { return element.second.area; });
+  for (size_t i = 0; i < std::min(largest.size(), kMostElements); ++i) {
+    const auto& [name, measures] = largest[i];
+    report += "  " + name + ": " + std::to_string(triangles_of_layer.at(name)) +
+              Formatted(" faces, %.2f m2, ", measures.area) +
+              (measures.volume ? Formatted("%.2f m3\n", *measures.volume) : "open\n");
   }
-  for (size_t i = 0; i < std::min(largest.size(), kMostLayers); ++i) {
-    report += "  " + largest[i].first + ": " + std::to_string(largest[i].second) + "\n";
-  }
-  if (largest.size() > kMostLayers) {
-    report += "  and " + std::to_string(largest.size() - kMostLayers) + " smaller ones: --report\n";
+  if (largest.size() > kMostElements) {
+    report +=
+        "  and " + std::to_string(largest.size() - kMostElements) + " smaller ones: --report\n";
   }
   return report + WarningLines(warnings);
 }

@@ -157,6 +157,36 @@ std::string Composed(const std::string& utf8) {
   return text && U_SUCCESS(status) ? Utf8(Normalized(*text, form)) : utf8;
 }
 
+std::string InCapitals(const std::string& utf8) {
+  std::string capitals = utf8;
+  if (IsAscii(utf8)) {
+    for (char& c : capitals) {
+      if (c >= 'a' && c <= 'z') c = static_cast<char>(c - 'a' + 'A');
+    }
+    return capitals;
+  }
+  const auto text = Utf16(Composed(utf8));
+  if (!text) return utf8;
+  std::u16string upper(3 * text->size() + 1, u'\0');  // a letter becomes at most three
+  UErrorCode status = U_ZERO_ERROR;
+  const int32_t length =
+      u_strToUpper(upper.data(), static_cast<int32_t>(upper.size()), text->data(),
+                   static_cast<int32_t>(text->size()), "", &status);
+  if (U_FAILURE(status)) return utf8;
+  upper.resize(static_cast<size_t>(length));
+  return Utf8(upper);
+}
+
+bool IsNoNumber(std::string_view word) {
+  while (word.starts_with('-') || word.starts_with('+')) word.remove_prefix(1);
+  const auto begins = [&](std::string_view text) {
+    return std::ranges::equal(word.substr(0, text.size()), text, {}, [](char c) {
+      return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+    });
+  };
+  return begins("nan") || begins("inf") || word.starts_with("1.#");
+}
+
 std::string Folded(const std::string& utf8) {
   UErrorCode status = U_ZERO_ERROR;
   const UNormalizer2* form = unorm2_getNFKDInstance(&status);

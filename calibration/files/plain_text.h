@@ -20,6 +20,12 @@ std::string PlainText(const std::filesystem::path& path, std::string bytes);
 // as it is.
 std::string Composed(const std::string& utf8);
 
+// Composed and in capitals, for names that differ in case alone ("Wände", "WÄNDE").
+std::string InCapitals(const std::string& utf8);
+
+// What programs write in the place of a number: "nan", "-nan(ind)", "-1.#IND", "inf".
+bool IsNoNumber(std::string_view word);
+
 // Lower-case letters without accents ("Höhe" becomes "hohe"), for words that are looked up.
 std::string Folded(const std::string& utf8);
 

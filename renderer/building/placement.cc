@@ -123,14 +123,19 @@ void ReadPairs(const SitePaths& site, const JsonNode& node, double metres, Place
   placement->world_from_model.scale *= factor;
 }
 
-Placement PlacementOf(const SitePaths& site, const JsonNode& node, double metres_per_unit) {
+Placement PlacementOf(const SitePaths& site, const JsonNode& node, double metres_per_unit,
+                      const std::optional<Similarity3>& map_from_model) {
   Placement placement;
   if (const auto unit = node.Find("unit")) placement.metres_per_unit = MetresOf(*unit);
   if (const auto up = node.Find("up")) {
     if (up->Text() != "y" && up->Text() != "z") throw up->Error("is neither \"y\" nor \"z\"");
     placement.y_up = up->Text() == "y";
   }
-  if (node.Find("pairs")) {
+  const auto map = node.Find("map_conversion");
+  if (map && map->Boolean()) {
+    if (!map_from_model) throw map->Error("is true, but the model states no map conversion");
+    placement.world_from_model = *map_from_model;
+  } else if (node.Find("pairs")) {
     ReadPairs(site, node, placement.metres_per_unit.value_or(metres_per_unit), &placement);
   } else {
     placement.world_from_model.scale = ScaleOf(node);
@@ -202,14 +207,16 @@ void Convert(const std::filesystem::path& file, const Placement& placement,
 
 }  // namespace
 
-Placement ReadPlacement(const SitePaths& site, const std::string& name, double metres_per_unit) {
+Placement ReadPlacement(const SitePaths& site, const std::string& name, double metres_per_unit,
+                        const std::optional<Similarity3>& map_from_model) {
   const std::filesystem::path path = PlacementPath(site);
   if (!std::filesystem::exists(path)) return {};
   const JsonNode root = JsonNode::Load(path);
   if (const auto models = root.Find("models")) {
-    if (const auto own = models->Find(name)) return PlacementOf(site, *own, metres_per_unit);
+    if (const auto own = models->Find(name))
+      return PlacementOf(site, *own, metres_per_unit, map_from_model);
   }
-  return PlacementOf(site, root, metres_per_unit);
+  return PlacementOf(site, root, metres_per_unit, map_from_model);
 }
 
 namespace {

@@ -32,11 +32,13 @@ constexpr Factor kFactors[] = {
 // Sizes a planned building may have, from a kiosk to a district [m].
 constexpr double kSmallest = 1, kLargest = 3000;
 
-bool IsLikely(double size, const AlignedBox3d& site) {
+// A model whose file names no unit, and that is larger than the site, was drawn in another one.
+bool IsLikely(double size, const AlignedBox3d& site, bool names_unit) {
   if (size < kSmallest || size > kLargest) return false;
   if (site.isEmpty()) return true;
+  constexpr double kMost = 5, kMostWithoutUnit = 2;
   const double share = size / site.diagonal().norm();
-  return share > 0.02 && share < 5;
+  return share > 0.02 && share < (names_unit ? kMost : kMostWithoutUnit);
 }
 
 double Distance(const AlignedBox3d& building, const AlignedBox3d& site) {
@@ -61,7 +63,7 @@ std::optional<Factor> FactorOff(const AlignedBox3d& building, const AlignedBox3d
   for (const Factor& factor : kFactors) {
     if (!names_unit && !std::string_view(factor.meaning).ends_with("taken as metres")) continue;
     const AlignedBox3d box = Scaled(building, 1 / factor.value);
-    if (!IsLikely(size / factor.value, site)) continue;
+    if (!IsLikely(size / factor.value, site, names_unit)) continue;
     const bool lands = !site.isEmpty() && IsFar(building, site) && !IsFar(box, site);
     const double usual = site.isEmpty() ? 30 : site.diagonal().norm() / 3;
     const double misfit = std::abs(std::log(size / factor.value / usual)) - (lands ? 100 : 0);
@@ -100,7 +102,8 @@ std::vector<std::string> SuspicionsOf(const AlignedBox3d& building, const Aligne
         Number("the building lies %.0f m from the site", Distance(building, site)) +
         Number(" (%.0f m across): see placement.json", site.diagonal().norm()));
   }
-  if (!IsLikely(size, site)) {
+  const bool is_likely = IsLikely(size, site, names_unit);
+  if (!is_likely) {
     suspicions.push_back(
         Number("the building is %.4g m across", size) +
         (site.isEmpty() ? "" : Number(", the site %.4g m", site.diagonal().norm())));
@@ -108,7 +111,7 @@ std::vector<std::string> SuspicionsOf(const AlignedBox3d& building, const Aligne
   if (suspicions.empty()) return suspicions;
   const std::optional<Factor> factor = FactorOff(building, site, names_unit);
   const bool lands = factor && far && !IsFar(Scaled(building, 1 / factor->value), site);
-  if (factor && (lands || !IsLikely(size, site))) {
+  if (factor && (lands || !is_likely)) {
     suspicions.push_back(Number("its unit looks wrong by a factor of %.5g: ", factor->value) +
                          factor->meaning + "? (\"unit\" in placement.json)");
   }

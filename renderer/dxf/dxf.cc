@@ -219,7 +219,11 @@ void Assembly::AddInsert(const DxfInsert& insert, const Affine3d& world_from_hol
                          const Holder& holder) {
   const DxfBlock& block = InsertedBlock(drawing_, insert);
   const std::string layer = insert.look.layer == "0" ? holder.layer : insert.look.layer;
-  if (block.external) ++model.skipped[{"INSERT", "of an external drawing, which is not read"}];
+  if (block.external) {
+    ++model.skipped[{"INSERT", "of the external drawing \"" + block.external_file +
+                                   "\", which is not read: bind it (AutoCAD: XREF > Bind), or put "
+                                   "it into building/ as DXF"}];
+  }
   if (LayerNamed(layer).frozen) {
     seen_.insert(&block);
     ++model.skipped[{"INSERT", *WhyHidden(layer)}];
@@ -255,6 +259,7 @@ void Assembly::CountUnusedBlocks() {
 
 void Assembly::Run() {
   model.metres_per_unit = drawing_.metres_per_unit;
+  model.warnings = drawing_.warnings;
   model.entities = drawing_.model_space.entities;
   const Affine3d metres_from_units(Eigen::Scaling(drawing_.metres_per_unit.value_or(1)));
   Add(drawing_.model_space, metres_from_units, {});

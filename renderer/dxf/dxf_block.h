@@ -59,7 +59,8 @@ struct DxfBlock {
   std::map<std::string, int> entities;                       // kind -> count, read or not
   SkippedEntities skipped;
   int degenerate_faces = 0;
-  bool external = false;  // a reference to another drawing
+  bool external = false;      // a reference to another drawing
+  std::string external_file;  // as the drawing names it
 };
 
 }  // namespace insitu

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <set>
 
 #include "renderer/dxf/dxf_body.h"
 #include "renderer/dxf/dxf_color.h"
@@ -28,8 +29,9 @@ void ReadHeader(const DxfRecord& header, DxfReader* reader, DxfDrawing* drawing)
     const int units = header.IntegerOf(value);
     drawing->metres_per_unit = MetresPerDxfUnit(units);
     if (units != 0 && !drawing->metres_per_unit) {
-      throw header.ErrorAt(
-          value, "$INSUNITS is " + std::to_string(units) + ", expected 0 to 24 (6: metres)");
+      const std::string unit = "$INSUNITS is " + std::to_string(units);
+      drawing->warnings.push_back(
+          header.ErrorAt(value, unit + ", no unit that is known (6: metres)").what());
     }
   }
 }
@@ -114,6 +116,7 @@ class SectionReader {
     block_->name = head.Name(2);
     block_->base = head.FindPoint(10).value_or(Eigen::Vector3d(Eigen::Vector3d::Zero()));
     block_->external = head.Integer(70, 0) & kExternal;
+    block_->external_file = head.Name(1);
     block_entities_.emplace(&*block_);
   }
 
@@ -181,6 +184,23 @@ class InsertCheck {
   std::map<const DxfBlock*, Extent> extents_;
 };
 
+// An INSERT of a block within itself costs only itself. What is too deep is told by InsertCheck.
+void DropOwnInserts(DxfDrawing* drawing, DxfBlock* holder, std::vector<const DxfBlock*>* nesting,
+                    std::set<const DxfBlock*>* done) {
+  if (nesting->size() > kDeepest || !done->insert(holder).second) return;
+  nesting->push_back(holder);
+  std::erase_if(holder->inserts, [&](const DxfInsert& insert) {
+    DxfBlock& block = drawing->blocks.at(NameKey(insert.block));
+    if (std::ranges::find(*nesting, &block) == nesting->end()) {
+      DropOwnInserts(drawing, &block, nesting, done);
+      return false;
+    }
+    ++holder->skipped[{"INSERT", "of block \"" + insert.block + "\", which it is within"}];
+    return true;
+  });
+  nesting->pop_back();
+}
+
 // An INSERT of a block that is not there costs only itself.
 void DropLostInserts(const DxfDrawing& drawing, DxfBlock* holder) {
   std::erase_if(holder->inserts, [&](const DxfInsert& insert) {
@@ -221,6 +241,9 @@ DxfDrawing ReadDxfDrawing(const std::filesystem::path& path, double most_pieces)
   }
   DropLostInserts(drawing, &drawing.model_space);
   for (auto& [name, block] : drawing.blocks) DropLostInserts(drawing, &block);
+  std::vector<const DxfBlock*> nesting;
+  std::set<const DxfBlock*> done;
+  DropOwnInserts(&drawing, &drawing.model_space, &nesting, &done);
   InsertCheck(drawing, most_pieces).AllInserted(drawing.model_space);
   return drawing;
 }

@@ -25,6 +25,7 @@ struct DxfDrawing {
   std::map<std::string, DxfLayer> layers;  // by NameKey; those of the layer table
   std::map<std::string, DxfBlock> blocks;  // by NameKey
   DxfBlock model_space;
+  std::vector<std::string> warnings;                   // with the file's name
   std::map<std::string, std::string> block_of_handle;  // of the table of blocks
   std::map<std::string, std::string> body_of_handle;   // SAB of entities, by DxfHandle
   // A state of a dynamic block, "*U3" by NameKey -> handle of the block that a user named.
@@ -37,8 +38,8 @@ std::string NameByUser(const DxfDrawing& drawing, const std::string& block);
 // The block that an INSERT names. Throws InputError: the drawing does not define it.
 const DxfBlock& InsertedBlock(const DxfDrawing& drawing, const DxfInsert& insert);
 
-// Throws InputError: a section that is not closed, an unknown unit, a faulty entity; and, among the
-// blocks that the model space uses, one that is unknown, inserts itself or lies more than 64 deep,
+// Throws InputError: a section that is not closed, a faulty entity; and, among the
+// blocks that the model space uses, one that lies more than 64 deep,
 // or copies that come to over `most_pieces` (vertices, entities and the copies themselves).
 DxfDrawing ReadDxfDrawing(const std::filesystem::path& path, double most_pieces);
 

@@ -48,14 +48,27 @@ DxfInsert ReadInsert(const DxfRecord& record, const DxfLook& look) {
   return insert;
 }
 
-DxfLook LookOf(const DxfRecord& record) {
+// A colour that is no number costs itself.
+std::optional<int> ColorNumber(const DxfRecord& record, int code, SkippedEntities* skipped) {
+  const DxfTag* tag = record.Find(code);
+  if (!tag) return std::nullopt;
+  try {
+    return record.IntegerOf(*tag);
+  } catch (const InputError&) {
+    ++(*skipped)[{"colour", "no number: that of the layer is taken"}];
+    return std::nullopt;
+  }
+}
+
+DxfLook LookOf(const DxfRecord& record, SkippedEntities* skipped) {
   DxfLook look;
   if (const DxfTag* tag = record.Find(8)) {
     if (tag->value != "0") look.layer = record.Name(8);
   }
   // A colour is negative only in the layer table, but some programs write it so here too.
-  look.color = static_cast<int>(std::abs(int64_t{record.Integer(62, kColorByLayer)}) & 0xFFFF);
-  if (const DxfTag* tag = record.Find(420)) look.true_color = record.IntegerOf(*tag) & 0xFFFFFF;
+  const int64_t index = ColorNumber(record, 62, skipped).value_or(kColorByLayer);
+  look.color = static_cast<int>(std::abs(index) & 0xFFFF);
+  if (const auto color = ColorNumber(record, 420, skipped)) look.true_color = *color & 0xFFFFFF;
   return look;
 }
 
@@ -111,7 +124,11 @@ void DxfEntityReader::Add(const DxfRecord& record) {
   if (record.kind() == "ATTRIB") return;  // the lettering of an INSERT
   Finish();
   ++block_->entities[NameOfKind(record.kind())];
-  Read(record);
+  try {
+    Read(record);
+  } catch (const DxfNoNumber&) {
+    Skip(record.kind(), "holds a coordinate that is no number");
+  }
 }
 
 void DxfEntityReader::Read(const DxfRecord& record) {
@@ -124,7 +141,7 @@ void DxfEntityReader::Read(const DxfRecord& record) {
     }
     return;
   }
-  const DxfLook look = LookOf(record);
+  const DxfLook look = LookOf(record, &block_->skipped);
   if (record.kind() == "INSERT") return AddInsert(record, look);
   const int index = LookIndex(look);
   if (record.kind() == "POLYLINE") return BeginPolyline(record, index);
@@ -217,7 +234,7 @@ void DxfEntityReader::AddPolyfaceVertex(const DxfRecord& vertex, int flags) {
   if (flags & kLocation) {
     polyline_->locations.push_back(vertex.Point(10));
   } else if (flags & kFace) {
-    DxfLook look = LookOf(vertex);
+    DxfLook look = LookOf(vertex, &block_->skipped);
     // Many programs leave the faces on layer 0.
     if (look.layer == "0") look.layer = block_->looks[polyline_->look].layer;
     polyline_->faces.emplace_back(

@@ -13,7 +13,7 @@ namespace {
 constexpr size_t kBufferSize = 1 << 20;
 constexpr size_t kLongestLine = 1 << 20;
 constexpr std::string_view kBinarySentinel("AutoCAD Binary DXF\r\n\x1a\0", 22);
-constexpr int kLowestCode = -5;
+constexpr int kLowestCode = -5, kLowestTextCode = -32768;
 constexpr int kHighestCode = 1071;       // of a binary drawing, where another shows damage
 constexpr int kHighestTextCode = 32767;  // programs add private ones
 constexpr int kComment = 999;
@@ -30,7 +30,7 @@ std::optional<int> GroupCode(std::string_view line) {
   int code = 0;
   const auto [end, status] = std::from_chars(line.data(), line.data() + line.size(), code);
   const bool valid = status == std::errc() && end == line.data() + line.size() &&
-                     code >= kLowestCode && code <= kHighestTextCode;
+                     code >= kLowestTextCode && code <= kHighestTextCode;
   return valid ? std::optional(code) : std::nullopt;
 }
 

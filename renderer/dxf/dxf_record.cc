@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdint>
 
+#include "calibration/files/plain_text.h"
 #include "calibration/files/wording.h"
 #include "renderer/dxf/dxf_name.h"
 
@@ -87,6 +88,9 @@ int DxfRecord::IntegerOf(const DxfTag& tag) const {
 
 double DxfRecord::NumberOf(const DxfTag& tag) const {
   const std::optional<double> value = Parsed<double>(tag.value);
+  if (IsNoNumber(tag.value)) {
+    throw DxfNoNumber(ErrorAt(tag, Quoted(tag.value) + ", expected a number"));
+  }
   if (!value || !(std::abs(*value) <= kLargestNumber)) {
     throw ErrorAt(tag, Quoted(tag.value) + ", expected a number of at most 1e12 for group " +
                            std::to_string(tag.code));

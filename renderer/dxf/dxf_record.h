@@ -21,6 +21,11 @@ struct DxfTag {
   int64_t place;           // of the value: line of an ASCII file, byte of a binary one
 };
 
+// What programs write in the place of a number ("nan", "-1.#IND"): it costs its entity.
+struct DxfNoNumber : InputError {
+  explicit DxfNoNumber(const InputError& error) : InputError(error) {}
+};
+
 // Where a record stands, for messages after it is gone.
 struct DxfPlace {
   std::filesystem::path file;

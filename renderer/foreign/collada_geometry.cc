@@ -5,6 +5,7 @@
 #include <array>
 #include <map>
 #include <optional>
+#include <string_view>
 
 #include "calibration/files/wording.h"
 #include "renderer/foreign/collada_library.h"
@@ -99,8 +100,13 @@ class ColladaGeometryReader {
   std::vector<Vector3d> Rows(const XmlNode& input) {
     const std::string url = input.RequiredAttribute("source");
     const auto source = sources_.find(url);
-    if (source == sources_.end())
-      throw input.Error("names " + Quoted(url) + ", which is no source");
+    if (source == sources_.end()) {
+      const std::string semantic = input.Attribute("semantic").value_or("");
+      if (semantic == "POSITION")
+        throw input.Error("names " + Quoted(url) + ", which is no source");
+      ++model_.skipped[{semantic.substr(0, 20), "its source is not there"}];
+      return {};
+    }
     int faulty = 0;
     std::vector<Vector3d> rows = RowsOfSource(source->second, &faulty);
     if (faulty == 0) return rows;
@@ -208,6 +214,10 @@ class ColladaGeometryReader {
       const auto input = inputs_.find(semantic);
       const int value = input == inputs_.end() ? vertex : indices[first + input->second.offset];
       if (value >= 0 && static_cast<size_t>(value) < count) return value;
+      if (std::string_view(semantic) != "VERTEX") {
+        ++model_.skipped[{semantic, "named by corners of faces and not there"}];
+        return -1;
+      }
       throw list.Error("names " + std::string(semantic) + " " + std::to_string(value) +
                        ", expected 0 to " + std::to_string(count - 1));
     };

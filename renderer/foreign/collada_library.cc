@@ -2,8 +2,10 @@
 #include "renderer/foreign/collada_library.h"
 
 #include <charconv>
+#include <limits>
 
 #include "calibration/files/error.h"
+#include "calibration/files/plain_text.h"
 #include "calibration/files/wording.h"
 
 namespace insitu {
@@ -70,8 +72,8 @@ std::vector<double> ColladaNumbers(const XmlNode& element, int* faulty) {
   ForEachWord(element.Text(), [&](std::string_view word) {
     double value = 0;
     if (!ReadWord(word, &value)) {
-      ++*faulty;
-      value = 0;
+      if (!IsNoNumber(word)) ++*faulty;
+      value = std::numeric_limits<double>::quiet_NaN();
     }
     numbers.push_back(value);
   });

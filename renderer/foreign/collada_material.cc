@@ -50,6 +50,13 @@ class ColladaMaterialReader {
     if (const auto index = NumberIn(shader, "index_of_refraction"); index && *index > 1) {
       names_.index = *index;
     }
+    for (const char* gloss : {"specular", "reflective"}) {
+      const auto node = shader.Find(gloss);
+      const auto shine = node ? ColorIn(*node) : std::nullopt;
+      if (shine && shine->head<3>().maxCoeff() > 0) {
+        Skip(gloss, "shown as a diffuse surface: see specular of materials.json");
+      }
+    }
     const auto emission = shader.Find("emission");
     const auto color = emission ? ColorIn(*emission) : std::nullopt;
     if (shader.Name() != "constant" && color && color->head<3>().maxCoeff() > 0) {
@@ -67,9 +74,12 @@ class ColladaMaterialReader {
     if (!texture) return;
     const auto image = ImageOf(texture->Attribute("texture").value_or(""));
     const auto file = image ? image->Find("init_from") : std::nullopt;
-    if (!file) return Skip("texture", "names no image: its colour alone is shown");
-    const auto reference = file->Find("ref");
-    names_.texture = reference ? reference->Text() : file->Text();
+    const auto reference = file ? file->Find("ref") : std::nullopt;
+    if (file) names_.texture = reference ? reference->Text() : file->Text();
+    if (names_.texture.find_first_not_of(" \t\r\n") == std::string::npos) {
+      names_.texture.clear();
+      return Skip("texture", "names no image: its colour alone is shown");
+    }
     names_.texture_place = file->path().string() + ":" + std::to_string(file->line());
     if (!names_.rgb) names_.rgb = Vector3d::Ones();
   }

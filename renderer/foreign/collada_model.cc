@@ -64,6 +64,7 @@ class ColladaReader {
       }
     }
     if (model_.entities.empty()) AddUnplaced(world_from_file);
+    if (root_.Find("library_animations")) ++model_.skipped[{"animation", "shown at rest"}];
     builder_.Finish();
     return std::move(model_);
   }
@@ -215,10 +216,15 @@ class ColladaReader {
       Vector3d color = Vector3d::Zero();
       for (const ColladaCorner& corner : corners) {
         face_.corners.push_back(first + corner.position);
-        if (corner.normal >= 0) {
-          face_.normals.push_back((turn * part.normals[corner.normal]).normalized().cast<float>());
+        if (!part.normals.empty()) {
+          const Vector3d normal =
+              corner.normal >= 0 ? Vector3d(turn * part.normals[corner.normal]) : Vector3d::Zero();
+          face_.normals.push_back(normal.normalized().cast<float>());
         }
-        if (corner.uv >= 0) face_.uvs.push_back(part.uvs[corner.uv].cast<float>());
+        if (!part.uvs.empty()) {
+          face_.uvs.push_back(corner.uv >= 0 ? Eigen::Vector2f(part.uvs[corner.uv].cast<float>())
+                                             : Eigen::Vector2f(0, 0));
+        }
         if (corner.color >= 0) color += part.colors[corner.color];
       }
       int shown = surface;

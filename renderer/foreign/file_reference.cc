@@ -54,8 +54,9 @@ std::optional<fs::path> EntryOf(const fs::path& folder, const std::string& name)
   std::error_code none;
   if (name == ".." || fs::exists(folder / name, none)) return folder / name;
   std::vector<fs::path> alike;
+  const std::string key = NameKey(name);
   for (const fs::directory_entry& entry : fs::directory_iterator(folder, none)) {
-    if (NameKey(entry.path().filename().string()) == NameKey(name)) alike.push_back(entry.path());
+    if (NameKey(entry.path().filename().string()) == key) alike.push_back(entry.path());
   }
   if (alike.empty()) return std::nullopt;
   return *std::ranges::min_element(alike);
@@ -80,6 +81,20 @@ std::optional<fs::path> Find(const fs::path& folder, const std::string& name) {
   return std::nullopt;
 }
 
+// By its name alone, in the folders beside the model, as textures are packed.
+std::optional<fs::path> FindInFolders(const fs::path& folder, const std::string& name) {
+  const std::vector<std::string> parts = PartsOf(name);
+  if (parts.empty()) return std::nullopt;
+  std::error_code none;
+  std::vector<fs::path> found;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, none)) {
+    if (!entry.is_directory(none) || entry.path().filename().string().starts_with('.')) continue;
+    if (const auto path = Below(entry.path(), {parts.back()}, 0)) found.push_back(*path);
+  }
+  if (found.empty()) return std::nullopt;
+  return *std::ranges::min_element(found);
+}
+
 }  // namespace
 
 std::optional<fs::path> FindReference(const fs::path& model, const std::string& name) {
@@ -87,8 +102,11 @@ std::optional<fs::path> FindReference(const fs::path& model, const std::string& 
   if (plain.empty()) return std::nullopt;
   const fs::path folder = fs::absolute(model).parent_path();
   if (const auto path = Find(folder, plain)) return path;
+  if (const auto path = FindInFolders(folder, plain)) return path;
   if (NameKey(plain.substr(0, 5)) == "FILE:") plain.erase(0, 5);
-  return Find(folder, PercentDecoded(plain));
+  plain = PercentDecoded(plain);
+  if (const auto path = Find(folder, plain)) return path;
+  return FindInFolders(folder, plain);
 }
 
 }  // namespace insitu

@@ -26,7 +26,8 @@ Eigen::Vector3f NormalOfTriangle(const ModelMesh& mesh, const Eigen::Vector3i& t
 
 // Steps that look alike: about those of a screen.
 int CodeOf(double linear) {
-  return static_cast<int>(std::lround((kColorSteps - 1) * std::sqrt(std::clamp(linear, 0.0, 1.0))));
+  const double shown = linear > 0 ? std::min(linear, 1.0) : 0;  // no number: none
+  return static_cast<int>(std::lround((kColorSteps - 1) * std::sqrt(shown)));
 }
 
 double OfCode(int code) {
@@ -43,8 +44,12 @@ void BuiltFace::Clear() {
 }
 
 int MeshBuilder::AddVertex(const Vector3d& vertex, const std::string& whose) {
-  if (!(vertex.array().abs() <= kLargestVertex).all()) {
-    throw InputError(file_, "a vertex of \"" + whose + "\" is not finite or beyond 1e12 m");
+  if ((vertex.array().abs() > kLargestVertex && vertex.array().isFinite()).any()) {
+    throw InputError(file_, "a vertex of \"" + whose + "\" is beyond 1e12 m");
+  }
+  if (!vertex.allFinite()) {
+    ++model_.skipped[{"vertex", "no number: no point"}];
+    all_points_ = false;
   }
   model_.mesh.vertices.push_back(vertex);
   return static_cast<int>(model_.mesh.vertices.size()) - 1;
@@ -73,6 +78,11 @@ void MeshBuilder::AddFace(const BuiltFace& face, int surface) {
     return;
   }
   if (face.corners.size() > kMostCorners) throw InputError(file_, "a face has over 10000 corners");
+  const auto is_point = [&](int v) { return model_.mesh.vertices[v].allFinite(); };
+  if (!all_points_ && !std::ranges::all_of(face.corners, is_point)) {
+    ++model_.skipped[{"face", "at a vertex that is no point"}];
+    return;
+  }
   const auto triangles = FaceTriangles(model_.mesh.vertices, face.corners);
   if (triangles.empty()) ++model_.degenerate_faces;
   for (const Eigen::Vector3i& triangle : triangles) {
@@ -96,6 +106,9 @@ void MeshBuilder::AddCorners(const BuiltFace& face, const Eigen::Vector3i& trian
     if (with_normals) {
       const bool valid = !face.normals.empty() && face.normals[corner].allFinite() &&
                          face.normals[corner].norm() > 0.5f;
+      if (!valid && !face.normals.empty()) {
+        ++model_.skipped[{"normal", "no direction: its face has its own"}];
+      }
       mesh.corner_normals.push_back(valid ? face.normals[corner]
                                           : NormalOfTriangle(mesh, triangle));
     }

@@ -27,7 +27,8 @@ class MeshBuilder {
   MeshBuilder(std::filesystem::path file, Model* model)
       : file_(std::move(file)), model_(*model), index_(&model->mesh.surfaces) {}
 
-  // Throws InputError: not finite or beyond 1e12 m; `whose` says of what.
+  // One that is no number is counted, and so is each face at it, which is left out. Throws
+  // InputError: beyond 1e12 m; `whose` says of what.
   int AddVertex(const Eigen::Vector3d& vertex, const std::string& whose);
 
   int SurfaceOf(const SurfaceNames& names) { return index_.IndexOf(names); }
@@ -51,6 +52,7 @@ class MeshBuilder {
   std::filesystem::path file_;
   Model& model_;
   SurfaceIndex index_;
+  bool all_points_ = true;
   std::map<std::pair<int, int>, int> colored_;  // surface, code of a colour -> surface
 };
 

@@ -11,6 +11,7 @@
 #include "calibration/photo/photograph.h"
 #include "renderer/foreign/mesh_builder.h"
 #include "renderer/foreign/ply_values.h"
+#include "renderer/foreign/text_lines.h"
 #include "renderer/mesh/face_triangles.h"
 
 namespace insitu {
@@ -65,7 +66,7 @@ class PlyReader {
  public:
   explicit PlyReader(const std::filesystem::path& path)
       : path_(path),
-        bytes_(ReadWhole(path)),
+        bytes_(DecodedText(ReadWhole(path))),
         head_(ReadPlyHead(path, bytes_)),
         values_(path_, head_, bytes_),
         builder_(path, &model_) {}
@@ -95,8 +96,14 @@ class PlyReader {
           static_cast<int>(std::min<int64_t>(element.count, std::numeric_limits<int>::max()));
     }
     std::vector<std::optional<PlyMeaning>> meanings;
+    states_normals_ = false;
     for (const PlyProperty& property : element.properties) {
       meanings.push_back(MeaningOf(property));
+      states_normals_ |= meanings.back() == kNx;
+      if (!meanings.back() && element.count > 0 && (is_vertex || is_face)) {
+        ++model_.skipped[{"property " + property.name.substr(0, 40),
+                          "of " + element.name + ": not shown"}];
+      }
     }
     if (element.properties.empty()) return;
     for (int64_t i = 0; i < element.count; ++i) {
@@ -142,6 +149,8 @@ class PlyReader {
     if (Has(kNx) && Has(kNy) && Has(kNz)) {
       normals_.resize(model_.mesh.vertices.size() - 1, Eigen::Vector3f::Zero());
       normals_.push_back(Vector3d(row_[kNx], row_[kNy], row_[kNz]).normalized().cast<float>());
+    } else if (states_normals_) {
+      ++model_.skipped[{"normal", "no direction: its faces have their own"}];
     }
     if (Has(kU) && Has(kV)) {
       uvs_.resize(model_.mesh.vertices.size() - 1, Eigen::Vector2f::Zero());
@@ -223,6 +232,7 @@ class PlyReader {
   MeshBuilder builder_;
   BuiltFace face_;
   int surface_ = 0;
+  bool states_normals_ = false;  // of the element at hand
   std::array<double, kMeanings> row_{};
   std::vector<double> corners_, all_corners_;
   std::vector<float> corner_uvs_, all_uvs_;

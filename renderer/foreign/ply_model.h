@@ -13,7 +13,7 @@ namespace insitu {
 // texture coordinates and colours of vertices, colours of faces. The layer is the file's name.
 // Coordinates are as the file has them, z up.
 // Throws InputError: what ReadPlyHead states, an element that the file ends in, a value that is no
-// number, a face that names a vertex out of range, a coordinate that is not finite.
+// number, a face that names a vertex out of range.
 Model ReadPly(const std::filesystem::path& path);
 
 }  // namespace insitu

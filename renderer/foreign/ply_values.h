@@ -6,10 +6,12 @@
 #include <charconv>
 #include <cstring>
 #include <filesystem>
+#include <limits>
 #include <string>
 #include <string_view>
 
 #include "calibration/files/error.h"
+#include "calibration/files/plain_text.h"
 #include "calibration/files/wording.h"
 #include "renderer/foreign/ply_head.h"
 
@@ -52,6 +54,7 @@ class PlyValues {
     double value = 0;
     const auto [stop, status] = std::from_chars(word.data(), word.data() + word.size(), value);
     if (status == std::errc() && stop == word.data() + word.size()) return value;
+    if (IsNoNumber(word)) return std::numeric_limits<double>::quiet_NaN();
     throw InputError(path_, line_, Quoted(word) + ", expected a number");
   }
 

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <fstream>
+#include <optional>
 #include <sstream>
 
 #include "calibration/files/error.h"
@@ -32,7 +33,33 @@ void AppendUtf8(uint32_t code, std::string* text) {
   }
 }
 
+// Its mark, or letters with zeros between; then the mark's length.
+struct Utf16 {
+  bool little;
+  size_t mark;
+};
+
+std::optional<Utf16> Utf16Of(std::string_view bytes) {
+  if (bytes.starts_with("\xFF\xFE\xFF\x0E")) return std::nullopt;  // SketchUp's
+  if (bytes.starts_with("\xFF\xFE")) return Utf16{true, 2};
+  if (bytes.starts_with("\xFE\xFF")) return Utf16{false, 2};
+  constexpr size_t kGuessed = 16;
+  if (bytes.size() < kGuessed) return std::nullopt;
+  int letters[2] = {0, 0}, zeros[2] = {0, 0};
+  for (size_t i = 0; i < kGuessed; ++i) {
+    const auto byte = static_cast<unsigned char>(bytes[i]);
+    zeros[i % 2] += byte == 0;
+    letters[i % 2] += byte == '\t' || byte == '\n' || byte == '\r' || (byte >= ' ' && byte < 127);
+  }
+  constexpr int kHalf = kGuessed / 2;
+  if (letters[0] == kHalf && zeros[1] == kHalf) return Utf16{true, 0};
+  if (letters[1] == kHalf && zeros[0] == kHalf) return Utf16{false, 0};
+  return std::nullopt;
+}
+
 }  // namespace
+
+bool IsUtf16(std::string_view bytes) { return Utf16Of(bytes).has_value(); }
 
 std::string Utf8FromUtf16(std::string_view bytes, bool little_endian) {
   const auto unit = [&](size_t i) {
@@ -54,6 +81,14 @@ std::string Utf8FromUtf16(std::string_view bytes, bool little_endian) {
   return text;
 }
 
+std::string DecodedText(std::string bytes) {
+  if (const auto utf16 = Utf16Of(bytes)) {
+    return Utf8FromUtf16(std::string_view(bytes).substr(utf16->mark), utf16->little);
+  }
+  if (bytes.starts_with("\xEF\xBB\xBF")) bytes.erase(0, 3);
+  return bytes;
+}
+
 TextLines::TextLines(const std::filesystem::path& path) {
   auto file = std::make_unique<std::ifstream>(path, std::ios::binary);
   if (!*file) throw InputError(path, "cannot be read");
@@ -64,9 +99,8 @@ TextLines::TextLines(const std::filesystem::path& path) {
   file->clear();
   file->seekg(head.starts_with("\xEF\xBB\xBF") ? 3 : 0);
   stream_ = std::move(file);
-  if (head.starts_with("\xFF\xFE") || head.starts_with("\xFE\xFF")) {
-    const std::string whole = ReadWhole(path);
-    head = Utf8FromUtf16(std::string_view(whole).substr(2), whole.front() == '\xFF');
+  if (IsUtf16(head)) {
+    head = DecodedText(ReadWhole(path));
     stream_ = std::make_unique<std::istringstream>(head);
   }
   if (head.find('\n') == head.npos && head.find('\r') != head.npos) end_ = '\r';

@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <fstream>
+#include <numbers>
 #include <sstream>
 
 #include "calibration/files/error.h"
@@ -29,6 +30,7 @@ using Eigen::Vector3d;
 SurfaceNames NamesOf(const JsonNode& node) {
   SurfaceNames names;
   names.layer = node.At("layer").Text();
+  names.block = node.At("block").Text();
   names.material = node.At("material").Text();
   names.opacity = node.At("opacity").Number();
   if (const auto srgb = node.Find("srgb")) {
@@ -110,6 +112,13 @@ Model ModelIn(const fs::path& path, const fs::path& stem) {
   }
   for (const std::string& warning : root.At("warnings").Texts()) {
     model.warnings.push_back(InputError(path, warning).what());
+  }
+  if (const auto map = root.Find("map")) {
+    model.map_from_model = Similarity3();
+    const double angle = map->At("rotation_deg").Number() * std::numbers::pi / 180;
+    model.map_from_model->rotation = Eigen::AngleAxisd(angle, Vector3d::UnitZ());
+    model.map_from_model->translation = map->At("shift").Vector3();
+    model.map_from_model->scale = map->At("scale").Number();
   }
   DropUnused(&model.mesh);
   return model;

@@ -2,7 +2,6 @@
 // Reads an IFC file with web-ifc: node ifc_model.js WEB_IFC_FOLDER MODEL.ifc OUT
 // Writes OUT.json (names, counts, warnings) and OUT.bin (vertices as float64 in metres, z up;
 // triangles as uint32: three vertices and a surface; whole spheres in OUT.json). Vertices are placed in double precision.
-'use strict';
 const fs = require('fs');
 const path = require('path');
 const [folder, file, out] = process.argv.slice(2);
@@ -11,8 +10,9 @@ const {IfcAPI, ...ifc} = require(path.join(folder, 'web-ifc-api-node.js'));
 const typeCode = (name) => ifc[name.toUpperCase()];
 const valueOf = (attribute) => (attribute && attribute.value !== undefined ? attribute.value : attribute);
 
-class Reader {
+class Reader extends Names {
   constructor(api, model) {
+    super();
     Object.assign(this, {api, model, vertices: [], triangles: [], spheres: [], surfaces: [], indexOf: new Map()});
     this.entities = {};
     this.skipped = [];
@@ -41,23 +41,6 @@ class Reader {
     return name.startsWith('Ifc') ? name.replace(/^(Ifc[A-Za-z]*)\d*$/, '$1') : 'IfcProduct';
   }
 
-  readStyles() {
-    this.styleOf = new Map();
-    for (const item of this.lines('IfcStyledItem')) {
-      const name = (item.Styles || []).map((style) => this.styleName(style)).find(Boolean);
-      if (item.Item && name) this.styleOf.set(item.Item.value, name);
-    }
-    this.materialOf = new Map();
-    for (const relation of this.lines('IfcRelAssociatesMaterial')) {
-      const name = relation.RelatingMaterial && valueOf(this.line(relation.RelatingMaterial.value).Name);
-      for (const object of name ? relation.RelatedObjects || [] : []) this.materialOf.set(object.value, name);
-    }
-  }
-  styleName(reference) {
-    const style = reference && reference.value ? this.line(reference.value) : {};
-    return style.Styles && !style.Name ? style.Styles.map((s) => this.styleName(s)).find(Boolean) : valueOf(style.Name);
-  }
-
   readMeshes() {
     this.api.StreamAllMeshes(this.model, (mesh) => {
       const kind = this.kindOf(mesh.expressID);
@@ -77,7 +60,8 @@ class Reader {
     const {x, y, z, w} = placed.color;
     // web-ifc gives white to what has no colour.
     const isStyled = this.styleOf.has(placed.geometryExpressID) || x * y * z * w < 1;
-    const surface = this.surface({layer, material, srgb: isStyled ? [x, y, z] : null, opacity: w});
+    const block = this.placeOf(element, placed.geometryExpressID);
+    const surface = this.surface({layer, block, material, srgb: isStyled ? [x, y, z] : null, opacity: w});
     const first = this.vertices.length / 3;
     const start = this.triangles.length;
     const m = placed.flatTransformation;
@@ -156,10 +140,53 @@ class Reader {
     }
   }
 
+  // What gives surfaces a look that is not shown, and what is no surface.
+  countLooks() {
+    for (const [type, reason] of [['IfcImageTexture', 'an image: list it in materials.json'], ['IfcBlobTexture', 'an image within: not read'],
+      ['IfcPixelTexture', 'an image within: not read'], ['IfcIndexedColourMap', 'colours by face are not read'],
+      ['IfcLightSourcePositional', 'list lamps in lights.json'], ['IfcLightSourceSpot', 'list lamps in lights.json'],
+      ['IfcLightSourceGoniometric', 'list lamps in lights.json']]) {
+      const count = this.ids(type).length;
+      if (count > 0) this.skipped.push([type, reason, count]);
+    }
+  }
+
+  // Elements whose shapes are solids by their type and whose faces leave edges open.
+  nameOpenSolids() {
+    const isSolid = (id, depth = 0) => {
+      const shape = this.line(id);
+      if (/^(SweptSolid|AdvancedSweptSolid|Brep|AdvancedBrep|CSG|Clipping|SolidModel)$/.test(String(valueOf(shape.RepresentationType)))) return true;
+      return valueOf(shape.RepresentationType) === 'MappedRepresentation' && depth < 4 && (shape.Items || []).some((item) => {
+        const source = this.line(item.value).MappingSource;
+        const mapped = source && this.line(source.value).MappedRepresentation;
+        return mapped && isSolid(mapped.value, depth + 1);
+      });
+    };
+    const open = [];
+    let solids = 0;
+    for (const [element, part] of this.partsOf) {
+      if (!this.shapesOf(element).some((id) => isSolid(id))) continue;
+      ++solids;
+      if (this.volume(element) === null) open.push({size: this.areaOf(part), text: part.layer});
+    }
+    if (open.length > 0) {
+      this.warnings.push(open.length + ' of ' + solids + ' elements that are solids in the file have open edges: ' + this.listed(open));
+    }
+  }
+  volume(element) {
+    const part = this.partsOf.get(element);
+    if (part.volume === undefined) part.volume = this.volumeOf(part);
+    return part.volume;
+  }
+  listed(items) {
+    return items.sort((a, b) => b.size - a.size).slice(0, 8).map((item) => item.text).join('; ') +
+      (items.length > 8 ? '; and ' + (items.length - 8) + ' more' : '');
+  }
+
   // Net volumes and areas that the file states, held against those of the faces.
   compareQuantities() {
     this.compare('volume', 'm3', 0.02, 1e-4, this.stated('VolumeValue', 'VOLUMEUNIT', 3, /^(net ?)?volume$/i),
-      (element) => this.volumeOf(this.partsOf.get(element)));
+      (element) => this.volume(element));
     this.compare('surface area', 'm2', 0.02, 1e-3,
       this.stated('AreaValue', 'AREAUNIT', 2, /^(net|total) ?surface ?area$/i),
       (element) => this.areaOf(this.partsOf.get(element)));
@@ -181,11 +208,9 @@ class Reader {
         off.push({size: Math.abs(found - expected), text});
       }
     }
-    const listed = (items) => items.sort((a, b) => b.size - a.size).slice(0, 8).map((item) => item.text).join('; ') +
-      (items.length > 8 ? '; and ' + (items.length - 8) + ' more' : '');
     const of = ' of ' + stated.size + ' elements that state their ' + what;
-    if (off.length > 0) this.warnings.push(off.length + of + ' have another: ' + listed(off));
-    if (open.length > 0 && what === 'volume') this.warnings.push(open.length + of + ' are open: ' + listed(open));
+    if (off.length > 0) this.warnings.push(off.length + of + ' have another: ' + this.listed(off));
+    if (open.length > 0 && what === 'volume') this.warnings.push(open.length + of + ' are open: ' + this.listed(open));
   }
   // Element -> quantity [m2, m3], of those shown.
   stated(value, unitType, power, name, kind = /^/) {
@@ -204,85 +229,56 @@ class Reader {
     }
     return stated;
   }
+  // Of the project's units, else of any of the kind.
   unitOf(type, power) {
-    const prefixes = {CENTI: 1e-2, DECI: 1e-1, MILLI: 1e-3, KILO: 1e3};
-    for (const unit of this.lines('IfcSIUnit')) {
-      if (valueOf(unit.UnitType) === type) return (prefixes[valueOf(unit.Prefix)] || 1) ** power;
-    }
-    for (const unit of this.lines('IfcConversionBasedUnit')) {
-      const factor = unit.ConversionFactor && this.line(unit.ConversionFactor.value);
-      if (valueOf(unit.UnitType) === type) return Number(valueOf(factor.ValueComponent)) || 1;
+    const assigned = this.lines('IfcUnitAssignment').flatMap((one) => one.Units || []).map((one) => this.line(one.value));
+    for (const unit of [...assigned, ...this.lines('IfcSIUnit'), ...this.lines('IfcConversionBasedUnit')]) {
+      if (valueOf(unit.UnitType) === type) return this.metresOf(unit, power) || 1;
     }
     return 1;
   }
-  // visit(x, y, z) with half the cross product of each triangle's sides.
-  forAreas(ranges, visit) {
-    const {vertices: v, triangles: t} = this;
-    for (const [from, to] of ranges) {
-      for (let i = from; i < to; i += 4) {
-        const side = (corner) => [0, 1, 2].map((c) => v[3 * t[i + corner] + c] - v[3 * t[i] + c]);
-        const [p, q] = [side(1), side(2)];
-        visit((p[1] * q[2] - p[2] * q[1]) / 2, (p[2] * q[0] - p[0] * q[2]) / 2, (p[0] * q[1] - p[1] * q[0]) / 2);
-      }
-    }
+  metresOf(unit, power = 1) {
+    const prefixes = {CENTI: 1e-2, DECI: 1e-1, MILLI: 1e-3, KILO: 1e3};
+    const factor = unit.ConversionFactor && this.line(unit.ConversionFactor.value);
+    if (!factor) return (prefixes[valueOf(unit.Prefix)] || 1) ** power;
+    const base = factor.UnitComponent ? this.metresOf(this.line(factor.UnitComponent.value), power) : 1;
+    return (Number(valueOf(factor.ValueComponent)) || 1) * base;
   }
-  areaOf({ranges, spheres}) {
-    let area = spheres.reduce((sum, radius) => sum + 4 * Math.PI * radius * radius, 0);
-    this.forAreas(ranges, (x, y, z) => { area += Math.hypot(x, y, z); });
-    return area;
-  }
-  // Of the larger side of what is flat and of one piece; null: it is not.
-  sideAreaOf({ranges, spheres}) {
-    if (spheres.length > 0 || ranges.length !== 1) return null;
-    const areas = new Map();
-    let whole = 0;
-    this.forAreas(ranges, (x, y, z) => {
-      const size = Math.hypot(x, y, z);
-      whole += size;
-      const key = [x, y, z].map((value) => Math.round(value / (size || 1) * 200) + 0).join();
-      areas.set(key, (areas.get(key) || 0) + size);
-    });
-    const largest = Math.max(0, ...areas.values());
-    return largest > 0.3 * whole ? largest : null;
-  }
-  // By Gauss's theorem about a vertex of each part; null: an edge without a partner of the other direction.
-  volumeOf({ranges, spheres}) {
-    let volume = 0;
-    const balls = spheres.reduce((sum, radius) => sum + 4 / 3 * Math.PI * radius ** 3, 0);
-    const {vertices: v, triangles: t} = this;
-    for (const [from, to] of ranges) {
-      const edges = new Map();
-      const key = (i) => [0, 1, 2].map((c) => Math.round(v[3 * i + c] * 1e5)).join();
-      const o = 3 * t[from];
-      const at = (i) => [0, 1, 2].map((c) => v[3 * i + c] - v[o + c]);
-      for (let i = from; i < to; i += 4) {
-        const [a, b, c] = [at(t[i]), at(t[i + 1]), at(t[i + 2])];
-        volume += (a[0] * (b[1] * c[2] - b[2] * c[1]) + a[1] * (b[2] * c[0] - b[0] * c[2]) +
-          a[2] * (b[0] * c[1] - b[1] * c[0])) / 6;
-        for (const [from3, to3] of [[0, 1], [1, 2], [2, 0]]) {
-          const [p, q] = [key(t[i + from3]), key(t[i + to3])];
-          if (p === q) continue;
-          const [name, step] = p < q ? [p + '|' + q, 1] : [q + '|' + p, -1];
-          edges.set(name, (edges.get(name) || 0) + step);
-        }
-      }
-      for (const count of edges.values()) if (count !== 0) return null;
-    }
-    return Math.abs(volume) + balls;
-  }
-
-  // Where the file says the model stands: told, not applied, since placement.json decides.
+  // Where the file says the model stands: applied if placement.json says so.
   readMapConversion() {
-    const values = [...this.lines('IfcMapConversion'), ...this.mapProperties()];
-    for (const map of values) {
+    const values = [...this.lines('IfcMapConversion'), ...this.lines('IfcMapConversionScaled'), ...this.mapProperties()];
+    const crs = this.lines('IfcProjectedCRS');
+    const system = crs.map((one) => valueOf(one.Name)).find(Boolean);
+    for (const map of values.slice(0, 1)) {
       const number = (name) => Number(valueOf(map[name]) || 0);
       const turn = Math.atan2(number('XAxisOrdinate'), Number(valueOf(map.XAxisAbscissa) ?? 1)) * 180 / Math.PI;
-      const shift = ['Eastings', 'Northings', 'OrthogonalHeight'].map(number).join(', ');
-      const system = this.lines('IfcProjectedCRS').map((crs) => valueOf(crs.Name)).find(Boolean);
+      const [unit, scale] = this.mapUnitAndScale(map, crs);
+      const shift = ['Eastings', 'Northings', 'OrthogonalHeight'].map((name) => number(name) * unit);
+      this.map = {rotation_deg: Number(turn.toFixed(9)), shift, scale};
       this.warnings.push('holds map coordinates' + (system ? ' (' + system + ')' : '') +
-        ' that are not applied: to use them write {"rotation_deg": ' + Number(turn.toFixed(9)) + ', "shift": [' +
-        shift + ']} into placement.json');
+        ' that are not applied: to use them write {"map_conversion": true} into placement.json, which is {"rotation_deg": ' +
+        this.map.rotation_deg + ', "shift": [' + shift.join(', ') + ']' + (scale === 1 ? '' : ', "scale": ' + scale) + '}');
     }
+    if (values.length > 0) return;
+    for (const site of this.lines('IfcSite')) {
+      const degrees = (angle) => angle && angle.map ? angle.map((part, i) => Number(valueOf(part)) / [1, 60, 3600, 3.6e9][i]).reduce((a, b) => a + b, 0) : null;
+      const [latitude, longitude] = [degrees(site.RefLatitude), degrees(site.RefLongitude)];
+      if (latitude === null || longitude === null) continue;
+      this.warnings.push('its site is at latitude ' + latitude.toFixed(6) + ', longitude ' + longitude.toFixed(6) +
+        ', which is not applied: place the model by placement.json');
+    }
+  }
+  // Metres of a map's unit, and how many times larger the model is on the map. What exporters write where units differ is
+  // a thousand times off either way; a map is never.
+  mapUnitAndScale(map, crs) {
+    const project = this.unitOf('LENGTHUNIT', 1);
+    const stated = crs.map((one) => one.MapUnit && this.metresOf(this.line(one.MapUnit.value))).find(Boolean);
+    const factor = Number(valueOf(map.Scale) || 1);
+    const isUnit = Math.abs(factor / project - 1) < 0.01 && Math.abs(project - 1) > 0.01;
+    const unit = stated || (isUnit ? 1 : project);
+    const scale = factor * unit / project;
+    const isNear = (value) => Math.abs(value - 1) < 0.01;
+    return [unit, isNear(scale) ? scale : isNear(factor) ? factor : 1];
   }
   mapProperties() {
     return this.lines('IfcPropertySet')
@@ -294,25 +290,50 @@ class Reader {
   }
 }
 
+// What web-ifc says while it reads: kind of message -> entities.
+const said = new Map();
+function hear(...words) {
+  for (const line of words.join(' ').split('\n')) {
+    const found = /^\[WEB-IFC\]\[(error|warning|critical)\]\[?(.*)$/.exec(line.trim());
+    if (!found) continue;
+    const entity = /(\d+)\D*$/.exec(found[2]);
+    const kind = found[2].replace(/^\[?\w+\(\)\]\s*/, '').replace(/\d+/g, '').trim();
+    if (!said.has(kind)) said.set(kind, []);
+    said.get(kind).push(entity ? '#' + entity[1] : '');
+  }
+}
+function whatWasSaid() {
+  return [...said].slice(0, 20).map(([kind, entities]) => {
+    const named = [...new Set(entities.filter(Boolean))];
+    return 'web-ifc says' + (entities.length > 1 ? ' ' + entities.length + ' times' : '') + ': ' + kind.slice(0, 120) +
+      (named.length > 0 ? ' (' + named.slice(0, 8).join(', ') + (named.length > 8 ? ', ...' : '') + ')' : '');
+  });
+}
+
 async function main() {
+  console.log = console.warn = hear;
   const api = new IfcAPI();
   api.SetWasmPath(folder + path.sep, true);
   await api.Init();
-  api.SetLogLevel(6);
+  api.SetLogLevel(3);
   const model = api.OpenModel(new Uint8Array(fs.readFileSync(file)));
   if (model < 0) throw new Error('web-ifc knows no schema of it');
   const reader = new Reader(api, model);
   reader.readStyles();
+  reader.readPlaces();
   reader.readMeshes();
   reader.countLost();
+  reader.countLooks();
+  reader.nameOpenSolids();
   reader.compareQuantities();
   reader.readMapConversion();
   fs.writeFileSync(out + '.bin', Buffer.from(new Float64Array(reader.vertices).buffer));
   fs.appendFileSync(out + '.bin', Buffer.from(new Uint32Array(reader.triangles).buffer));
-  const {surfaces, spheres, entities, skipped, warnings} = reader;
+  const {surfaces, spheres, entities, skipped, map} = reader;
+  const warnings = [...reader.warnings, ...whatWasSaid()];
   const counts = {vertices: reader.vertices.length / 3, triangles: reader.triangles.length / 4};
   fs.writeFileSync(out + '.json', JSON.stringify(
-    {schema: api.GetModelSchema(model), ...counts, surfaces, spheres, entities, skipped, warnings}));
+    {schema: api.GetModelSchema(model), ...counts, surfaces, spheres, entities, skipped, warnings, map}));
 }
 
 main().catch((error) => {

@@ -160,6 +160,8 @@ void Send(const Model& model, Sender* out) {
   }
   out->Plain(model.lamps.size());
   for (const ModelLamp& lamp : model.lamps) Send(lamp, out);
+  out->Plain(model.files.size());
+  for (const auto& file : model.files) out->Text(file.string());
   out->Plain(model.degenerate_faces);
   out->Plain(model.warnings.size());
   for (const std::string& warning : model.warnings) out->Text(warning);
@@ -195,6 +197,9 @@ Model ReceiveModel(Receiver* in) {
   }
   for (size_t n = in->Plain<size_t>(); n > 0 && in->complete(); --n) {
     model.lamps.push_back(ReceiveLamp(in));
+  }
+  for (size_t n = in->Plain<size_t>(); n > 0 && in->complete(); --n) {
+    model.files.emplace_back(in->Text());
   }
   model.degenerate_faces = in->Plain<int>();
   for (size_t n = in->Plain<size_t>(); n > 0 && in->complete(); --n) {

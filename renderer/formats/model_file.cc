@@ -1,15 +1,22 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "renderer/formats/model_file.h"
 
+#include <fstream>
+#include <functional>
+#include <string_view>
+
 #include "calibration/files/error.h"
+#include "calibration/files/whole_file.h"
 #include "renderer/foreign/collada_model.h"
 #include "renderer/foreign/ply_model.h"
+#include "renderer/foreign/text_lines.h"
 #include "renderer/formats/ifc_model.h"
 #include "renderer/formats/isolated.h"
 #include "renderer/formats/model_format.h"
 #include "renderer/formats/obj_model.h"
 #include "renderer/formats/objects_model.h"
 #include "renderer/formats/stl_model.h"
+#include "renderer/formats/temporary_folder.h"
 #include "renderer/gltf/gltf_extensions.h"
 #include "renderer/gltf/gltf_model.h"
 
@@ -29,6 +36,42 @@ Model ReadGltfFile(const std::filesystem::path& path, int seconds) {
   throw InputError(path, failure);
 }
 
+bool IsUtf16File(const std::filesystem::path& path) {
+  constexpr int kHead = 16;
+  char head[kHead] = {};
+  std::ifstream file(path, std::ios::binary);
+  file.read(head, kHead);
+  return IsUtf16(std::string_view(head, static_cast<size_t>(file.gcount())));
+}
+
+std::string Renamed(std::string text, const std::string& from, const std::string& to) {
+  for (size_t at = text.find(from); at != text.npos; at = text.find(from, at + to.size())) {
+    text.replace(at, from.size(), to);
+  }
+  return text;
+}
+
+// DXF and IFC are read piece by piece and name no files: a copy in UTF-8 does.
+Model ReadCopy(const std::filesystem::path& path,
+               const std::function<Model(const std::filesystem::path&)>& read) {
+  if (!IsUtf16File(path)) return read(path);
+  const TemporaryFolder folder;
+  const std::filesystem::path copy = folder.path() / path.filename();
+  WriteWhole(copy, DecodedText(ReadWhole(path)));
+  try {
+    Model model = read(copy);
+    for (std::string& warning : model.warnings) {
+      warning = Renamed(warning, copy.string(), path.string());
+    }
+    return model;
+  } catch (const InputError& error) {
+    const std::string prefix = copy.string() + ": ";
+    std::string message = error.what();
+    if (message.starts_with(prefix)) message.erase(0, prefix.size());
+    throw InputError(path, Renamed(message, copy.string(), path.string()));
+  }
+}
+
 }  // namespace
 
 void ImportOptions::Check() const {
@@ -40,9 +83,9 @@ Model ReadModel(const std::filesystem::path& path, const ImportOptions& options)
   options.Check();
   switch (RequireModelFormat(path)) {
     case ModelFormat::kDxf:
-      return ReadDxf(path, options.dxf);
+      return ReadCopy(path, [&](const auto& file) { return ReadDxf(file, options.dxf); });
     case ModelFormat::kIfc:
-      return ReadIfc(path, options.seconds);
+      return ReadCopy(path, [&](const auto& file) { return ReadIfc(file, options.seconds); });
     case ModelFormat::kGltf:
       return ReadGltfFile(path, options.seconds);
     case ModelFormat::kCollada:

@@ -3,9 +3,12 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 
 #include "calibration/files/error.h"
+#include "calibration/files/json_file.h"
 #include "renderer/formats/model_format.h"
+#include "renderer/mesh/model.h"
 
 namespace insitu {
 namespace {
@@ -49,6 +52,35 @@ std::string ModelIn(const fs::path& folder) {
   return first;
 }
 
+// Files that are read by other readers, or are for people.
+bool IsOurs(const fs::path& path) {
+  static const std::set<std::string> kNames = {"PLACEMENT.JSON", "MATERIALS.JSON", "LIGHTS.JSON"};
+  const std::string name = NameKey(path.filename().string());
+  return kNames.contains(name) || name.starts_with("README") || name.starts_with("LICEN") ||
+         name.starts_with("SOURCE");
+}
+
+void AddTexts(const Json::Value& value, std::string* texts) {
+  if (value.isString()) texts->append("\n" + value.asString() + "\n");
+  if (!value.isArray() && !value.isObject()) return;
+  for (const Json::Value& item : value) AddTexts(item, texts);
+}
+
+// Everything that the site's own files of the building say, each text on a line.
+std::string TextsBeside(const SitePaths& site) {
+  std::string texts;
+  for (const char* name : {"materials.json", "lights.json"}) {
+    const fs::path path = site.building() / name;
+    if (fs::exists(path)) AddTexts(ReadJson(path), &texts);
+  }
+  return texts;
+}
+
+bool Holds(const fs::path& folder, const fs::path& file) {
+  const auto [end, ignored] = std::mismatch(folder.begin(), folder.end(), file.begin(), file.end());
+  return end == folder.end();
+}
+
 }  // namespace
 
 ModelList ListModels(const SitePaths& site) {
@@ -63,6 +95,8 @@ ModelList ListModels(const SitePaths& site) {
         list.warnings.push_back(
             InputError(path, "not read: the folder holds " + model + ": move it into building/")
                 .what());
+      } else {
+        list.others.push_back(path);
       }
       continue;
     }
@@ -74,6 +108,8 @@ ModelList ListModels(const SitePaths& site) {
       files_of_name[path.stem().string()].push_back(path);
     } else if (const std::string advice = AdviceOnUnread(path); !advice.empty()) {
       list.warnings.push_back(InputError(path, "not read: it is " + advice).what());
+    } else if (!IsOurs(path)) {
+      list.others.push_back(path);
     }
   }
   for (auto& [name, files] : files_of_name) {
@@ -95,6 +131,27 @@ ModelList ListModels(const SitePaths& site) {
   }
   std::ranges::sort(list.files);
   return list;
+}
+
+std::string UnreadFiles(const SitePaths& site, const std::vector<fs::path>& others,
+                        const std::vector<fs::path>& read) {
+  const std::string texts = TextsBeside(site);
+  std::set<std::string> names;
+  for (const fs::path& other : others) {
+    const fs::path path = fs::absolute(other).lexically_normal();
+    const bool is_read = std::ranges::any_of(
+        read, [&](const fs::path& file) { return file == path || Holds(path, file); });
+    const std::string name = other.filename().string();
+    const bool is_named =
+        texts.find("\n" + name + "\n") != texts.npos || texts.find("\n" + name + "/") != texts.npos;
+    if (!is_read && !is_named) names.insert(name + (fs::is_directory(other) ? "/" : ""));
+  }
+  if (names.empty()) return "";
+  std::string list;
+  for (const std::string& name : names) list += (list.empty() ? "" : ", ") + name;
+  return InputError(site.building(),
+                    "not read, as no model names it and its kind is not known: " + list)
+      .what();
 }
 
 }  // namespace insitu

@@ -34,7 +34,10 @@ std::string WrittenImage(const SitePaths& site, const fs::path& file, const std:
 
 // Empty, with a warning: no such file.
 std::string TextureBeside(const fs::path& file, const SurfaceNames& names, Model* model) {
-  if (const auto path = FindReference(file, names.texture)) return path->string();
+  if (const auto path = FindReference(file, names.texture)) {
+    model->files.push_back(*path);
+    return path->string();
+  }
   const std::string warning =
       names.texture_place + ": names the texture " + names.texture +
       ", which is not there: left out of material \"" + names.material +

@@ -2,6 +2,8 @@
 #include "renderer/formats/obj_material.h"
 
 #include <algorithm>
+#include <set>
+#include <string_view>
 
 #include "renderer/formats/obj_words.h"
 
@@ -67,7 +69,27 @@ class MaterialsReader {
     } else if (keyword == "map_Kd") {
       current_->texture = TextureName(words);
       current_->texture_place = path_.string() + ":" + std::to_string(line);
+    } else {
+      CountNotShown(keyword, words);
     }
+  }
+  // What says something that is not shown; Ns and the like only qualify others.
+  void CountNotShown(std::string_view keyword, ObjWords words) {
+    static const std::set<std::string_view> kQualify = {
+        "Ka", "Ns", "Ni", "illum", "sharpness", "map_Ka", "Pr", "aniso", "anisor"};
+    if (kQualify.contains(keyword)) return;
+    if (keyword.size() == 2 && (keyword[0] == 'K' || keyword[0] == 'P' || keyword == "Tf")) {
+      const double first = words.FindNumber().value_or(1), usual = keyword == "Tf" ? 1 : 0;
+      const double second = words.FindNumber().value_or(first);
+      const double third = words.FindNumber().value_or(second);
+      if (first == usual && second == usual && third == usual) return;
+    }
+    const bool is_known = keyword.starts_with("map_") || keyword.starts_with("K") ||
+                          keyword.starts_with("P") || keyword.starts_with("Tf");
+    ++(*skipped_)[{std::string(keyword.substr(0, 20)),
+                   is_known || keyword == "bump" || keyword == "norm" || keyword == "disp"
+                       ? "of materials: not shown, see materials.json"
+                       : "of materials: not read"}];
   }
   void ReadOpacity(bool is_dissolve, ObjWords words) {
     const auto first = ObjWords(words).Next();

@@ -44,10 +44,11 @@ class ObjReader {
 
  private:
   void ReadLine(std::string_view keyword, ObjWords& words) {
-    ModelMesh& mesh = model_.mesh;
+    if (keyword == "v" || keyword.starts_with("vt") || keyword == "vn" || keyword == "f") {
+      words.CutComment();
+    }
     if (keyword == "v") {
-      mesh.vertices.push_back(words.Point());
-      AddColor(words);
+      AddVertex(words);
     } else if (keyword == "vt") {
       const std::optional<double> u = words.FindNumber(), v = words.FindNumber();
       if (!u) ++model_.skipped[{"vt", "no number: taken as 0"}];
@@ -67,6 +68,15 @@ class ObjReader {
     } else {
       Skip(std::string(keyword));
     }
+  }
+
+  // One that is no point is passed over, with the faces at it: numbers of others stay right.
+  void AddVertex(ObjWords& words) {
+    model_.mesh.vertices.push_back(words.Point());
+    const bool is_point = model_.mesh.vertices.back().allFinite();
+    if (!is_point) ++model_.skipped[{"v", "no number: no point"}];
+    all_points_ = all_points_ && is_point;
+    AddColor(words);
   }
 
   // "v x y z r g b", as scanners and MeshLab write it; of "x y z w", none.
@@ -121,23 +131,56 @@ class ObjReader {
 
   // One name, with blanks or without, or several.
   void ReadLibraries(const std::string& names) {
-    if (FindReference(path_, names)) return ReadLibrary(names);
-    ObjWords words(path_, 0, names);
-    while (const auto name = words.Next()) {
-      if (!FindReference(path_, std::string(*name))) return ReadLibrary(names);
-      ReadLibrary(std::string(*name));
+    names_library_ = true;
+    if (const auto file = FindReference(path_, names)) return ReadLibrary(*file);
+    std::vector<std::string> lost;
+    for (const std::string& name : SeveralNames(names)) {
+      if (const auto file = FindReference(path_, name)) {
+        ReadLibrary(*file);
+      } else {
+        lost.push_back(name);
+      }
     }
+    if (lost.size() == SeveralNames(names).size()) return ReadLibraryBeside(names);
+    for (const std::string& name : lost) SayLost(name, "its colours are unknown");
   }
 
-  void ReadLibrary(const std::string& name) {
-    const std::optional<fs::path> file = FindReference(path_, name);
-    if (!file) {
-      model_.warnings.push_back(
-          InputError(path_, "its material file " + name + " is not there: its colours are unknown")
-              .what());
-      return;
+  // "a.mtl b.mtl", in quotes where they hold blanks.
+  static std::vector<std::string> SeveralNames(const std::string& text) {
+    std::vector<std::string> names(1);
+    bool in_quotes = false;
+    for (const char c : text) {
+      if (c == '"') in_quotes = !in_quotes;
+      if (!in_quotes && (c == ' ' || c == '\t') && !names.back().empty()) names.emplace_back();
+      if (c != '"' && (in_quotes || (c != ' ' && c != '\t'))) names.back() += c;
     }
-    for (auto& [material, values] : ReadObjMaterials(*file, &model_.skipped)) {
+    if (names.back().empty()) names.pop_back();
+    return names;
+  }
+
+  void SayLost(const std::string& name, const std::string& so) {
+    model_.warnings.push_back(
+        InputError(path_, "its material file " + name + " is not there: " + so).what());
+  }
+
+  // The one called like the model, in the place of one that is not there.
+  void ReadLibraryBeside(const std::string& name) {
+    const auto beside = FindReference(path_, path_.stem().string() + ".mtl");
+    if (!beside && !name.empty()) SayLost(name, "its colours are unknown");
+    if (!beside) return;
+    const std::string taken = beside->filename().string() + " beside it is taken";
+    if (!name.empty()) {
+      SayLost(name, taken);
+    } else {
+      model_.warnings.push_back(InputError(path_, "names no material file: " + taken).what());
+    }
+    ReadLibrary(*beside);
+  }
+
+  void ReadLibrary(const fs::path& file) {
+    model_.files.push_back(file);
+    for (auto& [material, values] : ReadObjMaterials(file, &model_.skipped)) {
+      name_of_key_.try_emplace(NameKey(material), material);
       materials_[material] = values;
     }
     surface_.reset();
@@ -148,38 +191,45 @@ class ObjReader {
     std::optional<int> uv, normal;
   };
 
-  // From 1, or from the end if negative.
-  static int Index(const ObjWords& words, std::string_view text, size_t count, const char* what) {
+  // From 1, or from the end if negative; nullopt: none such.
+  static std::optional<int> IndexIn(std::string_view text, size_t count) {
     int64_t index = 0;
-    if (!ObjWords::ParseAll(text, &index)) {
-      throw words.Error("\"" + std::string(text.substr(0, 40)) + "\", expected the number of a " +
-                        what);
-    }
+    if (!ObjWords::ParseAll(text, &index)) return std::nullopt;
     const auto size = static_cast<int64_t>(count);
     const int64_t from_zero = index > 0 ? index - 1 : size + index;
-    if (index == 0 || from_zero < 0 || from_zero >= size) {
-      throw words.Error("a face names " + std::string(what) + " " + std::to_string(index) +
-                        ", expected 1 to " + std::to_string(size));
-    }
+    if (index == 0 || from_zero < 0 || from_zero >= size) return std::nullopt;
     return static_cast<int>(from_zero);
   }
+  static int Vertex(const ObjWords& words, std::string_view text, size_t count) {
+    if (const auto index = IndexIn(text, count)) return *index;
+    int64_t number = 0;
+    if (!ObjWords::ParseAll(text, &number)) {
+      throw words.Error("\"" + std::string(text.substr(0, 40)) +
+                        "\", expected the number of a vertex");
+    }
+    throw words.Error("a face names vertex " + std::to_string(number) + ", expected 1 to " +
+                      std::to_string(count));
+  }
+  std::optional<int> Attribute(std::string_view text, size_t count, const char* kind) {
+    if (text.empty()) return std::nullopt;
+    const auto index = IndexIn(text, count);
+    if (!index) ++model_.skipped[{kind, "named by corners of faces and not there"}];
+    return index;
+  }
 
-  Corner CornerOf(const ObjWords& words, std::string_view word) const {
+  Corner CornerOf(const ObjWords& words, std::string_view word) {
     const size_t first = std::min(word.find('/'), word.size());
     const std::string_view rest = word.substr(std::min(first + 1, word.size()));
     const size_t second = std::min(rest.find('/'), rest.size());
     const std::string_view uv = rest.substr(0, second);
     const std::string_view normal = rest.substr(std::min(second + 1, rest.size()));
-    Corner corner{
-        Index(words, word.substr(0, first), model_.mesh.vertices.size(), "vertex"), {}, {}};
-    if (!uv.empty()) corner.uv = Index(words, uv, uvs_.size(), "texture coordinate");
-    if (!normal.empty()) corner.normal = Index(words, normal, normals_.size(), "normal");
-    return corner;
+    return {Vertex(words, word.substr(0, first), model_.mesh.vertices.size()),
+            Attribute(uv, uvs_.size(), "vt"), Attribute(normal, normals_.size(), "vn")};
   }
 
   void AddFace(ObjWords& words) {
     std::vector<Corner> corners;
-    for (auto word = words.Next(); word && !word->starts_with('#'); word = words.Next()) {
+    for (auto word = words.Next(); word; word = words.Next()) {
       corners.push_back(CornerOf(words, *word));
     }
     if (corners.size() < 3) {
@@ -191,6 +241,11 @@ class ObjReader {
     ++model_.entities["f"];
     std::vector<int> vertices;
     for (const Corner& corner : corners) vertices.push_back(corner.vertex);
+    const auto is_point = [&](int v) { return model_.mesh.vertices[v].allFinite(); };
+    if (!all_points_ && !std::ranges::all_of(vertices, is_point)) {
+      ++model_.skipped[{"f", "a face at a vertex that is no point"}];
+      return;
+    }
     const auto triangles = FaceTriangles(model_.mesh.vertices, vertices);
     if (triangles.empty()) ++model_.degenerate_faces;
     for (const Eigen::Vector3i& triangle : triangles) AddTriangle(triangle, corners);
@@ -235,7 +290,15 @@ class ObjReader {
     names.layer = object_.empty() || group_.empty() ? object_ + group_ : object_ + "/" + group_;
     if (names.layer.empty()) names.layer = path_.stem().string();
     names.material = material_;
-    const auto found = materials_.find(material_);
+    if (!names_library_ && !material_.empty()) {
+      names_library_ = true;
+      ReadLibraryBeside("");
+    }
+    auto found = materials_.find(material_);
+    if (found == materials_.end()) {  // names that differ in case alone
+      const auto alike = name_of_key_.find(NameKey(material_));
+      if (alike != name_of_key_.end()) found = materials_.find(alike->second);
+    }
     if (found != materials_.end()) {
       names.rgb = found->second.rgb;
       names.opacity = found->second.opacity;
@@ -251,6 +314,8 @@ class ObjReader {
   std::vector<Eigen::Vector2f> uvs_;
   std::vector<Eigen::Vector3f> normals_;
   std::map<std::string, ObjMaterial> materials_;
+  std::map<std::string, std::string> name_of_key_;  // of their names
+  bool names_library_ = false, all_points_ = true;
   std::string object_, group_, material_;
   std::optional<int> surface_;
   std::vector<Eigen::Vector3f>

@@ -7,11 +7,13 @@
 #include <charconv>
 #include <cmath>
 #include <filesystem>
+#include <limits>
 #include <optional>
 #include <string>
 #include <string_view>
 
 #include "calibration/files/error.h"
+#include "calibration/files/plain_text.h"
 #include "renderer/dxf/dxf_name.h"
 #include "renderer/foreign/text_lines.h"
 
@@ -33,13 +35,20 @@ class ObjWords {
     rest_.remove_prefix(end);
     return word;
   }
+  // A comment behind numbers; in names "#" is a letter.
+  void CutComment() {
+    size_t at = rest_.find('#');
+    while (at != rest_.npos && at > 0 && rest_[at - 1] == '.')
+      at = rest_.find('#', at + 1);  // 1.#IND
+    rest_ = rest_.substr(0, at);
+  }
   std::string Rest() {
     const size_t first = rest_.find_first_not_of(" \t\r");
     if (first == std::string_view::npos) return "";
     return std::string(rest_.substr(first, rest_.find_last_not_of(" \t\r") - first + 1));
   }
-  // The rest as a name; bytes that are no UTF-8 are Windows-1252.
-  std::string Name() { return Utf8FromDxf(Rest()); }
+  // The rest as a name; bytes that are no UTF-8 are Windows-1252; in composed form.
+  std::string Name() { return Composed(Utf8FromDxf(Rest())); }
   // nullopt: no number, not finite, beyond any; the word is passed over.
   std::optional<double> FindNumber() {
     const auto word = Next();
@@ -49,9 +58,11 @@ class ObjWords {
     }
     return value;
   }
+  // NaN: what programs write in its place ("nan", "-1.#IND", "inf").
   double Number() {
     const auto word = Next();
     double value = 0;
+    if (word && IsNoNumber(*word)) return std::numeric_limits<double>::quiet_NaN();
     if (!word || !ParseAll(*word, &value) || !(std::abs(value) <= kLargestOfObj)) {
       throw Error((word ? "\"" + std::string(word->substr(0, 40)) + "\"" : "the line ends") +
                   ", expected a number of at most 1e12");

@@ -1,17 +1,22 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "renderer/formats/stl_model.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <cstring>
 #include <fstream>
+#include <limits>
 #include <sstream>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "calibration/files/error.h"
+#include "calibration/files/plain_text.h"
 #include "calibration/files/whole_file.h"
 #include "calibration/files/wording.h"
+#include "renderer/dxf/dxf_name.h"
 #include "renderer/foreign/cut_short.h"
 #include "renderer/foreign/text_lines.h"
 #include "renderer/mesh/face_triangles.h"
@@ -25,8 +30,13 @@ using Eigen::Vector3d;
 constexpr size_t kStlHead = 80, kStlFacet = 50;
 constexpr double kLargestOfStl = 1e12;
 
-void AddStlFacet(const Vector3d corners[3], Model* model) {
+void AddStlFacet(const Vector3d corners[3], int surface, Model* model) {
   ++model->entities["facet"];
+  for (int i = 0; i < 3; ++i) {
+    if (corners[i].allFinite()) continue;
+    ++model->skipped[{"facet", "at a corner that is no point"}];
+    return;
+  }
   if (IsDegenerate(corners[0], corners[1], corners[2])) {
     ++model->degenerate_faces;
     return;
@@ -34,18 +44,19 @@ void AddStlFacet(const Vector3d corners[3], Model* model) {
   const int first = static_cast<int>(model->mesh.vertices.size());
   for (int i = 0; i < 3; ++i) model->mesh.vertices.push_back(corners[i]);
   model->mesh.triangles.emplace_back(first, first + 1, first + 2);
-  model->mesh.surface_of_triangle.push_back(0);
+  model->mesh.surface_of_triangle.push_back(surface);
 }
 
-// Facets until the file ends; a head that counts none counts wrong.
+// Facets until the file ends; a head that counts none, or all there can be, was never filled in.
 void ReadBinaryStl(const fs::path& path, Model* model) {
   const std::string bytes = ReadWhole(path);
   uint32_t stated = 0;
   std::memcpy(&stated, bytes.data() + kStlHead, sizeof(stated));
   const size_t start = kStlHead + sizeof(stated);
   const size_t held = (bytes.size() - start) / kStlFacet;
-  if (stated > 0) RequireLength(path, start + kStlFacet * uint64_t{stated});
-  const size_t facets = stated > 0 ? stated : held;
+  const bool is_stated = stated > 0 && stated != std::numeric_limits<uint32_t>::max();
+  if (is_stated) RequireLength(path, start + kStlFacet * uint64_t{stated});
+  const size_t facets = is_stated ? stated : held;
   if (bytes.size() > start + facets * kStlFacet) {
     ++model->skipped[{"bytes behind the last facet", "not looked at"}];
   }
@@ -60,11 +71,10 @@ void ReadBinaryStl(const fs::path& path, Model* model) {
     Vector3d corners[3];
     for (int i = 0; i < 9; ++i) corners[i / 3][i % 3] = numbers[3 + i];
     for (const Vector3d& corner : corners) {
-      if ((corner.array().abs() <= kLargestOfStl).all()) continue;
-      throw InputError(path, "facet " + std::to_string(f + 1) +
-                                 " has a corner that is not finite or beyond 1e12");
+      if (!corner.allFinite() || (corner.array().abs() <= kLargestOfStl).all()) continue;
+      throw InputError(path, "facet " + std::to_string(f + 1) + " has a corner beyond 1e12");
     }
-    AddStlFacet(corners, model);
+    AddStlFacet(corners, 0, model);
   }
   if (colored) ++model->skipped[{"colours of facets", "STL defines none: not shown"}];
 }
@@ -81,6 +91,7 @@ class StlTextReader {
       std::string word;
       if (words >> word) ReadLine(NameKey(word), &words);
     }
+    NameSolids();
     if (in_facet_) throw InputError(path_, number_, "the file ends in a facet: it is cut short");
     if (!ended_) {
       model_->warnings.push_back(
@@ -96,25 +107,49 @@ class StlTextReader {
     } else if (word == "VERTEX") {
       ReadCorner(words);
     } else if (word == "ENDFACET") {
-      if (corners_ != 3) throw Error("a facet of " + std::to_string(corners_) + " corners");
-      AddStlFacet(facet_, model_);
+      if (corners_ == 3) {
+        AddStlFacet(facet_, solid_, model_);
+      } else {
+        ++model_->skipped[{"facet", "of other than 3 corners"}];
+      }
       in_facet_ = false;
     } else if (word == "ENDSOLID" || word == "END") {
       ended_ = true;
     } else if (word == "SOLID") {
       ended_ = false;
+      BeginSolid(words);
     } else if (word != "OUTER" && word != "ENDLOOP") {
       throw Error(Quoted(word) + ", expected a statement of STL");
     }
   }
+  void BeginSolid(std::istringstream* words) {
+    std::string name;
+    std::getline(*words >> std::ws, name);
+    name.erase(name.find_last_not_of(" \t\r") + 1);
+    const auto found = std::ranges::find(solids_, name);
+    solid_ = static_cast<int>(found - solids_.begin());
+    if (found == solids_.end()) solids_.push_back(name);
+  }
+  // Several solids are layers of their own names; one has the file's.
+  void NameSolids() {
+    for (size_t i = 1; i < solids_.size(); ++i) {
+      model_->mesh.surfaces.push_back(model_->mesh.surfaces.front());
+    }
+    for (size_t i = 0; i < solids_.size() && solids_.size() > 1; ++i) {
+      if (!solids_[i].empty()) model_->mesh.surfaces[i].layer = Composed(Utf8FromDxf(solids_[i]));
+    }
+  }
   void ReadCorner(std::istringstream* words) {
-    if (corners_ >= 3) throw Error("a facet of more than three corners");
-    for (double& coordinate : facet_[corners_]) {
+    for (double& coordinate : facet_[std::min(corners_, 2)]) {
       std::string text;
       *words >> text;
       const char* first = text.data() + text.starts_with('+');
       const char* last = text.data() + text.size();
       const auto [end, status] = std::from_chars(first, last, coordinate);
+      if (IsNoNumber(text)) {
+        coordinate = std::numeric_limits<double>::quiet_NaN();
+        continue;
+      }
       if (status != std::errc() || end != last || !(std::abs(coordinate) <= kLargestOfStl)) {
         throw Error(Quoted(text) + ", expected a coordinate of at most 1e12");
       }
@@ -129,6 +164,8 @@ class StlTextReader {
   int number_ = 0, corners_ = 0;
   bool in_facet_ = false, ended_ = false;
   Vector3d facet_[3];
+  std::vector<std::string> solids_;
+  int solid_ = 0;
 };
 
 // Binary files may begin with "solid" too, but hold zeros and no "facet" near their head.

@@ -47,6 +47,15 @@ std::string RtcCenter(const GltfFile& file) {
       (*center)[0], (*center)[1], (*center)[2]);
 }
 
+// Those that stand somewhere, declared or not.
+void AddExtensionsIn(const Json::Value& value, std::set<std::string>* names) {
+  if (value.isObject() && MemberOf(value, "extensions").isObject()) {
+    for (const std::string& name : value["extensions"].getMemberNames()) names->insert(name);
+  }
+  if (!value.isArray() && !value.isObject()) return;
+  for (const Json::Value& item : value) AddExtensionsIn(item, names);
+}
+
 }  // namespace
 
 std::vector<std::string> CheckGltfExtensions(const GltfFile& file) {
@@ -57,7 +66,10 @@ std::vector<std::string> CheckGltfExtensions(const GltfFile& file) {
                                       "DXF");
   }
   std::vector<std::string> warnings;
-  for (const std::string& name : TextsOf(file.json(), "extensionsUsed")) {
+  std::set<std::string> used;
+  for (const std::string& name : TextsOf(file.json(), "extensionsUsed")) used.insert(name);
+  AddExtensionsIn(file.json(), &used);
+  for (const std::string& name : used) {
     if (IsRead(name)) continue;
     const std::string more = name == "CESIUM_RTC" ? RtcCenter(file) : "";
     warnings.push_back(

@@ -13,6 +13,7 @@
 #include "calibration/files/wording.h"
 #include "renderer/foreign/cut_short.h"
 #include "renderer/foreign/file_reference.h"
+#include "renderer/foreign/text_lines.h"
 #include "renderer/gltf/gltf_json.h"
 
 namespace insitu {
@@ -97,8 +98,7 @@ GltfFile::GltfFile(const std::filesystem::path& path) : path_(path) {
   if (bytes.starts_with("glTF")) {
     ReadBinary(bytes);
   } else {
-    if (bytes.starts_with("\xEF\xBB\xBF")) bytes.erase(0, 3);
-    json_ = ParseJson(path, bytes);
+    json_ = ParseJson(path, DecodedText(std::move(bytes)));
   }
   const std::string version = TextOf(MemberOf(json_, "asset"), "version");
   if (version.starts_with("2.") || version == "2") return;
@@ -123,17 +123,21 @@ void GltfFile::ReadBinary(const std::string& bytes) {
   binary_ = bytes.substr(next + kChunkHead, WordAt(bytes, next));
 }
 
-const Json::Value& GltfFile::Item(const char* list, int index, const std::string& user) const {
+const Json::Value& GltfFile::Find(const char* list, int index) const {
   const Json::Value& items = MemberOf(json_, list);
-  if (items.isArray() && index >= 0 && index < static_cast<int>(items.size()) &&
-      items[index].isObject()) {
-    return items[index];
-  }
+  const bool is_there = items.isArray() && index >= 0 && index < static_cast<int>(items.size()) &&
+                        items[index].isObject();
+  return is_there ? items[index] : Json::Value::nullSingleton();
+}
+
+const Json::Value& GltfFile::Item(const char* list, int index, const std::string& user) const {
+  const Json::Value& item = Find(list, index);
+  if (!item.isNull()) return item;
   throw InputError(path_,
                    user + " names " + list + "[" + std::to_string(index) + "], which is not there");
 }
 
-std::string GltfFile::BytesOfUri(const std::string& uri) const {
+std::string GltfFile::BytesOfUri(const std::string& uri) {
   if (uri.starts_with("data:")) {
     const size_t comma = std::min(uri.find(','), uri.size());
     return FromBase64(std::string_view(uri).substr(std::min(comma + 1, uri.size())));
@@ -144,6 +148,7 @@ std::string GltfFile::BytesOfUri(const std::string& uri) const {
                                 ", which is not there: put it beside the model, or export .glb, "
                                 "which holds all in one file");
   }
+  files_.push_back(*file);
   return ReadWhole(*file);
 }
 

@@ -8,6 +8,7 @@
 #include <map>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace insitu {
 
@@ -19,7 +20,10 @@ class GltfFile {
   const std::filesystem::path& path() const { return path_; }
   const Json::Value& json() const { return json_; }
 
-  // json()[list][index]. Throws InputError: not there; `user` says what names it.
+  // json()[list][index]; null: not there.
+  const Json::Value& Find(const char* list, int index) const;
+
+  // The same. Throws InputError: not there; `user` says what names it.
   const Json::Value& Item(const char* list, int index, const std::string& user) const;
 
   // The bytes of a buffer view, decompressed if it is compressed by meshopt; they live as long as
@@ -27,7 +31,9 @@ class GltfFile {
   std::string_view View(int index);
 
   // Bytes that a URI holds ("data:...") or names. Throws InputError: neither.
-  std::string BytesOfUri(const std::string& uri) const;
+  std::string BytesOfUri(const std::string& uri);
+
+  const std::vector<std::filesystem::path>& files() const { return files_; }  // read for buffers
 
  private:
   void ReadBinary(const std::string& bytes);
@@ -38,6 +44,7 @@ class GltfFile {
   std::filesystem::path path_;
   Json::Value json_;
   std::string binary_;  // the chunk of a binary file
+  std::vector<std::filesystem::path> files_;
   std::map<int, std::string> buffers_, decompressed_;
 };
 

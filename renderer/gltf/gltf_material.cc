@@ -5,6 +5,7 @@
 #include <cmath>
 #include <optional>
 
+#include "calibration/files/error.h"
 #include "renderer/gltf/gltf_json.h"
 
 namespace insitu {
@@ -20,7 +21,7 @@ Vector3d ColorIn(const Json::Value& value, const char* name, const Vector3d& oth
 class GltfMaterialReader {
  public:
   GltfMaterialReader(GltfFile* file, const Json::Value& json, Model* model)
-      : file_(*file), json_(json), model_(*model), file_to_read_(file) {}
+      : file_(*file), json_(json), model_(*model) {}
 
   GltfMaterial Read(const std::string& name) {
     material_.names.material = name;
@@ -61,7 +62,8 @@ class GltfMaterialReader {
     if (offset) material_.image_from_texture.translate(Eigen::Vector2d(*offset));
     material_.image_from_texture.rotate(Eigen::Rotation2Dd(-turn));
     if (scale) material_.image_from_texture.scale(Eigen::Vector2d(*scale));
-    const Json::Value& texture = file_.Item("textures", *index, "a material");
+    const Json::Value& texture = file_.Find("textures", *index);
+    if (texture.isNull()) return Skip("texture", "is not there: its colour alone is shown");
     auto source = IndexOf(texture, "source");
     if (const auto webp = IndexOf(ExtensionOf(texture, "EXT_texture_webp"), "source")) {
       if (!source) source = webp;
@@ -71,16 +73,27 @@ class GltfMaterialReader {
   }
 
   void ReadImage(int index) {
-    const Json::Value& image = file_.Item("images", index, "a texture");
+    const Json::Value& image = file_.Find("images", index);
+    if (image.isNull()) return Skip("texture", "its image is not there: its colour alone is shown");
     const std::string uri = TextOf(image, "uri"), name = "*" + std::to_string(index);
     material_.names.texture_place = file_.path().string();
     material_.names.texture = name;
     if (const auto view = IndexOf(image, "bufferView")) {
-      model_.images[name] = std::string(file_to_read_->View(*view));
+      ReadImageWithin(name, *view);
     } else if (uri.starts_with("data:")) {
       model_.images[name] = file_.BytesOfUri(uri);
     } else {
       material_.names.texture = uri;
+    }
+  }
+
+  void ReadImageWithin(const std::string& name, int view) {
+    try {
+      model_.images[name] = std::string(file_.View(view));
+    } catch (const InputError& error) {
+      material_.names.texture.clear();
+      model_.warnings.push_back(std::string(error.what()) + ": the texture of material \"" +
+                                material_.names.material + "\" is left out");
     }
   }
 
@@ -111,6 +124,12 @@ class GltfMaterialReader {
     if (MemberOf(gloss, "specularGlossinessTexture").isObject()) {
       Skip("specularGlossinessTexture", "not shown");
     }
+    if (gloss.isObject() && ColorIn(gloss, "specularFactor", Vector3d::Ones()).maxCoeff() > 0.1) {
+      Skip("specularFactor", "shown as a diffuse surface: see specular of materials.json");
+    }
+    if (ExtensionOf(json_, "KHR_materials_unlit").isObject()) {
+      Skip("KHR_materials_unlit", "lit as any surface is");
+    }
     const double strength =
         NumberOf(ExtensionOf(json_, "KHR_materials_emissive_strength"), "emissiveStrength", 1);
     if (ColorIn(json_, "emissiveFactor", Vector3d::Zero()).maxCoeff() * strength > 0) {
@@ -122,10 +141,9 @@ class GltfMaterialReader {
   }
   void Skip(const char* kind, const char* reason) { ++model_.skipped[{kind, reason}]; }
 
-  const GltfFile& file_;
+  GltfFile& file_;
   const Json::Value& json_;
   Model& model_;
-  GltfFile* file_to_read_;
   GltfMaterial material_;
 };
 

@@ -34,7 +34,9 @@ class GltfReader {
       if (node.light >= 0) AddLamp(node);
       if (node.mesh >= 0) AddMesh(node);
     }
+    CountWhatIsNotShown();
     WarnOfPrecision();
+    model_.files = file_.files();
     builder_.Finish();
     return std::move(model_);
   }
@@ -47,7 +49,11 @@ class GltfReader {
     for (int i = 0; i < static_cast<int>(primitives.size()); ++i) {
       const std::optional<int> material_index = IndexOf(primitives[i], "material");
       GltfMaterial material;
-      if (material_index) material = MaterialOf(*material_index);
+      if (material_index && file_.Find("materials", *material_index).isNull()) {
+        ++model_.skipped[{"material", "a mesh names one that is not there"}];
+      } else if (material_index) {
+        material = MaterialOf(*material_index);
+      }
       const GltfPrimitive& primitive =
           PrimitiveOf({node.mesh, i}, primitives[i], material.texture_set);
       if (primitive.triangles.empty()) continue;
@@ -125,7 +131,8 @@ class GltfReader {
     const Json::Value& lights =
         MemberOf(ExtensionOf(file_.json(), "KHR_lights_punctual"), "lights");
     if (!lights.isArray() || node.light >= static_cast<int>(lights.size())) {
-      throw InputError(file_.path(), "a node names a light that is not there");
+      ++model_.skipped[{"light", "a node names one that is not there"}];
+      return;
     }
     const Json::Value& light = lights[node.light];
     const std::string type = TextOf(light, "type");
@@ -147,6 +154,17 @@ class GltfReader {
       lamp.outer_deg = NumberOf(spot, "outerConeAngle", std::numbers::pi / 4) / kDegree;
     }
     model_.lamps.push_back(lamp);
+  }
+
+  void CountWhatIsNotShown() {
+    const Json::Value& animations = MemberOf(file_.json(), "animations");
+    if (animations.isArray() && !animations.empty()) {
+      model_.skipped[{"animation", "shown at rest"}] += static_cast<int>(animations.size());
+    }
+    const Json::Value& scenes = MemberOf(file_.json(), "scenes");
+    if (scenes.isArray() && scenes.size() > 1) {
+      model_.skipped[{"scene", "the file shows another"}] += static_cast<int>(scenes.size()) - 1;
+    }
   }
 
   // Positions are stored in single precision, whatever we do.

@@ -64,7 +64,12 @@ class GltfPrimitiveReader {
     return accessor ? ReadGltfAccessor(file_, *accessor) : GltfValues{};
   }
   GltfValues LikePositions(const std::string& name, int fewest, int most) {
-    GltfValues values = Values(name);
+    GltfValues values;
+    try {
+      values = Values(name);
+    } catch (const InputError& error) {
+      model_.warnings.push_back(std::string(error.what()) + ": " + name + " is left out");
+    }
     if (values.components == 0) return {};
     if (values.components >= fewest && values.components <= most &&
         values.count() == primitive_.positions.count()) {

@@ -3,6 +3,8 @@
 
 #include <Eigen/Geometry>
 
+#include "calibration/files/plain_text.h"
+
 namespace insitu {
 namespace {
 
@@ -72,13 +74,7 @@ class Renumbering {
 
 }  // namespace
 
-std::string NameKey(const std::string& name) {
-  std::string key = name;
-  for (char& c : key) {
-    if (c >= 'a' && c <= 'z') c = static_cast<char>(c - 'a' + 'A');
-  }
-  return key;
-}
+std::string NameKey(const std::string& name) { return InCapitals(name); }
 
 Eigen::AlignedBox3d BoxOf(const ModelMesh& mesh) {
   Eigen::AlignedBox3d box;

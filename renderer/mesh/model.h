@@ -5,12 +5,15 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <compare>
+#include <filesystem>
 #include <map>
 #include <optional>
 #include <string>
 #include <unordered_map>
 #include <utility>
 #include <vector>
+
+#include "reconstruction/geometry/similarity.h"
 
 namespace insitu {
 
@@ -30,7 +33,8 @@ struct SurfaceNames {
   bool operator==(const SurfaceNames&) const = default;
 };
 
-// Names that differ in case alone mean the same, as in a drawing: their common key.
+// Names that differ in case alone, or in the form of their accents, mean the same, as in a drawing:
+// their common key.
 std::string NameKey(const std::string& name);
 
 // A whole one, exact; it never becomes facets of the mesh.
@@ -76,8 +80,10 @@ struct Model {
   SkippedEntities skipped;                // what carries no surface, is hidden, or cannot be read
   std::map<std::string, std::string> images;  // held by the file: "*0" as texture -> PNG, JPEG, ...
   std::vector<ModelLamp> lamps;
-  int degenerate_faces = 0;           // dropped: no area, or an outline that crosses itself
-  std::vector<std::string> warnings;  // anything else a user must know
+  std::vector<std::filesystem::path> files;   // that it names and that were read
+  std::optional<Similarity3> map_from_model;  // [m], as the file states it; not applied
+  int degenerate_faces = 0;                   // dropped: no area, or an outline that crosses itself
+  std::vector<std::string> warnings;          // anything else a user must know
 };
 
 // Finds or adds surfaces of a mesh in constant time.

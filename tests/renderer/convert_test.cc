@@ -208,7 +208,7 @@ TEST_F(Convert, ReportNamesSizeAndPlace) {
   EXPECT_THAT(Converted().BriefReport(),
               testing::AllOf(HasSubstr("2 triangles, 0 lights\n"),
                              HasSubstr("from (0.000, 0.000, 0.000) to (1.000, 1.000, 0.000) m"),
-                             HasSubstr("WALL: 2\n")));
+                             HasSubstr("WALL: 2 faces, 1.00 m2, open\n")));
 }
 
 // The windows stand before their wall, the report's box is the architect's.
@@ -279,6 +279,25 @@ TEST_F(Convert, MissingTextureCostsOnlyItself) {
   EXPECT_EQ(conversion.environment.triangles.size(), 3u);
   EXPECT_THAT(conversion.warnings, Contains(AllOf(HasSubstr("house.mtl:3: names the texture"),
                                                   HasSubstr("brick.png, which is not there"))));
+}
+
+TEST_F(Convert, FilesThatNobodyReadsAreNamed) {
+  Write("house.obj", kObj);
+  Write("house.mtl", "newmtl BRICK\nKd 1 1 1\nmap_Kd C:\\x\\brick.png\n");
+  Write("maps/brick.png", "no image");
+  Write("notes.txt", "");
+  Write("unused.png", "");
+  Write("listed.png", "");
+  Write("plan.pdf", "%PDF");
+  Write("README.md", "");
+  Write("old/a.txt", "");
+  Write("materials.json",
+        R"({"layers": {}, "materials": {"x": {"comment": "listed.png", "hidden": true}}})");
+  const Conversion conversion = Converted();
+  EXPECT_THAT(conversion.warnings,
+              AllOf(Contains(HasSubstr("its kind is not known: notes.txt, old/, unused.png")),
+                    Contains(HasSubstr("plan.pdf: not read: it is a PDF document")),
+                    Contains(AllOf(HasSubstr("brick.png"), HasSubstr("left out of \"BRICK\"")))));
 }
 
 // As GLB and glTF mostly come: a red image inside the file.

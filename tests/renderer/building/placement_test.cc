@@ -86,6 +86,17 @@ TEST_F(PlacementFile, CoordinateSystems) {
   }
 }
 
+// As an IFC file states where on the map it stands.
+TEST_F(PlacementFile, MapConversionOfTheModel) {
+  folder_.Write("building/placement.json", R"({"map_conversion": true})");
+  Similarity3 map;
+  map.translation = {2600000.125, 1200000.25, 430};
+  const Placement placement = ReadPlacement({folder_.path()}, "house.ifc", 1, map);
+  EXPECT_EQ(placement.world_from_model * Vector3d(1, 2, 3), Vector3d(2600001.125, 1200002.25, 433));
+  EXPECT_THAT(Complaint(R"({"map_conversion": true})"), HasSubstr("states no map conversion"));
+  EXPECT_EQ(Complaint(R"({"map_conversion": false})"), "");
+}
+
 TEST_F(PlacementFile, BadInput) {
   EXPECT_THAT(Complaint(R"({"unit": "parsec"})"), HasSubstr("expected mm, cm"));
   EXPECT_THAT(Complaint(R"({"up": "x"})"), HasSubstr("neither"));

@@ -30,6 +30,9 @@ TEST(SiteCheck, NamesTheFactorThatIsOff) {
   EXPECT_THAT(SuspicionsOf(Box(Vector3d::Zero(), size), {}), IsEmpty());
   EXPECT_THAT(SuspicionsOf(Box(Vector3d::Zero(), 1000 * size), {}, false),
               Contains(HasSubstr("millimetres taken as metres")));
+  const AlignedBox3d house = Box(Vector3d::Zero(), size / 0.0254);  // an OBJ in inches
+  const AlignedBox3d plot = Box(Vector3d::Zero(), {100, 100, 20});
+  EXPECT_THAT(SuspicionsOf(house, plot, false), Contains(HasSubstr("inches taken as metres")));
 }
 
 }  // namespace

@@ -108,6 +108,7 @@ TEST_F(ColladaModel, FaultsAreNamed) {
   EXPECT_THAT(with("0 1 2</p>", "0 1 x</p>"), HasSubstr("expected whole numbers"));
   EXPECT_THAT(with("10 0 3", "10 0"), HasSubstr("holds 7 rows, expected 8"));
   EXPECT_THAT(with("10 0 3", "10 0 x"), HasSubstr("a position that is no number"));
+  EXPECT_EQ(with("10 0 3", "10 0 -1.#IND"), "");  // it costs its faces
   EXPECT_THAT(with("url=\"#kept\"", "url=\"#lost\""), HasSubstr("the node \"#lost\""));
   EXPECT_THAT(with("url=\"#kept\"", "url=\"#n\""), HasSubstr("over 1000 deep"));
 }

@@ -124,6 +124,67 @@ TEST(IfcModel, StatedAreasAreHeldAgainstTheFaces) {
   EXPECT_THAT(warnings("NetSideArea", "2.787"), testing::ElementsAre(HasSubstr("5.574 m2")));
 }
 
+// Storey and presentation layer are its block; materials of sets and of types have names.
+TEST(IfcModel, StoreysLayersAndMaterialsNameElements) {
+  if (!WebIfcFolder()) GTEST_SKIP() << "web-ifc is not there: scripts/setup fetches it";
+  const ScratchFolder folder;
+  std::string text = kBox;
+  text.insert(text.rfind("ENDSEC;"),
+              "#50=IFCBUILDINGSTOREY('s',$,'Erdgeschoss',$,$,#10,$,$,.ELEMENT.,0.);\n"
+              "#51=IFCRELCONTAINEDINSPATIALSTRUCTURE('r',$,$,$,(#18),#50);\n"
+              "#52=IFCPRESENTATIONLAYERASSIGNMENT('A-WALL',$,(#16),$);\n"
+              "#53=IFCMATERIAL('Beton');\n#54=IFCMATERIALLAYER(#53,0.2,$);\n"
+              "#55=IFCMATERIALLAYERSET((#54),$);\n#56=IFCMATERIALLAYERSETUSAGE(#55,.AXIS2.,."
+              "POSITIVE.,0.);\n"
+              "#57=IFCRELASSOCIATESMATERIAL('m',$,$,$,(#18),#56);\n#58=IFCIMAGETEXTURE(.T.,.T.,."
+              "TEXTURE.,$,'a.png');\n");
+  const Model model = ReadIfc(folder.Write("a.ifc", text), 60);
+  ASSERT_EQ(model.mesh.surfaces.size(), 1u);
+  EXPECT_EQ(model.mesh.surfaces[0].block, "Erdgeschoss/A-WALL");
+  EXPECT_EQ(model.mesh.surfaces[0].material, "Beton");
+  EXPECT_EQ(model.skipped.at({"IfcImageTexture", "an image: list it in materials.json"}), 1);
+}
+
+// In IFC4, metres of a map and a model in feet.
+TEST(IfcModel, MapConversionIsInMetres) {
+  if (!WebIfcFolder()) GTEST_SKIP() << "web-ifc is not there: scripts/setup fetches it";
+  const ScratchFolder folder;
+  std::string text = kBox;
+  text.replace(text.find("IFC2X3"), 6, "IFC4");
+  text.replace(text.find("#17,$);"), 7, "#17,$,$);");
+  text.insert(text.rfind("ENDSEC;"),
+              "#60=IFCPROJECTEDCRS('EPSG:2056',$,$,$,$,$,#5);\n"
+              "#61=IFCMAPCONVERSION(#3,#60,2600000.125,1200000.25,430.,0.,1.,0.3048);\n");
+  const Model model = ReadIfc(folder.Write("a.ifc", text), 60);
+  ASSERT_TRUE(model.map_from_model);
+  EXPECT_EQ(model.map_from_model->translation, Eigen::Vector3d(2600000.125, 1200000.25, 430));
+  EXPECT_NEAR(model.map_from_model->scale, 1, 1e-12);
+  EXPECT_NEAR(
+      (*model.map_from_model * Eigen::Vector3d(1, 0, 0) - model.map_from_model->translation).y(), 1,
+      1e-9);
+  EXPECT_THAT(model.warnings, testing::Contains(HasSubstr("\"map_conversion\": true")));
+}
+
+// Faces of a solid that lack one, and what web-ifc itself complains of.
+TEST(IfcModel, OpenSolidsAndItsReadersLogAreTold) {
+  if (!WebIfcFolder()) GTEST_SKIP() << "web-ifc is not there: scripts/setup fetches it";
+  const ScratchFolder folder;
+  std::string text = kBox;
+  text.replace(text.find("'SweptSolid',(#15)"), 18, "'Brep',(#70)");
+  text.insert(text.rfind("ENDSEC;"),
+              "#70=IFCFACETEDBREP(#71);\n#71=IFCCLOSEDSHELL((#72));\n#72=IFCFACE((#73));\n"
+              "#73=IFCFACEOUTERBOUND(#74,.T.);\n#74=IFCPOLYLOOP((#75,#76,#77));\n"
+              "#75=IFCCARTESIANPOINT((0.,0.,0.));\n#76=IFCCARTESIANPOINT((9.,0.,0.));\n"
+              "#77=IFCCARTESIANPOINT((0.,9.,0.));\n");
+  EXPECT_THAT(
+      ReadIfc(folder.Write("a.ifc", text), 60).warnings,
+      testing::Contains(HasSubstr("1 of 1 elements that are solids in the file have open edges")));
+  text = kBox;
+  text.replace(text.find("SOLID(#13"), 9, "SOLID(#99");
+  const Model broken = ReadIfc(folder.Write("a.ifc", text), 60);
+  EXPECT_THAT(broken.warnings, testing::Contains(HasSubstr("web-ifc says")));
+}
+
 // A whole one as an item, placed in feet; one that is part of something else has facets.
 TEST(IfcModel, SpheresStaySpheres) {
   if (!WebIfcFolder()) GTEST_SKIP() << "web-ifc is not there: scripts/setup fetches it";

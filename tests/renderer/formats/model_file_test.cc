@@ -110,13 +110,23 @@ TEST_F(ModelFile, StlAsItIsWritten) {
   std::string nonsense = stl;
   nonsense.replace(nonsense.find("0 0 -1"), 6, "-1.#IND -1.#IND -1.#IND");
   EXPECT_NEAR(AreaOf(Read("a.stl", nonsense).mesh), 0.5, 1e-7);
+  const Model several =
+      Read("a.stl", "solid walls\n" + stl.substr(stl.find('\n') + 1) +
+                        "solid roof\nfacet normal 0 0 1\nouter loop\nvertex 0 0 1\n"
+                        "vertex 1 0 1\nvertex 0 1 1\nendloop\nendfacet\n"
+                        "facet normal 0 0 1\nouter loop\nvertex 0 0 1\nvertex nan 0 1\n"
+                        "vertex 0 1 1\nendloop\nendfacet\nendsolid roof\n");
+  ASSERT_EQ(several.mesh.surfaces.size(), 2u);
+  EXPECT_EQ(several.mesh.surfaces[1].layer, "roof");
+  EXPECT_EQ(several.skipped.at({"facet", "at a corner that is no point"}), 1);
   const std::string corners(
       "\0\0\0\0\0\0\0\0\0\0\0\0\0\0\x80\x3F\0\0\0\0\0\0\0\0"
       "\0\0\0\0\0\0\x80\x3F\0\0\0\0",
       36);
   const std::string facet = std::string(12, '\0') + corners + std::string(2, '\0');
-  for (const char count : {'\0', '\1'}) {
-    const std::string binary = std::string(80, ' ') + count + std::string(3, '\0') + facet + "\r\n";
+  for (const std::string& count :
+       {std::string(4, '\0'), std::string("\1\0\0\0", 4), std::string(4, '\xFF')}) {
+    const std::string binary = std::string(80, ' ') + count + facet + "\r\n";
     const Model model = Read("a.stl", binary);
     EXPECT_NEAR(AreaOf(model.mesh), 0.5, 1e-7);
     EXPECT_EQ(model.skipped.size(), 1u);  // the bytes behind

@@ -31,6 +31,13 @@ TEST(ModelFormat, IsToldByContent) {
     EXPECT_EQ(DetectModelFormat(folder.Write("anything.txt", content)), format);
   }
   EXPECT_EQ(DetectModelFormat(folder.Write("anything.obj", "hello\n")), std::nullopt);
+  EXPECT_EQ(DetectModelFormat(folder.Write("anything.obj", "hello\nv 0 -1.5 2e3\n")),
+            ModelFormat::kObj);
+  std::string wide = "\xFF\xFE";
+  for (const char c : std::string(kObj)) wide += {c, '\0'};
+  EXPECT_EQ(DetectModelFormat(folder.Write("anything.txt", wide)), ModelFormat::kObj);
+  const std::string late = "{\"buffers\": [\"" + std::string(100000, 'A') + "\"], \"asset\": 1}";
+  EXPECT_EQ(DetectModelFormat(folder.Write("a.gltf", late)), ModelFormat::kGltf);
 }
 
 TEST(ModelFormat, WhatIsNotReadIsNamed) {
@@ -45,6 +52,14 @@ TEST(ModelFormat, WhatIsNotReadIsNamed) {
   };
   EXPECT_THAT(complaint("a.obj", "AC1032 ..."), HasSubstr("is a DWG drawing"));
   EXPECT_THAT(complaint("a.3dm", "3D Geometry File Format "), HasSubstr("is a Rhino model"));
+  EXPECT_THAT(complaint("a.skp", "PK\x03\x04"), HasSubstr("SketchUp File > Export > 3D Model"));
+  EXPECT_THAT(complaint("a.max", "\xD0\xCF\x11\xE0"), HasSubstr("is a 3ds Max scene"));
+  EXPECT_THAT(complaint("a.zip", "PK\x03\x04"), HasSubstr("unpack it into building/"));
+  EXPECT_THAT(complaint("a.obj", "PK\x03\x04"), HasSubstr("unpack it into building/"));
+  EXPECT_THAT(complaint("a", "MM d...."), HasSubstr("is a 3DS model"));
+  EXPECT_THAT(complaint("a", std::string("MM\0*....", 8)), HasSubstr("is no model that is read"));
+  EXPECT_THAT(complaint("a.ifc", "<!DOCTYPE html>"), HasSubstr("is a web page"));
+  EXPECT_THAT(complaint("a.obj", ""), HasSubstr("is empty"));
   EXPECT_EQ(complaint("a.dxf", "hello"), "");  // its reader says what is wrong
 }
 

@@ -164,6 +164,12 @@ TEST_F(GltfModel, FaultsAreNamed) {
               HasSubstr("no positions"));
   EXPECT_THAT(Complaint(Gltf("{\"mesh\": 0}", R"(, "extensionsRequired": ["ACME_x"])")),
               HasSubstr("ACME_x"));
+  const Model without = Read(
+      Gltf("{\"mesh\": 0}", "", R"("material": 7, "attributes": {"POSITION": 0, "NORMAL": 9})"));
+  EXPECT_FALSE(without.mesh.triangles.empty());
+  EXPECT_EQ(without.skipped.at({"material", "a mesh names one that is not there"}), 1);
+  ASSERT_EQ(without.warnings.size(), 1u);
+  EXPECT_THAT(without.warnings[0], HasSubstr("NORMAL is left out"));
   std::string long_view = Gltf();
   long_view.replace(long_view.find("\"byteLength\": 36"), 16, "\"byteLength\": 99");
   EXPECT_THAT(Complaint(long_view), HasSubstr("which has 96: the file is cut short"));

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Areas and volumes of elements of an IFC file, from the triangles that ifc_model.js collects.
+'use strict';
+
+class Measures {
+  // visit(x, y, z) with half the cross product of each triangle's sides.
+  forAreas(ranges, visit) {
+    const {vertices: v, triangles: t} = this;
+    for (const [from, to] of ranges) {
+      for (let i = from; i < to; i += 4) {
+        const side = (corner) => [0, 1, 2].map((c) => v[3 * t[i + corner] + c] - v[3 * t[i] + c]);
+        const [p, q] = [side(1), side(2)];
+        visit((p[1] * q[2] - p[2] * q[1]) / 2, (p[2] * q[0] - p[0] * q[2]) / 2, (p[0] * q[1] - p[1] * q[0]) / 2);
+      }
+    }
+  }
+  areaOf({ranges, spheres}) {
+    let area = spheres.reduce((sum, radius) => sum + 4 * Math.PI * radius * radius, 0);
+    this.forAreas(ranges, (x, y, z) => { area += Math.hypot(x, y, z); });
+    return area;
+  }
+  // Of the larger side of what is flat and of one piece; null: it is not.
+  sideAreaOf({ranges, spheres}) {
+    if (spheres.length > 0 || ranges.length !== 1) return null;
+    const areas = new Map();
+    let whole = 0;
+    this.forAreas(ranges, (x, y, z) => {
+      const size = Math.hypot(x, y, z);
+      whole += size;
+      const key = [x, y, z].map((value) => Math.round(value / (size || 1) * 200) + 0).join();
+      areas.set(key, (areas.get(key) || 0) + size);
+    });
+    const largest = Math.max(0, ...areas.values());
+    return largest > 0.3 * whole ? largest : null;
+  }
+  // By Gauss's theorem about a vertex of each part; null: an edge without a partner of the other direction.
+  volumeOf({ranges, spheres}) {
+    let volume = spheres.reduce((sum, radius) => sum + 4 / 3 * Math.PI * radius ** 3, 0);
+    for (const [from, to] of ranges) {
+      const part = this.volumeOfPart(from, to);
+      if (part === null) return null;
+      volume += part;
+    }
+    return volume;
+  }
+  volumeOfPart(from, to) {
+    const {vertices: v, triangles: t} = this;
+    const idOf = new Map();  // place to 0.01 mm -> number
+    const numbers = new Map();  // vertex -> number
+    const number = (i) => {
+      let id = numbers.get(i);
+      if (id !== undefined) return id;
+      const key = Math.round(v[3 * i] * 1e5) + ',' + Math.round(v[3 * i + 1] * 1e5) + ',' + Math.round(v[3 * i + 2] * 1e5);
+      id = idOf.get(key);
+      if (id === undefined) idOf.set(key, id = idOf.size);
+      numbers.set(i, id);
+      return id;
+    };
+    const most = 2 ** 26;  // of vertices of one part: pairs stay exact
+    const edges = new Map();
+    const step = (p, q) => {
+      if (p === q) return;
+      const edge = p < q ? p * most + q : q * most + p;
+      const count = (edges.get(edge) || 0) + (p < q ? 1 : -1);
+      if (count === 0) edges.delete(edge); else edges.set(edge, count);
+    };
+    const o = 3 * t[from];
+    const at = (i, c) => v[3 * i + c] - v[o + c];
+    let volume = 0;
+    for (let i = from; i < to; i += 4) {
+      const [a, b, c] = [t[i], t[i + 1], t[i + 2]];
+      volume += (at(a, 0) * (at(b, 1) * at(c, 2) - at(b, 2) * at(c, 1)) + at(a, 1) * (at(b, 2) * at(c, 0) - at(b, 0) * at(c, 2)) +
+        at(a, 2) * (at(b, 0) * at(c, 1) - at(b, 1) * at(c, 0))) / 6;
+      const [p, q, r] = [number(a), number(b), number(c)];
+      step(p, q);
+      step(q, r);
+      step(r, p);
+    }
+    return edges.size > 0 ? null : Math.abs(volume);
+  }
+}
