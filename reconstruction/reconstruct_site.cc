@@ -12,6 +12,7 @@
 #include "reconstruction/adjustment/adjust.h"
 #include "reconstruction/adjustment/find_start_values.h"
 #include "reconstruction/report/input_files.h"
+#include "reconstruction/report/large_report.h"
 #include "reconstruction/report/montage_points.h"
 #include "reconstruction/report/residual_csv.h"
 #include "reconstruction/report/residual_page.h"
@@ -60,7 +61,9 @@ ReportContext SiteContext(const SitePaths& site, const SitePhotos& photos,
   if (tie_points && !tie_points->program.empty()) {
     context.programs[tie_points->program] = tie_points->program_version;
   }
+  const ReportExtent extent = ExtentOf(adjustment);
   for (size_t i = 0; i < photos.paths.size(); ++i) {
+    if (!extent.photos_in_full.contains(photos.names[i])) continue;
     const auto thumbnail = PhotoThumbnail(photos.paths[i]);
     if (thumbnail) context.thumbnails[photos.names[i]] = *thumbnail;
   }

@@ -185,17 +185,20 @@ void RequireMarksOnPhotographs(const Survey& survey, const std::vector<std::stri
   };
   count(survey.observations);
   count(survey.edges);
-  const auto require = [&](const auto& mark, const Sentence& what) {
+  const auto may_be_slip = [&](const auto& mark) {
     const Frame& frame = frames.at(mark.photo);
-    if (frame.outside == 0 || frame.outside > most_outside * frame.all) return;
-    RequireOnPhotograph(what, mark.photo, *frame.camera, mark.pixel, mark.place);
+    return frame.outside > 0 && frame.outside <= most_outside * frame.all;
   };
   for (const ImageObservation& mark : survey.observations) {
-    require(mark, Sentence("startPoint", "point '{point}'", {{"point", mark.point}}));
+    if (!may_be_slip(mark)) continue;
+    RequireOnPhotograph(Sentence("startPoint", "point '{point}'", {{"point", mark.point}}),
+                        mark.photo, *frames.at(mark.photo).camera, mark.pixel, mark.place);
   }
   for (const EdgeMark& mark : survey.edges) {
-    require(mark, Sentence("startEdge", "edge '{from}' to '{to}'",
-                           {{"from", mark.from}, {"to", mark.to}}));
+    if (!may_be_slip(mark)) continue;
+    RequireOnPhotograph(
+        Sentence("startEdge", "edge '{from}' to '{to}'", {{"from", mark.from}, {"to", mark.to}}),
+        mark.photo, *frames.at(mark.photo).camera, mark.pixel, mark.place);
   }
 }
 

@@ -182,6 +182,18 @@ std::string Offered(const std::vector<SystemCandidate>& candidates, size_t said)
   return offered;
 }
 
+// "25832", "EPSG 25832", "epsg25832": a code without its colon.
+std::optional<NamedSystem> CodeByWords(const std::string& text) {
+  std::vector<std::string> tokens = SystemTokens(text);
+  if (tokens.size() == 2 && tokens[0] == "epsg") tokens.erase(tokens.begin());
+  const bool is_code = tokens.size() == 1 && tokens[0].size() >= 4 && tokens[0].size() <= 6 &&
+                       std::isdigit(static_cast<unsigned char>(tokens[0][0]));
+  if (!is_code || text.find(':') != std::string::npos) return std::nullopt;
+  const auto system = CoordinateSystem::FromText("EPSG:" + tokens[0]);
+  if (!system) return std::nullopt;
+  return Taken(text, *system);
+}
+
 // "EPSG:39791798743.39": the line end behind the code is lost.
 bool IsGlued(const std::string& text) {
   const size_t digits = text.find_first_of("0123456789");
@@ -203,6 +215,7 @@ NamedSystem SystemByWords(const std::filesystem::path& path, const std::string& 
   if (text.find('+') == std::string::npos && text.find('[') == std::string::npos) {
     if (auto utm = UtmByWords(path, text)) return *utm;
   }
+  if (auto code = CodeByWords(text)) return *code;
   if (auto system = CoordinateSystem::FromText(text)) return {*system, ""};
   const std::set<std::string> said = SystemWords(text);
   const bool is_of_words = text.find_first_of("[{=") == std::string::npos && !said.contains("epsg");

@@ -262,6 +262,50 @@ void RequirePixels(const SurveyFile& file) {
                                 "expected pixels of the original photograph"));
 }
 
+// A line of units alone below the titles: they move into the titles.
+void TakeLineOfUnits(std::vector<TextRow>* rows, std::vector<std::string>* titles) {
+  if (rows->empty()) return;
+  std::vector<std::string> words = rows->front().words;
+  for (std::string& word : words) {
+    std::erase_if(word, [](char c) { return c == '[' || c == ']' || c == '(' || c == ')'; });
+  }
+  const auto is_unit = [](const std::string& word) { return UnitByName(word).has_value(); };
+  const auto units = std::count_if(words.begin(), words.end(), is_unit);
+  const auto empty = std::count(words.begin(), words.end(), "");
+  if (units < 2 || units + empty != std::ssize(words) || words.size() > titles->size()) return;
+  for (size_t i = 0; i < words.size(); ++i) {
+    if (!words[i].empty()) (*titles)[i] += " [" + words[i] + "]";
+  }
+  rows->erase(rows->begin());
+}
+
+// A column that names each row's coordinate system names one alone.
+void RequireOneSystem(const std::vector<std::string>& titles, const std::vector<TextRow>& rows) {
+  for (size_t i = 0; i < titles.size(); ++i) {
+    std::string title = Folded(titles[i]);
+    std::erase_if(title, [](char c) { return c == ' ' || c == '_' || c == '-' || c == '.'; });
+    constexpr std::array kSystems = {
+        "crs",    "srs",      "epsg",     "csname",  "coordinatesystem",
+        "system", "epsgcode", "zone",     "utmzone", "koordinatensystem",
+        "datum",  "crscode",  "sridcode", "srid",    "bezugssystem"};
+    if (std::ranges::find(kSystems, title) == kSystems.end()) continue;
+    const TextRow* first = nullptr;
+    for (const TextRow& row : rows) {
+      if (i >= row.words.size() || row.words[i].empty()) continue;
+      if (first == nullptr) first = &row;
+      if (row.words[i] == first->words[i]) continue;
+      throw ErrorAt(row.place(),
+                    Sentence("tableSystems",
+                             "\"{here}\" in column \"{column}\", but \"{before}\" in line {line}: "
+                             "two coordinate systems in one table, expected a file for each",
+                             {{"here", row.words[i]},
+                              {"column", titles[i]},
+                              {"before", first->words[i]},
+                              {"line", first->line}}));
+    }
+  }
+}
+
 void AddRemarks(const SurveyColumns& columns, const std::vector<std::string>& titles,
                 SurveyFile* file) {
   std::string units, left_out;
@@ -304,15 +348,17 @@ std::optional<Sentence> FaultOfHeader(const SurveyText& text) {
 }
 
 SurveyFile ReadHeaderTable(const SurveyText& text, const SurveyReading& reading) {
-  const auto header = FindTitles(text, reading);
+  auto header = FindTitles(text, reading);
   INSITU_CHECK(header.has_value());
+  std::vector<TextRow> rows = RowsOf(text, *header);
+  TakeLineOfUnits(&rows, &header->titles);
+  RequireOneSystem(header->titles, rows);
   const auto columns = DecideColumns(header->titles, {text.path, header->line}, reading);
   INSITU_CHECK(columns.has_value());
   SurveyFile file;
   file.crs = SystemInComment(text.content);
   file.has_degrees = columns->has_degrees;
   file.format = file.crs ? "reference table of Metashape (CSV)" : "table with a header";
-  const std::vector<TextRow> rows = RowsOf(text, *header);
   const NumberStyle style = StyleOf(rows, *columns);
   for (const TextRow& row : rows) {
     const Line line(*columns, style, row);

@@ -41,6 +41,8 @@ void SelectedInverse::Compute() {
   permuted_.assign(permutation.data(), permutation.data() + size);
   start_.assign(1, 0);
   std::vector<double> l;
+  row_.reserve(static_cast<size_t>(lower.nonZeros()));
+  l.reserve(row_.capacity());
   for (int j = 0; j < size; ++j) {
     for (Eigen::SparseMatrix<double>::InnerIterator entry(lower, j); entry; ++entry) {
       if (entry.row() <= j) continue;

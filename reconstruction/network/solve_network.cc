@@ -132,11 +132,8 @@ void JudgeByOwnSigmas(const Network& network, NetworkSolution* solution) {
   }
 }
 
-}  // namespace
-
-NetworkSolution SolveNetwork(Network* network) {
-  const std::vector<Eigen::Vector3d> start = Positions(*network);
-  if (!network->tie_mark_inflation && HasTiePoints(*network)) FindTieMarkInflation(network);
+// The minimum without its statistics; what solving it took is then free for them.
+NetworkSolution SolutionOf(const std::vector<Eigen::Vector3d>& start, Network* network) {
   NetworkProblem problem(network);
   const ceres::Solver::Summary summary = Minimize(*network, &problem);
   NetworkProblem::Linearization linear = problem.Linearize();
@@ -164,6 +161,15 @@ NetworkSolution SolveNetwork(Network* network) {
   if (solution.redundancy > 0) {
     solution.sigma0 = std::sqrt(solution.square_sum / solution.redundancy);
   }
+  return solution;
+}
+
+}  // namespace
+
+NetworkSolution SolveNetwork(Network* network) {
+  const std::vector<Eigen::Vector3d> start = Positions(*network);
+  if (!network->tie_mark_inflation && HasTiePoints(*network)) FindTieMarkInflation(network);
+  NetworkSolution solution = SolutionOf(start, network);
   solution.cofactor = CofactorOf(*network, solution);
   solution.redundancy_numbers = RedundancyNumbers(solution.jacobian, solution.cofactor);
   solution.lens_sensitivity.resize(network->cameras.size());

@@ -85,17 +85,27 @@ Json::Value Coverage(const AdjustedPose& pose, const Camera& camera,
   return json;
 }
 
-Json::Value MarksReport(const std::vector<ImageMark>& marks) {
-  Json::Value json(Json::arrayValue);
+// In their order; if there are more than `limit`, those of the largest |w|, largest first.
+Json::Value MarksReport(const std::vector<ImageMark>& marks, size_t limit) {
+  std::vector<const ImageMark*> listed;
   for (const ImageMark& mark : marks) {
-    if (mark.is_tie_point) continue;
+    if (!mark.is_tie_point) listed.push_back(&mark);
+  }
+  if (listed.size() > limit) {
+    std::stable_sort(listed.begin(), listed.end(), [](const ImageMark* a, const ImageMark* b) {
+      return a->w.value_or(0) > b->w.value_or(0);
+    });
+    listed.resize(limit);
+  }
+  Json::Value json(Json::arrayValue);
+  for (const ImageMark* mark : listed) {
     Json::Value row;
-    row["point"] = mark.point;
-    row["x"] = mark.pixel.x();
-    row["y"] = mark.pixel.y();
-    row["vx"] = mark.residual.x();
-    row["vy"] = mark.residual.y();
-    row["w"] = mark.w ? Json::Value(*mark.w) : Json::Value();
+    row["point"] = mark->point;
+    row["x"] = mark->pixel.x();
+    row["y"] = mark->pixel.y();
+    row["vx"] = mark->residual.x();
+    row["vy"] = mark->residual.y();
+    row["w"] = mark->w ? Json::Value(*mark->w) : Json::Value();
     json.append(row);
   }
   return json;
@@ -125,7 +135,7 @@ Json::Value ExteriorOrientation(const AdjustedPose& pose) {
 }
 
 Json::Value PhotoReport(const AdjustedPose& pose, const Camera& camera,
-                        const std::vector<ImageMark>& marks) {
+                        const std::vector<ImageMark>& marks, const ReportExtent& extent) {
   Eigen::Array2d squares = Eigen::Array2d::Zero(), largest = Eigen::Array2d::Zero();
   std::vector<ImageMark> tie_points;
   for (const ImageMark& mark : marks) {
@@ -144,10 +154,12 @@ Json::Value PhotoReport(const AdjustedPose& pose, const Camera& camera,
   photo["rms_xy_px"] = ToJson(Eigen::VectorXd((squares / count).sqrt()));
   photo["max_xy_px"] = ToJson(Eigen::VectorXd(largest));
   photo["coverage"] = Coverage(pose, camera, marks);
-  photo["marks"] = MarksReport(marks);
+  photo["marks"] = MarksReport(marks, extent.MarksOf(pose.photo));
   photo["tie_point_marks"] = static_cast<Json::UInt64>(tie_points.size());
   photo["tie_point_grid"] =
-      ResidualGrid(tie_points, camera.width(), camera.height(), kCellsOfTiePoints);
+      extent.photos_in_full.contains(pose.photo)
+          ? ResidualGrid(tie_points, camera.width(), camera.height(), kCellsOfTiePoints)
+          : Json::Value(Json::arrayValue);
   return photo;
 }
 
@@ -174,13 +186,14 @@ Json::Value CamerasSection(const Adjustment& adjustment, const ReportContext& co
 }
 
 Json::Value PhotosSection(const Adjustment& adjustment, const std::vector<ImageMark>& marks,
-                          const ReportContext& context) {
+                          const ReportContext& context, const ReportExtent& extent) {
   std::vector<std::vector<ImageMark>> marks_of_photo(adjustment.poses.size());
   for (const ImageMark& mark : marks) marks_of_photo[mark.photo].push_back(mark);
   Json::Value json(Json::arrayValue);
   for (size_t i = 0; i < adjustment.poses.size(); ++i) {
     const AdjustedPose& pose = adjustment.poses[i];
-    Json::Value photo = PhotoReport(pose, adjustment.scene.cameras[i].camera, marks_of_photo[i]);
+    Json::Value photo =
+        PhotoReport(pose, adjustment.scene.cameras[i].camera, marks_of_photo[i], extent);
     const auto thumbnail = context.thumbnails.find(pose.photo);
     if (thumbnail != context.thumbnails.end()) photo["thumbnail"] = thumbnail->second;
     photo["outside_calibrated_region"] =

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "reconstruction/adjustment/adjusted_survey.h"
+#include "reconstruction/report/large_report.h"
 #include "reconstruction/report/report_context.h"
 #include "reconstruction/verdict/image_marks.h"
 
@@ -15,6 +16,6 @@ namespace insitu {
 
 Json::Value CamerasSection(const Adjustment& adjustment, const ReportContext& context);
 Json::Value PhotosSection(const Adjustment& adjustment, const std::vector<ImageMark>& marks,
-                          const ReportContext& context);
+                          const ReportContext& context, const ReportExtent& extent);
 
 }  // namespace insitu

@@ -67,13 +67,28 @@ Json::Value Comparison(const PointComparison& point) {
   return json;
 }
 
+std::vector<const AdjustedPoint*> ListedPoints(const Adjustment& adjustment, size_t limit) {
+  std::vector<const AdjustedPoint*> listed;
+  for (const AdjustedPoint& point : adjustment.points) {
+    if (!point.is_tie_point) listed.push_back(&point);
+  }
+  if (listed.size() <= limit) return listed;
+  std::stable_sort(listed.begin(), listed.end(),
+                   [](const AdjustedPoint* a, const AdjustedPoint* b) {
+                     return a->covariance.trace() > b->covariance.trace();
+                   });
+  listed.resize(limit);
+  return listed;
+}
+
 }  // namespace
 
-Json::Value PointsSection(const Adjustment& adjustment, const std::vector<ImageMark>& marks) {
+Json::Value PointsSection(const Adjustment& adjustment, const std::vector<ImageMark>& marks,
+                          size_t limit) {
   const std::map<std::string, double> angles = LargestRayAngles(adjustment, marks);
   Json::Value json(Json::arrayValue);
-  for (const AdjustedPoint& adjusted : adjustment.points) {
-    if (adjusted.is_tie_point) continue;
+  for (const AdjustedPoint* listed : ListedPoints(adjustment, limit)) {
+    const AdjustedPoint& adjusted = *listed;
     const auto angle = angles.find(adjusted.name);
     const Eigen::VectorXd sigma = adjusted.covariance.diagonal().cwiseSqrt();
     Json::Value point;

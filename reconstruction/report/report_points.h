@@ -12,7 +12,9 @@
 
 namespace insitu {
 
-Json::Value PointsSection(const Adjustment& adjustment, const std::vector<ImageMark>& marks);
+// The surveyed ones, in their order; if there are more than `limit`, those of the largest sigma.
+Json::Value PointsSection(const Adjustment& adjustment, const std::vector<ImageMark>& marks,
+                          size_t limit);
 Json::Value TiePointsSection(const Adjustment& adjustment);
 Json::Value ComparisonSection(const std::vector<PointComparison>& comparisons);
 

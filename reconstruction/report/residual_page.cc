@@ -2,7 +2,7 @@
 #include "reconstruction/report/residual_page.h"
 
 #include "calibration/program/report_page.h"
-#include "reconstruction/report/page_report.h"
+#include "reconstruction/report/large_report.h"
 #include "reconstruction/report/residual_page_script.h"
 
 namespace insitu {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "calibration/program/finding.h"
+#include "reconstruction/report/large_report.h"
 #include "reconstruction/report/report_lens_residuals.h"
 #include "reconstruction/report/report_montage.h"
 #include "reconstruction/report/report_observations.h"
@@ -49,6 +50,7 @@ Json::Value Conventions() {
 Json::Value ResidualReport(const Adjustment& adjustment, const Survey& survey,
                            const ReportContext& context) {
   const std::vector<ImageMark> marks = ImageMarks(adjustment);
+  const ReportExtent extent = ExtentOf(adjustment);
   Json::Value report;
   report["format"] = "insitu residual report 2";
   report["verdict"] = VerdictReport(Judge(adjustment, context.cameras));
@@ -58,11 +60,11 @@ Json::Value ResidualReport(const Adjustment& adjustment, const Survey& survey,
   report["groups"] = GroupsSection(adjustment);
   report["correlations"] = CorrelationsSection(adjustment);
   report["cameras"] = CamerasSection(adjustment, context);
-  report["photos"] = PhotosSection(adjustment, marks, context);
+  report["photos"] = PhotosSection(adjustment, marks, context, extent);
   report["control"] = ComparisonSection(adjustment.control);
   report["check"] = ComparisonSection(adjustment.check);
   report["left_out"] = ComparisonSection(adjustment.left_out);
-  report["points"] = PointsSection(adjustment, marks);
+  report["points"] = PointsSection(adjustment, marks, extent.points);
   report["tie_points"] = TiePointsSection(adjustment);
   report["polygons"] = PolygonsSection(adjustment, survey);
   report["plane_effect"] = PlaneEffectSection(adjustment.plane_effect);
@@ -72,6 +74,7 @@ Json::Value ResidualReport(const Adjustment& adjustment, const Survey& survey,
   report["histogram"] = HistogramSection(adjustment);
   report["lens_residuals"] = LensResidualsSection(adjustment, marks);
   report["montage"] = MontageSection(adjustment, context.montage);
+  CondenseReport(adjustment, extent, &report);
   DropNonFinite(&report);
   return report;
 }

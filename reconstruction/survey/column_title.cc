@@ -239,6 +239,7 @@ Column MeaningOf(const TitleWords& words, ColumnTitle* title) {
     return Column::kOther;
   }
   if (HasAny(words, kSigmaWords)) return SigmaOf(words, title);
+  if (words == TitleWords{"p"}) return Column::kName;  // P,N,E,Z,D of field books
   if (HasAny(words, {"enable", "enabled"})) return Column::kEnabled;
   if (HasAny(words, {"role", "type", "rolle", "typ"}) && words.size() == 1) return Column::kRole;
   if (HasAny(words, kOtherWords)) return Column::kOther;
@@ -263,6 +264,8 @@ int RankOf(const TitleWords& words, Column column) {
   if (column == Column::kName) plain = kPointWords;
   plain.insert(
       {"coordinate", "coordinates", "koordinate", "coord", "coordonnee", "coordinata", "est"});
+  // Beside a plain one they leave open which is meant.
+  if (column >= Column::kX && column <= Column::kZ) plain.insert({"grid", "ground", "local"});
   const bool is_named = column == Column::kName || column == Column::kPhoto;
   if (is_named) plain.insert(kNameWords.begin(), kNameWords.end());
   const auto others = std::count_if(words.begin(), words.end(),

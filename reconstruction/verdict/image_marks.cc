@@ -4,8 +4,10 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <utility>
+#include <string_view>
+#include <unordered_map>
 
+#include "calibration/files/error.h"
 #include "calibration/lens/rigid3.h"
 
 namespace insitu {
@@ -23,16 +25,15 @@ std::vector<ImageMark> ImageMarks(const Adjustment& adjustment) {
   for (size_t i = 0; i < adjustment.poses.size(); ++i) {
     photo_index[adjustment.poses[i].photo] = static_cast<int>(i);
   }
-  std::vector<ImageMark> marks;
-  std::map<std::pair<std::string, std::string>, size_t> mark_index;  // by photo and point
+  std::vector<ImageMark> marks;  // a mark's x comes first, its y next
   for (const ObservationResidual& row : adjustment.residuals) {
     if (row.kind != ObservationKind::kImage) continue;
-    const auto [place, is_new] = mark_index.try_emplace({row.photo, row.subject}, marks.size());
-    if (is_new) {
+    if (row.axis == 0) {
       marks.push_back({photo_index.at(row.photo), row.subject, Eigen::Vector2d::Zero(),
                        Eigen::Vector2d::Zero(), std::nullopt, row.is_tie_point});
     }
-    ImageMark& mark = marks[place->second];
+    INSITU_CHECK(!marks.empty() && marks.back().point == row.subject);
+    ImageMark& mark = marks.back();
     mark.pixel[row.axis] = row.observed;
     mark.residual[row.axis] = row.residual;
     mark.w = LargerMagnitude(mark.w, row.w);
@@ -42,18 +43,25 @@ std::vector<ImageMark> ImageMarks(const Adjustment& adjustment) {
 
 std::map<std::string, double> LargestRayAngles(const Adjustment& adjustment,
                                                const std::vector<ImageMark>& marks) {
-  std::map<std::string, Eigen::Vector3d> position;
-  for (const AdjustedPoint& point : adjustment.points) position[point.name] = point.position;
-  std::map<std::string, std::vector<Eigen::Vector3d>> rays;
-  std::map<std::string, double> angles;
+  struct Rays {
+    Eigen::Vector3d position;
+    std::vector<Eigen::Vector3d> directions;
+    double largest = 0;
+  };
+  std::unordered_map<std::string_view, Rays> rays_to;
+  for (const AdjustedPoint& point : adjustment.points)
+    rays_to[point.name].position = point.position;
   for (const ImageMark& mark : marks) {
-    const Rigid3& cam_from_world = adjustment.poses[mark.photo].cam_from_world;
-    const Eigen::Vector3d ray = position.at(mark.point) - Center(cam_from_world);
-    for (const Eigen::Vector3d& other : rays[mark.point]) {
-      double& largest = angles[mark.point];
-      largest = std::max(largest, std::atan2(ray.cross(other).norm(), ray.dot(other)));
+    Rays& rays = rays_to.at(mark.point);
+    const Eigen::Vector3d ray = rays.position - Center(adjustment.poses[mark.photo].cam_from_world);
+    for (const Eigen::Vector3d& other : rays.directions) {
+      rays.largest = std::max(rays.largest, std::atan2(ray.cross(other).norm(), ray.dot(other)));
     }
-    rays[mark.point].push_back(ray);
+    rays.directions.push_back(ray);
+  }
+  std::map<std::string, double> angles;
+  for (const auto& [point, rays] : rays_to) {
+    if (rays.directions.size() > 1) angles.emplace(point, rays.largest);
   }
   return angles;
 }

@@ -35,6 +35,25 @@ class HeaderTable : public TextFiles {
   SurveyReading reading_;
 };
 
+TEST_F(HeaderTable, ALineOfUnitsBelowTheTitlesCounts) {
+  EXPECT_EQ(OnePoint("Name,E,N,H\n,[mm],[mm],(m)\np,1500,2500,3\n").position,
+            Vector3d(1.5, 2.5, 3));
+  EXPECT_EQ(OnePoint("P,N,E,Z\n,m,m,m\nq,2,1,3\n").position, Vector3d(1, 2, 3));
+}
+
+TEST_F(HeaderTable, TwoSystemsInOneTableAreRefused) {
+  ExpectRefused("Name,E,N,H,CRS\na,1,2,3,EPSG:25832\nb,1,2,3,EPSG:25832\nc,1,2,3,EPSG:31468\n",
+                "\"EPSG:25832\" in line 2: two coordinate systems", 4);
+  EXPECT_EQ(OnePoint("Name,E,N,H,CS name\na,1,2,3,LV95\n").position, Vector3d(1, 2, 3));
+}
+
+TEST_F(HeaderTable, GridAndPlainCoordinatesAreAQuestion) {
+  ExpectRefused("Name,Easting,Northing,Grid Northing,Height\na,1,2,3,4\n",
+                "\"Northing\", \"Grid Northing\" are all north");
+  EXPECT_EQ(OnePoint("Name,Grid Easting,Grid Northing,Height\na,1,2,3\n").position,
+            Vector3d(1, 2, 3));
+}
+
 TEST_F(HeaderTable, UnitsOfTheTitlesAreConverted) {
   const double us = 1200.0 / 3937;
   EXPECT_LT(

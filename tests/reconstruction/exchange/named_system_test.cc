@@ -31,6 +31,13 @@ TEST(NamedSystem, UtmZonesByHemisphereOrBand) {
   EXPECT_NE(RefusalOf("UTM 33").find("33N or 33S"), std::string::npos);
 }
 
+TEST(NamedSystem, CodesWithoutTheirColon) {
+  EXPECT_EQ(CodeOf("25832"), "EPSG:25832");
+  EXPECT_EQ(CodeOf("EPSG 2056"), "EPSG:2056");
+  EXPECT_EQ(CodeOf("epsg31468"), "EPSG:31468");
+  EXPECT_NE(RefusalOf("99999").find("not known"), std::string::npos);
+}
+
 TEST(NamedSystem, WordsOfNationalSystems) {
   EXPECT_EQ(CodeOf("LV95"), "EPSG:2056");
   EXPECT_EQ(CodeOf("CH1903+ / LV95"), "EPSG:2056");

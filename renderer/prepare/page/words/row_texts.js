@@ -98,6 +98,8 @@ export const kRowTexts = {
   flagBad: "«{text}» in der Spalte enable, nötig ist 0 oder 1",
   marksShares:
     "alle Bildmessungen liegen zwischen -1 und 1: Anteile der Bildseiten; nötig sind Pixel des unveränderten Fotos",
+  tableSystems:
+    "«{here}» in der Spalte «{column}», aber «{before}» in Zeile {line}: zwei Koordinatensysteme in einer Tabelle; nötig ist eine Datei für jedes",
   pointsOnePlace: "der Punkt «{point}» steht am Ort von «{other}»",
   listValues:
     "{count} Werte; nötig sind Name x y z, dann nichts, oder Genauigkeiten von Lage und Höhe, oder von x, y und z",
