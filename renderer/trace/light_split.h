@@ -9,6 +9,8 @@
 
 namespace insitu {
 
+struct RayParts;
+
 // The light directions of one camera ray: a point of the sun's disc and every `stride`-th sky facet
 // from `first`. Four rays a pixel with stride 4 together use every facet once.
 // What else goes with the ray: the first facet of its first mirror, by the seed all further
@@ -28,6 +30,8 @@ struct LightDirections {
   // to `unseen` where no photograph shows what it meets. nullptr: nobody asks.
   double share = 1;
   double* unseen = nullptr;
+  // Receives what a camera ray's radiance is made of; nullptr: nobody asks.
+  RayParts* parts = nullptr;
 };
 
 // `disc` and `facet` are uniform in [0, 1)^2; `ray` counts the rays of a pixel.

@@ -12,6 +12,7 @@
 #include "radiometry/light/image_quality.h"
 #include "renderer/tiles/finished_tile.h"
 #include "renderer/trace/montage_scene.h"
+#include "renderer/trace/trace.h"
 
 namespace insitu {
 
@@ -33,6 +34,9 @@ struct RenderOptions {
   // One channel of the photograph's size: of the sun that no polygon keeps away, what it shows to
   // arrive, 0..1; null: all.
   std::shared_ptr<const Raster> sun_share = {};
+  // Told what each pixel of a tile that is rendered is made of, from any thread; empty: nobody
+  // asks.
+  std::function<void(int x, int y, const LayeredPixel&)> layers = {};
 
   void Check() const;  // throws CheckError that names the field that is wrong
 };
