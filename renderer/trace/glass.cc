@@ -7,7 +7,6 @@
 
 #include "radiometry/light/fresnel.h"
 #include "renderer/trace/mirror.h"
-#include "renderer/trace/trace.h"
 
 namespace insitu {
 namespace {

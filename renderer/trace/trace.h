@@ -3,8 +3,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <array>
-#include <map>
 #include <optional>
 
 #include "renderer/trace/light_split.h"
@@ -12,57 +10,6 @@
 #include "renderer/trace/scene_hit.h"
 
 namespace insitu {
-
-// Of the building, its light by where it comes from, and haze before it; of the site, its change by
-// cause.
-enum LightPart {
-  kBuildingSun,
-  kBuildingSky,
-  kBuildingSurroundings,  // site and other faces of the building
-  kBuildingLamps,
-  kBuildingReflection,    // what its surfaces and glass mirror
-  kBuildingTransmission,  // what its glass lets through
-  kBuildingHaze,
-  kSunBlocked,  // what the building keeps away: negative
-  kSkyBlocked,
-  kSurroundingsBlocked,
-  kBounced,  // what the building sends, and what it changes of what the site sends
-  kChangeLamps,
-  kChangeReflection,
-  kLightParts
-};
-
-// What a ray of the camera meets first.
-struct FirstHit {
-  bool is_building = false;
-  int polygon = -1;   // of the site
-  int material = -1;  // of the building
-  double distance = 0;
-  Eigen::Vector3d normal = Eigen::Vector3d::Zero();  // unit, world, on the side of the camera
-};
-
-// Of one ray. Where it meets nothing there is no hit, and every part is zero.
-struct RayParts {
-  RayParts() { light.fill(Spectrum::Zero()); }
-  std::array<Spectrum, kLightParts> light;  // as they reach the camera
-  bool has_hit = false;
-  FirstHit hit;
-  GatheredParts around;  // where it is, with light among surfaces
-};
-
-// Of a pixel, means over its rays.
-struct LayeredPixel {
-  LayeredPixel() { light.fill(Eigen::Vector3d::Zero()); }
-  bool is_computed = false;  // else the photograph's own, whatever the rays brought
-  double seen = 1;           // share that nothing in front covers
-  double coverage = 0;       // of the rays that met the building
-  std::array<Eigen::Vector3d, kLightParts> light;       // linear RGB
-  Eigen::Vector3d grain = Eigen::Vector3d::Zero();      // noise added
-  Eigen::Vector3d ray_error = Eigen::Vector3d::Zero();  // of the mean, a standard deviation
-  double distance = 0;                                  // mean over the rays that met something [m]
-  Eigen::Vector3d normal = Eigen::Vector3d::Zero();     // sum over them, unit if there are any
-  std::map<int, double> polygons, materials;            // shares of the rays: site's, building's
-};
 
 // A primary ray with what the photograph shows there.
 struct PrimaryRay {
