@@ -155,20 +155,18 @@ void PartPicture::AddValue(int x, int y, Json::Value* value) {
                                        static_cast<size_t>(x))];
   Json::Value values(Json::arrayValue);
   for (size_t c = 0; c < count; ++c) values.append(at[c]);
-  if (channels_[0] == "R") {
-    (*value)["linear"] = values;
-  } else if (count < 4) {
-    (*value)["values"] = values;
-  } else {
-    Json::Value& things = (*value)["things"] = Json::Value(Json::arrayValue);
-    for (size_t rank = 0; rank < 4; rank += 2) {
-      if (at[rank + 1] <= 0) continue;
-      const auto known = things_.find(at[rank]);
-      Json::Value thing;
-      thing["name"] = known == things_.end() ? "?" : known->second;
-      thing["share"] = at[rank + 1];
-      things.append(thing);
-    }
+  if (count < 4) {
+    (*value)[channels_[0] == "R" ? "linear" : "values"] = values;
+    return;
+  }
+  Json::Value& things = (*value)["things"] = Json::Value(Json::arrayValue);
+  for (size_t rank = 0; rank < 4; rank += 2) {
+    if (at[rank + 1] <= 0) continue;
+    const auto known = things_.find(at[rank]);
+    Json::Value thing;
+    thing["name"] = known == things_.end() ? "?" : known->second;
+    thing["share"] = at[rank + 1];
+    things.append(thing);
   }
 }
 
