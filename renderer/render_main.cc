@@ -12,6 +12,7 @@
 #include "calibration/foreground_matte.h"
 #include "calibration/program/program.h"
 #include "calibration/program/warnings.h"
+#include "renderer/layers/layer_images.h"
 #include "renderer/render_quality.h"
 #include "renderer/render_site.h"
 #include "renderer/tiles/stop_signals.h"
@@ -81,6 +82,7 @@ struct RenderCommand {
   std::string tev;
   std::string quality = NameOf(Quality::kFinal, kQualities);
   bool is_beside = false;
+  std::string layers;
   std::string avr = NameOf(AvrLevel::kMaterials, kAvrLevels);
   bool no_building = false, streams = false, base64 = false, timing = false;
 };
@@ -107,6 +109,11 @@ void AddRenderOptions(ProgramOptions* program, RenderCommand* command) {
                   .text = "fast|draft|final [" + command->quality + "]"});
   program->Flag("--beside", &command->is_beside,
                 "a lesser quality is named <photo>~QUALITY, so that the final pictures stay");
+  program->Value("--layers", &command->layers,
+                 "all, or names with commas between them: what the picture is made of, in one EXR "
+                 "of many parts, <photo>.parts.exr; a name that is none tells those there are");
+  program->Flag("--tiff", &options.with_tiff,
+                "a TIFF of 16 bits, too, whatever the photograph is: <photo>.tif");
   program->Value("--avr", &command->avr,
                  "what of the building is shown: 0 its silhouette, 1 its outline, hidden parts "
                  "dashed, 2 its form in one grey, 3 its materials; 0 to 2 to <photo>~avrN",
@@ -171,6 +178,7 @@ void RenderAndReport(const RenderCommand& command) {
     options.sharpness = Sharpness::kIdeal;
   }
   site.beside = BesideName(command);
+  if (!command.layers.empty()) options.layers = ChosenLayers(command.layers);
   Lessen(kQualities.at(command.quality), &options);
   NoteStopSignals();
   options.stops = IsStopSignalled;
@@ -185,6 +193,9 @@ void RenderAndReport(const RenderCommand& command) {
   }
   if (IsDrawn(options.avr) && (streams || !command.tev.empty())) {
     throw InputError("--stream", "is of what is rendered, not of the drawings of --avr 0 and 1");
+  }
+  if (IsDrawn(options.avr) && !options.layers.empty()) {
+    throw InputError("--layers", "is of what is rendered, not of the drawings of --avr 0 and 1");
   }
   if (!command.tev.empty()) {
     if (streams) throw InputError("--tev", "is not had together with --stream");
@@ -213,7 +224,7 @@ int RunRender(int argc, char** argv) {
       "photograph (red), computed (green) and in front (blue); and .shadows.exr: the share of\n"
       "the sun that the photograph shows to arrive (red) and its standard deviation (green);\n"
       "and .unseen.exr: how much of each pixel is of surfaces, mirrored or behind glass, that no\n"
-      "photograph shows (red), if any is.\n"
+      "photograph shows (red), if any is; with --layers .parts.exr, what all of it is made of.\n"
       "Ctrl-C ends it with status 3 when the tiles at work are done; whatever ends it, the same\n"
       "command goes on where it was and comes to the same bytes.");
   RenderCommand command;

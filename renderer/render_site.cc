@@ -10,11 +10,13 @@
 #include "calibration/files/json_file.h"
 #include "calibration/files/sha256.h"
 #include "calibration/files/wording.h"
+#include "calibration/photo/exif.h"
 #include "calibration/program/program.h"
 #include "radiometry/light_report.h"
 #include "radiometry/measure/photo_exposures.h"
 #include "radiometry/transport/cosine_directions.h"
 #include "renderer/building/building_outline.h"
+#include "renderer/layers/layer_images.h"
 #include "renderer/light_cache.h"
 #include "renderer/photo_gain.h"
 #include "renderer/shadows/existing_shadows.h"
@@ -215,7 +217,8 @@ class SiteRender {
         files_(SiteInputsSha256(site, scene_.natural, building_)),
         inputs_(Sha256OfText(OptionsText(options) + "\n" + files_)),
         light_inputs_(Sha256OfText(LightOptionsText(options) + "\n" + files_)),
-        statement_(StatementOf(site, {options.with_building, options.avr, options.quality})) {
+        statement_(StatementOf(
+            site, {options.with_building, options.avr, options.quality, OptionsText(options)})) {
     ThrowIfStopped();
     scene_.as_printed = options.as_printed;
     if (options.uniform_ambient || IsDrawn(options.avr)) return;
@@ -236,9 +239,18 @@ class SiteRender {
     if (options_.with_building) {
       report.uncertainty = WriteUncertaintyOf(site_, geometry, camera, edges_);
     }
+    std::optional<LayerImages> layers;
+    if (!options_.layers.empty() && !IsDrawn(options_.avr)) {
+      layers.emplace(InUnit(view), view.foreground.get(),
+                     ThingsOf(scene_, building_, ReadLightErrors(site_, scene_.natural)),
+                     options_.layers);
+    }
     std::optional<SunShares> shares;
     if (!IsDrawn(options_.avr)) shares = SunSharesOf(scene_, view, options_);
-    const RenderOptions render = OptionsFor(view, shares);
+    RenderOptions render = OptionsFor(view, shares);
+    if (layers) {
+      render.layers = [&](int x, int y, const LayeredPixel& pixel) { layers->Take(x, y, pixel); };
+    }
     report.point_spread = render.point_spread;
     report.has_grain = render.grain.has_value();
     const auto start = std::chrono::steady_clock::now();
@@ -250,14 +262,17 @@ class SiteRender {
     report.seconds =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     report.pixels = static_cast<double>(report.result.linear.width) * report.result.linear.height;
+    WriteParts(photograph, layers, report.result.linear, view.gain);
+    layers.reset();
     WriteSunShares(site_, photograph, shares);
     shares.reset();
     WriteLayers(site_, photograph, report.result);
     if (!options_.keeps_pictures) report.result.layers = report.result.unseen = {};
     Raster linear =
         options_.keeps_pictures ? report.result.linear : std::exchange(report.result.linear, {});
-    report.remarks = WriteMontage(site_, photograph, options_.frame, std::move(view.photo),
-                                  std::move(linear), report.result, statement_);
+    report.remarks =
+        WriteMontage(site_, photograph, {options_.frame, options_.with_tiff}, std::move(view.photo),
+                     std::move(linear), report.result, statement_);
     RemarkClipped(report.result, &report.remarks);
     WriteRenderRecord(site_, photo, options_);
     return report;
@@ -302,6 +317,17 @@ class SiteRender {
     return render;
   }
 
+  void WriteParts(const std::filesystem::path& photograph, const std::optional<LayerImages>& layers,
+                  const Raster& montage, const Eigen::Vector3d& gain) const {
+    const PhaseScope phase(Phase::kFiles);
+    const std::filesystem::path file = site_.montage(photograph.stem().string()) += ".parts.exr";
+    if (!layers) {
+      std::filesystem::remove(file);  // of an earlier run
+    } else {
+      layers->Write(file, montage, gain, ReadOrientation(photograph));
+    }
+  }
+
   RenderResult Drawn(const RenderView& view) const {
     const DrawnView drawn = {scene_, view.camera, InUnit(view), view.foreground.get()};
     return options_.avr == AvrLevel::kSilhouette ? DrawSilhouette(drawn)
@@ -321,6 +347,7 @@ class SiteRender {
     Progress progress(name, tiles);
     RenderCourse course;
     course.earlier = partial.TakeEarlier();
+    if (render.layers) course.earlier.clear();
     RenderWatcher* const watcher = options_.watcher;
     if (watcher) watcher->Begin(name, photo);
     for (const FinishedTile& tile : course.earlier) {

@@ -36,8 +36,12 @@ struct RenderSiteOptions {
   bool uniform_ambient = false;     // the paper's light as printed, instead of light among surfaces
   bool as_printed = false;          // MontageScene::as_printed, with uniform_ambient
   std::optional<int> bounces = {};  // of light among surfaces, at most; 0: sun and sky alone
+  bool with_tiff = false;           // of 16 bits, of every photograph
   AvrLevel avr = AvrLevel::kMaterials;
-  std::string quality = {};          // what the pictures say of it; empty: final
+  std::string quality = {};  // what the pictures say of it; empty: final
+  // By ChosenLayers(), to <photo>.parts.exr; empty: none. Tiles that an earlier run has kept are
+  // then rendered again, since they do not tell them.
+  std::vector<std::string> layers = {};
   int light_coarseness = 1;          // of light among surfaces, as AddInterreflection has it
   bool keeps_pictures = true;        // in the reports, too: as much memory as all montages together
   std::function<bool()> stops = {};  // asked before each tile, from any thread

@@ -68,6 +68,7 @@ MontageStatement StatementOf(const SitePaths& site, const MontageKind& kind) {
   MontageStatement statement;
   statement.computed = WhatIsShown(kind.avr);
   statement.quality = kind.quality;
+  statement.parameters = kind.parameters;
   statement.program = std::string("insitu ") + INSITU_VERSION;
   statement.survey_sha256 = SurveySha256(site);
   if (kind.with_building) statement.model_sha256 = Sha256(site.artificial());
@@ -79,13 +80,15 @@ MontageStatement StatementOf(const SitePaths& site, const MontageKind& kind) {
 }
 
 std::vector<std::string> WriteMontage(const SitePaths& site,
-                                      const std::filesystem::path& photograph, Frame frame,
-                                      Photograph photo, Raster linear, const RenderResult& result,
+                                      const std::filesystem::path& photograph,
+                                      const MontageFormat& format, Photograph photo, Raster linear,
+                                      const RenderResult& result,
                                       const MontageStatement& statement) {
   const PhaseScope phase(Phase::kFiles);
-  return WriteMontageFiles(site.montage(photograph.stem().string()),
-                           {std::move(linear), std::move(photo), photograph, frame == Frame::kPhoto,
-                            StatementOf(statement, photograph, result)});
+  return WriteMontageFiles(
+      site.montage(photograph.stem().string()),
+      {std::move(linear), std::move(photo), photograph, format.frame == Frame::kPhoto,
+       StatementOf(statement, photograph, result), format.with_tiff});
 }
 
 void WriteSunShares(const SitePaths& site, const std::filesystem::path& photograph,
@@ -119,8 +122,8 @@ void WriteLayers(const SitePaths& site, const std::filesystem::path& photograph,
 }
 
 void RemoveMontage(const SitePaths& site, const std::string& photo) {
-  for (const char* ending :
-       {".exr", ".png", ".jpg", ".tif", ".layers.exr", ".shadows.exr", ".unseen.exr"}) {
+  for (const char* ending : {".exr", ".png", ".jpg", ".tif", ".layers.exr", ".shadows.exr",
+                             ".unseen.exr", ".parts.exr"}) {
     std::filesystem::remove(site.montage(photo) += ending);
   }
 }

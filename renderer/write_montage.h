@@ -21,6 +21,12 @@ struct MontageKind {
   bool with_building = true;
   AvrLevel avr = AvrLevel::kMaterials;
   std::string quality = {};  // empty: final
+  std::string parameters = {};
+};
+
+struct MontageFormat {
+  Frame frame = Frame::kPhoto;
+  bool with_tiff = false;  // of 16 bits
 };
 
 // What they state of themselves; `computed` names what of the building is in them.
@@ -29,8 +35,9 @@ MontageStatement StatementOf(const SitePaths& site, const MontageKind& kind);
 // montages/<photo>.exr and the others (montage_files.h). What of the photograph could not be
 // delivered is returned. `linear` is the picture, of `result` the counts are taken.
 std::vector<std::string> WriteMontage(const SitePaths& site,
-                                      const std::filesystem::path& photograph, Frame frame,
-                                      Photograph photo, Raster linear, const RenderResult& result,
+                                      const std::filesystem::path& photograph,
+                                      const MontageFormat& format, Photograph photo, Raster linear,
+                                      const RenderResult& result,
                                       const MontageStatement& statement);
 
 // montages/<photo>.shadows.exr, upright as the montage's EXR is; without `shares`, what an earlier

@@ -108,6 +108,7 @@ void Add(const MontageStatement& statement, Exiv2::XmpData* xmp) {
   set("SurveySha256", statement.survey_sha256);
   set("Simulation", statement.simulation);
   set("Quality", statement.quality);
+  set("Parameters", statement.parameters);
   if (!statement.is_composite) return;
   const auto source = xmp->findKey(Exiv2::XmpKey("Xmp.iptcExt.DigitalSourceType"));
   if (source != xmp->end()) set("PhotographDigitalSourceType", source->toString());

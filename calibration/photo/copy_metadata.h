@@ -17,6 +17,7 @@ struct MontageStatement {
   std::string model_sha256, survey_sha256;
   std::string simulation = {};  // whose light it is, where it is not the photograph's; else empty
   std::string quality = {};     // "draft"; empty: final
+  std::string parameters = {};  // all options that decide on the pixels
 };
 
 // What is copied of it.

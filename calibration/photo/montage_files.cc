@@ -96,7 +96,11 @@ class Delivery {
     WriteLinear();
     WritePortableNetworkGraphics(ending == ".png");
     const bool is_tiff = ending == ".tif" || ending == ".tiff";
-    if (is_tiff || is_raw) WriteTiff(is_raw);
+    if (is_tiff || is_raw || montage_.wants_tiff) {
+      WriteTiff(is_raw || (montage_.wants_tiff && !(is_tiff && is_float())));
+    } else {
+      fs::remove(PathOf(".tif"));
+    }
     WriteJpegFile(!is_tiff && !is_raw && ending != ".png" && ending != ".exr");
     return std::move(remarks_);
   }
@@ -148,8 +152,9 @@ class Delivery {
     });
   }
 
-  void WriteTiff(bool is_of_raw) {
-    const CodedPhotograph picture = is_of_raw
+  // Else as the photograph, which is a TIFF, has its codes.
+  void WriteTiff(bool has_16_bits) {
+    const CodedPhotograph picture = has_16_bits
                                         ? Codes(Encoding::kSrgb16)
                                         : MontageCodes(montage_, original_ ? &*original_ : nullptr,
                                                        montage_.photo.encoding, color());

@@ -17,6 +17,7 @@ struct MontagePicture {
   std::filesystem::path source;  // the photograph's file
   bool is_photo_frame = true;    // else `photo` was resampled
   MontageStatement statement;
+  bool wants_tiff = false;  // of 16 bits, whatever the photograph is
 };
 
 // A photograph's codes where the montage is bit for bit the photograph, else the nearest ones.
@@ -27,7 +28,8 @@ CodedPhotograph MontageCodes(const MontagePicture& montage, const CodedPhotograp
 // Turned and mirrored so that it stands upright without EXIF's `orientation` (1 to 8).
 CodedPhotograph Upright(CodedPhotograph picture, int orientation);
 
-// Writes `stem` + .exr, .png and .jpg, and .tif of a TIFF or raw: in the photograph's colour space,
+// Writes `stem` + .exr, .png and .jpg, and .tif of a TIFF, of a raw or where it is wanted (else one
+// that an earlier run has left goes): in the photograph's colour space,
 // of a raw in sRGB, with its profile and metadata, and the statement. The EXR of a photograph that
 // is no EXR is linear Rec. 709. The blocks of a JPEG that is a JPEG's montage are the photograph's
 // where nothing changed. JPEG, TIFF and a PNG of a PNG keep the photograph's orientation; other PNG

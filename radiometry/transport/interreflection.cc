@@ -324,6 +324,26 @@ GatheredLight Interreflection::At(const SurfacePoint& surface) const {
   return light;
 }
 
+GatheredParts Interreflection::PartsAt(const SurfacePoint& surface) const {
+  GatheredParts parts;
+  const double weight = kPi / options_.point_directions;
+  for (const Meeting& meeting : surroundings_.Meet(surface, point_directions_)) {
+    const Spectrum before = weight * RadianceBefore(meeting.before);
+    const bool is_sky_after = meeting.material < 0 && Meeting::IsSky(meeting.after);
+    const Spectrum change = weight * ChangeAlong(meeting);
+    (is_sky_after ? parts.sky : parts.surroundings) += before + change;
+    Spectrum blocked = Spectrum::Zero();
+    if (meeting.material >= 0) {
+      blocked = before;
+    } else if (meeting.panes != 0) {
+      blocked = before * (1 - surroundings_.Through(meeting));
+    }
+    (Meeting::IsSky(meeting.before) ? parts.sky_blocked : parts.surroundings_blocked) += blocked;
+    parts.bounced += change + blocked;
+  }
+  return parts;
+}
+
 bool Interreflection::IsUnseen(int patch) const {
   if (IsDirect()) return false;
   if (patch >= 0) return !Pieces()[patch].is_seen;

@@ -41,6 +41,16 @@ struct GatheredLight {
   double nearness = 0;  // mean of 1 / distance over all directions, the sky's 0 [1/m]
 };
 
+// The same by origin: sky + surroundings is before + change, bounced - the blocked ones the change.
+struct GatheredParts {
+  Spectrum sky = Spectrum::Zero();           // that arrives after
+  Spectrum surroundings = Spectrum::Zero();  // of site and planned faces, after
+  Spectrum sky_blocked = Spectrum::Zero();   // what the planned faces keep away, >= 0
+  Spectrum surroundings_blocked = Spectrum::Zero();
+  // What the planned faces send, and what the other surfaces send more or, in shadow, less.
+  Spectrum bounced = Spectrum::Zero();
+};
+
 class Interreflection {
  public:
   // Finds the pieces and what they see. `scene` must outlive it; `grid` is fine where light is
@@ -60,6 +70,7 @@ class Interreflection {
 
   // Thread-safe once solved.
   GatheredLight At(const SurfacePoint& surface) const;
+  GatheredParts PartsAt(const SurfacePoint& surface) const;
 
   // Diffuse reflection of a polygon where no photograph shows it [1/sr].
   const Spectrum& MeanBrdf(int polygon) const { return brdf_of_polygon_[polygon]; }

@@ -140,7 +140,7 @@ Paths Montages(const MontageRequest& request) {
   Paths montages;
   for (const fs::path& photo : ListPhotographs(request.site)) {
     for (const char* ending : {".exr", ".png", ".jpg", ".tif", ".layers.exr", ".shadows.exr",
-                               ".unseen.exr", ".uncertainty.csv"}) {
+                               ".unseen.exr", ".parts.exr", ".uncertainty.csv"}) {
       montages.push_back(request.site.montage(photo.stem().string()) += ending);
     }
   }

@@ -21,15 +21,19 @@ constexpr double kLittle = 0.02;   // share of light inside a body that is not f
 constexpr double kStep = 1e-4;     // [m], off a face of a body
 
 // Light at a pane or an interface: what it mirrors and what it lets through, by functions that
-// find it out. Deep in a path only one of them is asked, and stands for both.
+// find it out. Deep in a path only one of them is asked, and stands for both. `parts` of a camera
+// ray's first face are told of each; null: nobody asks.
 Spectrum Both(const Spectrum& mirror, const Spectrum& through,
               const std::function<Spectrum()>& mirrored, const std::function<Spectrum()>& behind,
-              int depth, double choice) {
+              int depth, double choice, RayParts* parts) {
   const double a = mirror.maxCoeff(), b = through.maxCoeff();
   if (depth < kSplitDepth) {
     Spectrum sum = Spectrum::Zero();
     if (a > 0) sum += mirror * mirrored();
+    if (parts) parts->light[kBuildingReflection] += sum;
+    const Spectrum image = sum;
     if (b > 0) sum += through * behind();
+    if (parts) parts->light[kBuildingTransmission] += sum - image;
     return sum;
   }
   if (a + b <= 0) return Spectrum::Zero();
@@ -104,10 +108,11 @@ Spectrum GlassColor(const MontageScene& scene, const SceneHit& hit, const Ray& r
                   MirroredDirection(ray.direction, hit.surface.normal)});
   };
   const double choice = PathChoice(light, depth);
+  RayParts* const parts = depth == 0 ? light.parts : nullptr;
   if (!glass.is_solid) {
     const SheetOptics pane = ThinSheet(cosine, glass.index, glass.absorption, glass.thickness);
     return Both(mirrors * pane.reflectance, glass.weight * pane.transmittance, mirrored,
-                straight_on, depth, choice);
+                straight_on, depth, choice, parts);
   }
   const double F = mirrors * FresnelReflectance(cosine, glass.index);
   const auto inside = [&] {
@@ -116,7 +121,7 @@ Spectrum GlassColor(const MontageScene& scene, const SceneHit& hit, const Ray& r
     return BodyPath(scene, index, trace).Follow(within, 1, 0);
   };
   return Both(Spectrum::Constant(F), Spectrum::Constant(glass.weight * (1 - F)), mirrored, inside,
-              depth, choice);
+              depth, choice, parts);
 }
 
 }  // namespace insitu

@@ -86,12 +86,20 @@ double LargestError(const GatheredPoint& a, const GatheredPoint& b, const Gather
          unit;
 }
 
+void AddTo(GatheredParts* sum, double weight, const GatheredParts& parts) {
+  sum->sky += weight * parts.sky;
+  sum->surroundings += weight * parts.surroundings;
+  sum->sky_blocked += weight * parts.sky_blocked;
+  sum->surroundings_blocked += weight * parts.surroundings_blocked;
+  sum->bounced += weight * parts.bounced;
+}
+
 }  // namespace irradiance_map
 
-using irradiance_map::GatheredPoint, irradiance_map::kCalmShare, irradiance_map::kMostInside,
-    irradiance_map::KeyOf, irradiance_map::LargestError, irradiance_map::Node,
-    irradiance_map::kSteep, irradiance_map::PointKey, irradiance_map::PointKeyHash,
-    irradiance_map::PointOf;
+using irradiance_map::AddTo, irradiance_map::GatheredPoint, irradiance_map::kCalmShare,
+    irradiance_map::kMostInside, irradiance_map::KeyOf, irradiance_map::LargestError,
+    irradiance_map::Node, irradiance_map::kSteep, irradiance_map::PointKey,
+    irradiance_map::PointKeyHash, irradiance_map::PointOf;
 
 void IrradianceMapOptions::Check() const {
   INSITU_CHECK(tolerance > 0);
@@ -105,6 +113,7 @@ struct IrradianceMap::Tree {
   struct Shard {
     std::mutex mutex;
     std::unordered_map<PointKey, std::unique_ptr<const GatheredPoint>, PointKeyHash> points;
+    std::unordered_map<PointKey, GatheredParts, PointKeyHash> parts;
   };
 
   Tree(const Interreflection& l, const TriangleMesh& m, std::vector<Eigen::Vector3d> n,
@@ -145,6 +154,20 @@ struct IrradianceMap::Tree {
     auto gathered = std::make_unique<const GatheredPoint>(Gather(PointOf(key)));
     const std::lock_guard lock(shard.mutex);
     return shard.points.try_emplace(key, std::move(gathered)).first->second.get();
+  }
+
+  // By value: another thread may add to the table.
+  GatheredParts PartsOf(const SurfacePoint& point) {
+    const PointKey key = KeyOf(point);
+    Shard& shard = shards[PointKeyHash()(key) % kShards];
+    {
+      const std::lock_guard lock(shard.mutex);
+      const auto found = shard.parts.find(key);
+      if (found != shard.parts.end()) return found->second;
+    }
+    const GatheredParts parts = light.PartsAt(PointOf(key));
+    const std::lock_guard lock(shard.mutex);
+    return shard.parts.try_emplace(key, parts).first->second;
   }
 
   // `flat` on the triangle of the place.
@@ -292,6 +315,50 @@ struct IrradianceMap::Tree {
     const GatheredPoint& alone = *PointAt(PointOn(place, position));
     return {alone.before, alone.change, Matters(alone)};
   }
+
+  // The same of what its light is made of.
+  GatheredParts InterpolateParts(const Node& node, const Eigen::Vector3d& weights,
+                                 const FacePlace& place) {
+    GatheredParts sum;
+    double total = 0;
+    Eigen::Vector3d position = Eigen::Vector3d::Zero();
+    for (int i = 0; i < 3; ++i) {
+      const Eigen::Vector3d corner = FlatOf(place, node.corners[i]->position);
+      position += weights[i] * corner;
+      if (!node.corners[i]->is_open) continue;
+      total += weights[i];
+      AddTo(&sum, weights[i], PartsOf(PointOn(place, corner)));
+    }
+    if (total <= 0) return PartsOf(PointOn(place, position));
+    GatheredParts mean;
+    AddTo(&mean, 1 / total, sum);
+    return mean;
+  }
+
+  struct Leaf {
+    const Node& node;
+    Eigen::Vector3d weights;
+  };
+
+  // The leaf that holds the place, which is grown where nobody has asked yet.
+  Leaf LeafAt(const FacePlace& place) {
+    Node* node = &RootOf(place);
+    Eigen::Vector3d weights(1 - place.uv.sum(), place.uv.x(), place.uv.y());
+    for (;;) {
+      Node::Kind kind = node->kind.load(std::memory_order_acquire);
+      if (kind == Node::Kind::kUnknown) {
+        Grow(*node, place);
+        kind = node->kind.load(std::memory_order_acquire);
+      }
+      if (kind == Node::Kind::kLeaf) return {*node, weights};
+      // A point w_f F + w_t T + ..., with M = (F + T) / 2, is (w_f - w_t) F + 2 w_t M + ...
+      const bool near_from = weights[node->from] >= weights[node->to];
+      const int kept = near_from ? node->from : node->to, left = near_from ? node->to : node->from;
+      weights[kept] -= weights[left];
+      weights[left] *= 2;
+      node = &(*node->halves)[near_from ? 0 : 1];
+    }
+  }
 };
 
 IrradianceMap::IrradianceMap(const Interreflection& light, const TriangleMesh& mesh,
@@ -310,22 +377,13 @@ IrradianceMap::IrradianceMap(const Interreflection& light, const TriangleMesh& m
 IrradianceMap::~IrradianceMap() = default;
 
 SmoothLight IrradianceMap::At(const FacePlace& place) const {
-  Node* node = &tree_->RootOf(place);
-  Eigen::Vector3d weights(1 - place.uv.sum(), place.uv.x(), place.uv.y());
-  for (;;) {
-    Node::Kind kind = node->kind.load(std::memory_order_acquire);
-    if (kind == Node::Kind::kUnknown) {
-      tree_->Grow(*node, place);
-      kind = node->kind.load(std::memory_order_acquire);
-    }
-    if (kind == Node::Kind::kLeaf) return tree_->Interpolate(*node, weights, place);
-    // A point w_f F + w_t T + ..., with M = (F + T) / 2, is (w_f - w_t) F + 2 w_t M + ...
-    const bool near_from = weights[node->from] >= weights[node->to];
-    const int kept = near_from ? node->from : node->to, left = near_from ? node->to : node->from;
-    weights[kept] -= weights[left];
-    weights[left] *= 2;
-    node = &(*node->halves)[near_from ? 0 : 1];
-  }
+  const Tree::Leaf leaf = tree_->LeafAt(place);
+  return tree_->Interpolate(leaf.node, leaf.weights, place);
+}
+
+GatheredParts IrradianceMap::PartsAt(const FacePlace& place) const {
+  const Tree::Leaf leaf = tree_->LeafAt(place);
+  return tree_->InterpolateParts(leaf.node, leaf.weights, place);
 }
 
 std::vector<KeptPoint> IrradianceMap::Kept() const {

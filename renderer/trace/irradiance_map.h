@@ -63,6 +63,8 @@ class IrradianceMap {
 
   // From any thread.
   SmoothLight At(const FacePlace& place) const;
+  // What that is made of, gathered at the same points once it is asked for, never kept.
+  GatheredParts PartsAt(const FacePlace& place) const;
 
   long points() const;                  // gathered so far, or kept
   std::vector<KeptPoint> Kept() const;  // by cells

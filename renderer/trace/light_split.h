@@ -1,13 +1,52 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Which part of the daylight reaches a point, and which part of it the building cuts off.
+// Which part of the daylight reaches a point, which part of it the building cuts off, and what of a
+// camera ray's radiance each makes.
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 
 #include "radiometry/light/daylight.h"
 #include "renderer/trace/montage_scene.h"
 
 namespace insitu {
+
+// Of the building, its light by where it comes from, and haze before it; of the site, its change by
+// cause.
+enum LightPart {
+  kBuildingSun,
+  kBuildingSky,
+  kBuildingSurroundings,  // site and other faces of the building
+  kBuildingLamps,
+  kBuildingReflection,    // what its surfaces and glass mirror
+  kBuildingTransmission,  // what its glass lets through
+  kBuildingHaze,
+  kSunBlocked,  // what the building keeps away: negative
+  kSkyBlocked,
+  kSurroundingsBlocked,
+  kBounced,  // what the building sends, and what it changes of what the site sends
+  kChangeLamps,
+  kChangeReflection,
+  kLightParts
+};
+
+// What a ray of the camera meets first.
+struct FirstHit {
+  bool is_building = false;
+  int polygon = -1;   // of the site
+  int material = -1;  // of the building
+  double distance = 0;
+  Eigen::Vector3d normal = Eigen::Vector3d::Zero();  // unit, world, on the side of the camera
+};
+
+// Of one ray. Where it meets nothing there is no hit, and every part is zero.
+struct RayParts {
+  RayParts() { light.fill(Spectrum::Zero()); }
+  std::array<Spectrum, kLightParts> light;  // as they reach the camera
+  bool has_hit = false;
+  FirstHit hit;
+  GatheredParts around;  // where it is, with light among surfaces
+};
 
 // The light directions of one camera ray: a point of the sun's disc and every `stride`-th sky facet
 // from `first`. Four rays a pixel with stride 4 together use every facet once.
@@ -28,6 +67,8 @@ struct LightDirections {
   // to `unseen` where no photograph shows what it meets. nullptr: nobody asks.
   double share = 1;
   double* unseen = nullptr;
+  // Receives what a camera ray's radiance is made of; nullptr: nobody asks.
+  RayParts* parts = nullptr;
 };
 
 // `disc` and `facet` are uniform in [0, 1)^2; `ray` counts the rays of a pixel.

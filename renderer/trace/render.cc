@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <memory>
 #include <thread>
 #include <tuple>
 
@@ -60,6 +61,7 @@ struct PixelSum {
   Eigen::Vector3d building = Eigen::Vector3d::Zero();  // sum of the building's radiances
   Eigen::Vector3d change = Eigen::Vector3d::Zero();    // sum of the site's changes
   ColorStatistics statistics;
+  std::shared_ptr<LayeredPixel> layered = {};  // sums over the rays; null: nobody asks
 
   bool IsChanged() const { return building_rays > 0 || !change.isZero(0); }
   Eigen::Vector3d Mean(const Eigen::Vector3d& photo_rgb) const {
@@ -81,6 +83,23 @@ std::optional<double> SpreadSigma(const ViewWork& view, int x, int y) {
   return view.options.point_spread->SigmaAt({x, y}, view.photo.width, view.photo.height);
 }
 
+// `rgb`: what the ray brings in all.
+void AddParts(const SpectralBasis& spectra, const RayParts& parts, const Eigen::Vector3d& rgb,
+              LayeredPixel* sum) {
+  sum->ray_error += rgb.cwiseAbs2();
+  for (int part = 0; part < kLightParts; ++part) {
+    sum->light[part] += spectra.RgbFromSpectrum(parts.light[part]);
+  }
+  if (!parts.has_hit) return;
+  sum->distance += parts.hit.distance;
+  sum->normal += parts.hit.normal;
+  if (parts.hit.is_building) {
+    sum->materials[parts.hit.material] += 1;
+  } else {
+    sum->polygons[parts.hit.polygon] += 1;
+  }
+}
+
 void AddRay(const ViewWork& view, const PixelSampler& sampler, int x, int y,
             const std::optional<double>& sigma, PixelSum& sum) {
   const int block = view.options.block;
@@ -96,8 +115,16 @@ void AddRay(const ViewWork& view, const PixelSampler& sampler, int x, int y,
   if (view.options.sun_share) primary.light.sun_share = *view.options.sun_share->At(x, y);
   double unseen = 0;
   primary.light.unseen = &unseen;
+  std::optional<RayParts> parts;
+  if (view.options.layers) primary.light.parts = &parts.emplace();
   const RayOutcome outcome = TracePrimary(view.scene, primary);
   ++sum.rays;
+  if (parts) {
+    if (!sum.layered) sum.layered = std::make_shared<LayeredPixel>();
+    const Eigen::Vector3d brings =
+        outcome.hits_building ? outcome.rgb : Eigen::Vector3d(primary.apparent_rgb + outcome.rgb);
+    AddParts(view.scene.natural.spectra, *parts, brings, sum.layered.get());
+  }
   sum.unseen += std::min(1.0, unseen);
   if (outcome.hits_building) {
     ++sum.building_rays;
@@ -192,6 +219,44 @@ std::optional<Eigen::Vector3d> ComputedPixel(const ViewWork& view, const PixelSu
   return composed().cwiseMax(photo.cwiseMin(0));
 }
 
+// The means of what the rays have summed, and what else the pixel is made of.
+void TellLayers(const ViewWork& view, const PixelSum& sum, bool is_computed, int x, int y) {
+  LayeredPixel pixel = sum.layered ? *sum.layered : LayeredPixel();
+  pixel.seen = 1 - FrontShare(view, x, y);
+  pixel.is_computed = is_computed;
+  if (sum.rays > 0) {
+    pixel.coverage = static_cast<double>(sum.building_rays) / sum.rays;
+    for (Eigen::Vector3d& light : pixel.light) light /= sum.rays;
+    const Eigen::Array3d mean = sum.Mean(Behind(view, x, y));
+    const Eigen::Array3d variance = pixel.ray_error.array() / sum.rays - mean.square();
+    pixel.ray_error = (variance.max(0) / std::max(1, sum.rays - 1)).sqrt();
+    double met = 0;
+    for (auto* shares : {&pixel.polygons, &pixel.materials}) {
+      for (auto& [index, share] : *shares) {
+        met += share;
+        share /= sum.rays;
+      }
+    }
+    if (met > 0) pixel.distance /= met;
+    if (!pixel.normal.isZero(0)) pixel.normal.normalize();
+  }
+  const auto& grain = view.options.grain;
+  if (is_computed && grain) {
+    const Eigen::Vector3d behind = Behind(view, x, y);
+    pixel.grain = MissingGrain(*grain, sum, behind, sum.Mean(behind), x, y);
+  }
+  view.options.layers(x, y, pixel);
+}
+
+// The same with the site's change so many times as large.
+std::shared_ptr<LayeredPixel> Scaled(const LayeredPixel& pixel, const Eigen::Array3d& times) {
+  auto scaled = std::make_shared<LayeredPixel>(pixel);
+  for (size_t part = kSunBlocked; part < kLightParts; ++part) {
+    scaled->light[part].array() *= times;
+  }
+  return scaled;
+}
+
 // The rays of the squares of pixels in a tile, each sampled once. The site's change, a share of
 // what the photograph shows, is told of the square's first pixel.
 class BlockSums {
@@ -215,7 +280,9 @@ class BlockSums {
     constexpr double kMostTimes = 4;  // a bright pixel beside a dark one
     PixelSum own = *sum;
     const Eigen::Array3d here = Behind(view_, x, y), there = Behind(view_, first_x, first_y);
-    own.change.array() *= (here / there.max(1e-6)).max(0).min(kMostTimes);
+    const Eigen::Array3d times = (here / there.max(1e-6)).max(0).min(kMostTimes);
+    own.change.array() *= times;
+    if (own.layered) own.layered = Scaled(*own.layered, times);
     return own;
   }
 
@@ -239,9 +306,13 @@ FinishedTile RenderTile(const ViewWork& view, int index) {
   for (int y = tile.top; y < tile.bottom; ++y) {
     for (int x = tile.left; x < tile.right; ++x) {
       finished.is_computed.push_back(0);
-      if (FrontShare(view, x, y) >= 1) continue;
+      if (FrontShare(view, x, y) >= 1) {
+        if (view.options.layers) TellLayers(view, {}, false, x, y);
+        continue;
+      }
       const PixelSum sum = sums.At(x, y, outline && outline->IsNear(x, y), &finished.counts.rays);
       const auto computed = ComputedPixel(view, sum, outline.has_value(), x, y);
+      if (view.options.layers) TellLayers(view, sum, computed.has_value(), x, y);
       if (!computed) continue;
       ++(sum.building_rays > 0 ? finished.counts.building : finished.counts.changed);
       if (sum.building_rays == 0) CountClipped(view, *computed, x, y, &finished.counts);

@@ -2,7 +2,10 @@
 // RENDER: one photograph becomes a montage, tile by tile. [Durisch92, §6]
 #pragma once
 
+#include <Eigen/Core>
+#include <array>
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -11,9 +14,24 @@
 #include "calibration/photo/raster.h"
 #include "radiometry/light/image_quality.h"
 #include "renderer/tiles/finished_tile.h"
+#include "renderer/trace/light_split.h"
 #include "renderer/trace/montage_scene.h"
 
 namespace insitu {
+
+// Of a pixel, means over its rays.
+struct LayeredPixel {
+  LayeredPixel() { light.fill(Eigen::Vector3d::Zero()); }
+  bool is_computed = false;  // else the photograph's own, whatever the rays brought
+  double seen = 1;           // share that nothing in front covers
+  double coverage = 0;       // of the rays that met the building
+  std::array<Eigen::Vector3d, kLightParts> light;       // linear RGB
+  Eigen::Vector3d grain = Eigen::Vector3d::Zero();      // noise added
+  Eigen::Vector3d ray_error = Eigen::Vector3d::Zero();  // of the mean, a standard deviation
+  double distance = 0;                                  // mean over the rays that met something [m]
+  Eigen::Vector3d normal = Eigen::Vector3d::Zero();     // sum over them, unit if there are any
+  std::map<int, double> polygons, materials;            // shares of the rays: site's, building's
+};
 
 struct RenderOptions {
   int fewest_rays = 4;       // a pixel, a multiple of 4
@@ -33,6 +51,9 @@ struct RenderOptions {
   // One channel of the photograph's size: of the sun that no polygon keeps away, what it shows to
   // arrive, 0..1; null: all.
   std::shared_ptr<const Raster> sun_share = {};
+  // Told what each pixel of a tile that is rendered is made of, from any thread; empty: nobody
+  // asks.
+  std::function<void(int x, int y, const LayeredPixel&)> layers = {};
 
   void Check() const;  // throws CheckError that names the field that is wrong
 };

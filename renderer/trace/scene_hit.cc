@@ -111,4 +111,10 @@ std::optional<SmoothLight> LightAround(const MontageScene& scene, const SceneHit
   return (hit.is_building ? light.on_building : light.on_site).At(*hit.place);
 }
 
+GatheredParts PartsAround(const MontageScene& scene, const SceneHit& hit) {
+  if (!scene.interreflected || !hit.place) return {};
+  const InterreflectedLight& light = *scene.interreflected;
+  return (hit.is_building ? light.on_building : light.on_site).PartsAt(*hit.place);
+}
+
 }  // namespace insitu

@@ -33,5 +33,7 @@ std::optional<LampHit> FindLamp(const MontageScene& scene, const Ray& ray);
 
 // Light of sky and surroundings where a ray meets a surface; nullopt: the paper's.
 std::optional<SmoothLight> LightAround(const MontageScene& scene, const SceneHit& hit);
+// What that is made of; all zero with the paper's.
+GatheredParts PartsAround(const MontageScene& scene, const SceneHit& hit);
 
 }  // namespace insitu

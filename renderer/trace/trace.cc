@@ -83,6 +83,41 @@ Spectrum MirroredBefore(const MontageScene& scene, const SurfacePoint& surface,
   return MirrorReflectance(material, CosineTo(surface, to_camera)) * image;
 }
 
+// What the building's diffuse part returns of each light; `share` of it is not mirrored.
+void NoteDiffuse(const MontageScene& scene, const SurfacePoint& surface,
+                 const SpectralMaterial& material, const LightDirections& light,
+                 const std::optional<SmoothLight>& around, const Spectrum& share) {
+  const Daylight& daylight = scene.natural.light;
+  const auto note = [&](LightPart part, const Spectrum& irradiance) {
+    light.parts->light[part] +=
+        share * ReflectedRadiance(material.diffuse_weight, material.brdf, irradiance);
+  };
+  note(kBuildingLamps, LampIrradiance(scene, surface, light));
+  if (around) {
+    note(kBuildingSun, daylight.sun_radiance * SunOnBuilding(scene, surface, light));
+    note(kBuildingSky, light.parts->around.sky);
+    return note(kBuildingSurroundings, light.parts->around.surroundings);
+  }
+  const LightGeometry geometry = DaylightOnBuilding(scene, surface, light);
+  note(kBuildingSun, SunIrradiance(daylight, geometry));
+  note(kBuildingSky, SkyIrradiance(daylight, geometry));
+  note(kBuildingSurroundings, AmbientIrradiance(daylight, geometry));
+}
+
+// What a camera ray meets, and what its parts lose on their way through the air.
+void NoteHit(const SceneHit& hit, const MontageScene& scene, RayParts* parts) {
+  parts->has_hit = true;
+  parts->hit = {.is_building = hit.is_building,
+                .polygon = hit.is_building ? -1 : hit.index,
+                .material = hit.is_building ? scene.material_of_triangle[hit.index] : -1,
+                .distance = hit.distance,
+                .normal = hit.surface.normal};
+  parts->around = PartsAround(scene, hit);
+}
+void NoteAir(const Atmosphere& air, double distance, RayParts* parts) {
+  for (Spectrum& light : parts->light) light *= TransmittanceOver(air, distance);
+}
+
 // Irradiance of a natural surface before and what the building changes of it; of the lamps alone
 // where they are counted apart.
 struct LightBalance {
@@ -102,11 +137,25 @@ std::optional<LightBalance> BalanceAt(const MontageScene& scene, const SurfacePo
   if (around) {
     const SplitSun sun = SplitSunlight(scene, surface, light, lit || around->matters);
     if (!lit && !around->matters && !sun.is_blocked) return std::nullopt;
+    if (light.parts) {  // irradiances, until they meet the surface
+      auto& irradiance = light.parts->light;
+      const GatheredParts& parts = light.parts->around;
+      irradiance[kSunBlocked] = -daylight.sun_radiance * sun.blocked;
+      irradiance[kSkyBlocked] = -parts.sky_blocked;
+      irradiance[kSurroundingsBlocked] = -parts.surroundings_blocked;
+      irradiance[kBounced] = parts.bounced;
+      irradiance[kChangeLamps] = E_lamps;
+    }
     return LightBalance{daylight.sun_radiance * sun.natural + around->before,
                         E_lamps + around->change - daylight.sun_radiance * sun.blocked};
   }
   const SplitLight split = SplitDaylight(scene, surface, light, lit);
   if (!lit && !split.IsChanged()) return std::nullopt;
+  if (light.parts) {
+    light.parts->light[kSunBlocked] = -SunIrradiance(daylight, split.blocked);
+    light.parts->light[kSkyBlocked] = -SkyIrradiance(daylight, split.blocked);
+    light.parts->light[kChangeLamps] = E_lamps;
+  }
   return LightBalance{
       TotalIrradiance(daylight, split.natural),
       -(SunIrradiance(daylight, split.blocked) + SkyIrradiance(daylight, split.blocked)), E_lamps};
@@ -124,6 +173,18 @@ Spectrum ChangeBy(const LightBalance& balance, const Spectrum& true_color, doubl
   // must not grow where light is added.
   const Spectrum bounded = (balance.change > 0).select(rho.min(1 / (diffuse_weight * kPi)), rho);
   return ReflectedRadiance(diffuse_weight, bounded, balance.change).max(-true_color);
+}
+
+// The same of each light by itself, without the bounds that hold for their sum.
+void NoteChange(const LightBalance& balance, const Spectrum& true_color, double diffuse_weight,
+                RayParts* parts) {
+  const Spectrum rho = DiffuseBrdf(true_color, diffuse_weight, balance.before);
+  const Spectrum bounded = (balance.change > 0).select(rho.min(1 / (diffuse_weight * kPi)), rho);
+  for (const LightPart part :
+       {kSunBlocked, kSkyBlocked, kSurroundingsBlocked, kBounced, kChangeLamps}) {
+    Spectrum& light = parts->light[part];
+    light = ReflectedRadiance(diffuse_weight, balance.lamps ? rho : bounded, light);
+  }
 }
 
 // Case D on a primary ray: the change of the pixel. The photograph is the current one.
@@ -148,8 +209,13 @@ Eigen::Vector3d ChangeOfPixel(const MontageScene& scene, const PrimaryRay& prima
     const bool is_even = material.specular->roughness.slope == 0 && !material.bumps;
     change =
         mirrored(World::kWithBuilding) - (is_even ? mirrored_before : mirrored(World::kSiteOnly));
+    if (primary.light.parts) primary.light.parts->light[kChangeReflection] = change;
   }
   if (balance) {
+    if (primary.light.parts) {
+      NoteChange(*balance, (L0 - mirrored_before).max(0), material.diffuse_weight,
+                 primary.light.parts);
+    }
     change += ChangeBy(*balance, (L0 - mirrored_before).max(0), material.diffuse_weight);
   }
   if ((change == 0).all()) return Eigen::Vector3d::Zero();  // D2
@@ -161,6 +227,7 @@ Eigen::Vector3d ChangeOfPixel(const MontageScene& scene, const PrimaryRay& prima
 // pixel where the site comes next, unchanged but for what the building does there.
 Spectrum ApparentBeyond(const MontageScene& scene, PrimaryRay primary, double beyond) {
   primary.ray.near = beyond + kBuildingClearance;
+  primary.light.parts = nullptr;
   const RayOutcome outcome = TracePrimary(scene, primary);
   const SpectralBasis& spectra = scene.natural.spectra;
   if (outcome.hits_building) return spectra.SpectrumFromRgb(outcome.rgb);
@@ -236,9 +303,15 @@ Spectrum FaceColor(const MontageScene& scene, const SceneHit& hit, const Ray& ra
   if (material.glass->weight >= 1) return glass;
   SpectralMaterial ground = material;  // what does not go through
   ground.specular.reset();
-  return glass + (1 - material.glass->weight) * BuildingColor(scene, hit.surface, ground,
-                                                              -ray.direction, light, depth,
-                                                              LightAround(scene, hit));
+  const Spectrum matte = BuildingColor(scene, hit.surface, ground, -ray.direction, light, depth,
+                                       LightAround(scene, hit));
+  if (light.parts && depth == 0) {
+    for (const LightPart part :
+         {kBuildingSun, kBuildingSky, kBuildingSurroundings, kBuildingLamps}) {
+      light.parts->light[part] *= 1 - material.glass->weight;
+    }
+  }
+  return glass + (1 - material.glass->weight) * matte;
 }
 
 // Case B above the horizon: the horizon's colour, or what the photographs show of the sky there.
@@ -264,22 +337,25 @@ Spectrum BuildingColor(const MontageScene& scene, const SurfacePoint& surface,
               : TotalIrradiance(daylight, DaylightOnBuilding(scene, surface, light)));
   const double cosine = CosineTo(surface, to_viewer);
   const Spectrum mirror = MirrorReflectance(material, cosine);
-  const Spectrum diffuse = ReflectedRadiance(material.diffuse_weight, material.brdf, E);
-  if ((mirror <= 0).all()) return diffuse;
-  if (scene.as_printed) {
-    return diffuse + mirror * MirrorImage(scene, surface, material.specular->roughness, to_viewer,
-                                          Part(light, scene, mirror), World::kWithBuilding, depth,
-                                          kBuildingClearance);
+  Spectrum diffuse_share = Spectrum::Ones(), mirror_share = mirror;  // as printed
+  if (!scene.as_printed && (mirror > 0).any()) {
+    // What meets a second facet is mirrored again or goes on to the ground: all of it in the shape
+    // of a first reflection. [Turquin 2019]
+    const double single = MirroredShare(material.specular->roughness, cosine);
+    const Spectrum again = (1 - single) * mirror;
+    diffuse_share = (1 - mirror) * (1 + again);
+    mirror_share = mirror * (1 + again / single);
   }
-  // What meets a second facet is mirrored again or goes on to the ground: all of it in the shape of
-  // a first reflection. [Turquin 2019]
-  const double single = MirroredShare(material.specular->roughness, cosine);
-  const Spectrum again = (1 - single) * mirror;
-  const Spectrum L = (1 - mirror) * (1 + again) * diffuse;
-  const Spectrum share = mirror * (1 + again / single);
-  return L + share * MirrorImage(scene, surface, material.specular->roughness, to_viewer,
-                                 Part(light, scene, share), World::kWithBuilding, depth,
-                                 kBuildingClearance);
+  const bool is_noted = light.parts && depth == 0;
+  if (is_noted) NoteDiffuse(scene, surface, material, light, around, diffuse_share);
+  const Spectrum diffuse =
+      diffuse_share * ReflectedRadiance(material.diffuse_weight, material.brdf, E);
+  if ((mirror <= 0).all()) return diffuse;
+  const Spectrum image = MirrorImage(scene, surface, material.specular->roughness, to_viewer,
+                                     Part(light, scene, mirror_share), World::kWithBuilding, depth,
+                                     kBuildingClearance);
+  if (is_noted) light.parts->light[kBuildingReflection] += mirror_share * image;
+  return diffuse + mirror_share * image;
 }
 
 Spectrum DiffuseChange(const MontageScene& scene, const SurfacePoint& surface,
@@ -291,6 +367,11 @@ Spectrum DiffuseChange(const MontageScene& scene, const SurfacePoint& surface,
 
 Spectrum TraceSecondary(const MontageScene& scene, const Ray& ray, const LightDirections& light,
                         World world, int depth) {
+  if (light.parts) {  // what it brings counts as a whole
+    LightDirections alone = light;
+    alone.parts = nullptr;
+    return TraceSecondary(scene, ray, alone, world, depth);
+  }
   const Atmosphere& air = scene.natural.air;
   if (depth > kMaxMirrors) return air.horizon;
   auto hit = FindHit(scene, ray, world);
@@ -330,16 +411,27 @@ RayOutcome TracePrimary(const MontageScene& scene, const PrimaryRay& primary) {
   const Atmosphere& air = scene.natural.air;
   Ray to_lamp = primary.ray;
   if (hit) to_lamp.far = hit->distance;
+  RayParts* const parts = primary.light.parts;
   if (const auto lamp = FindLamp(scene, to_lamp)) {
-    return {true, scene.natural.spectra.RgbFromSpectrum(
-                      ApparentColor(lamp->radiance, air, lamp->distance))};
+    const Spectrum shown = ApparentColor(lamp->radiance, air, lamp->distance);
+    if (parts) parts->light[kBuildingLamps] = shown;
+    return {true, scene.natural.spectra.RgbFromSpectrum(shown)};
   }
   if (!hit) return {};  // case A
-  if (!hit->is_building) return {false, ChangeOfPixel(scene, primary, *hit)};
+  if (parts) NoteHit(*hit, scene, parts);
+  if (!hit->is_building) {
+    const Eigen::Vector3d change = ChangeOfPixel(scene, primary, *hit);
+    if (parts) NoteAir(air, hit->distance, parts);
+    return {false, change};
+  }
   const auto straight_on = [&] {
     return TrueColor(ApparentBeyond(scene, primary, hit->distance), air, hit->distance);
   };
   const Spectrum L0 = FaceColor(scene, *hit, primary.ray, primary.light, 0, straight_on);
+  if (parts) {
+    NoteAir(air, hit->distance, parts);
+    parts->light[kBuildingHaze] = ApparentColor(Spectrum::Zero(), air, hit->distance);
+  }
   return {true, scene.natural.spectra.RgbFromSpectrum(ApparentColor(L0, air, hit->distance))};
 }
 

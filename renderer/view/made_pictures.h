@@ -36,7 +36,8 @@ class MadePicture : public Picture {
   std::shared_ptr<PhotoPyramid> pyramid_;
 };
 
-// A share of <photo>.layers.exr, 0 black and 1 white. `channel`: 0 to 2, red, green, blue.
+// A share of <photo>.layers.exr and the like, 0 black and 1 white. `channel`: 0 to 2, red, green,
+// blue.
 class LayerPicture : public MadePicture {
  public:
   LayerPicture(const std::filesystem::path& file, int channel)

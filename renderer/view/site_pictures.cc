@@ -10,24 +10,53 @@
 #include "calibration/files/json_file.h"
 #include "calibration/photo/exif.h"
 #include "renderer/view/made_pictures.h"
+#include "renderer/view/part_picture.h"
 
 namespace insitu {
 namespace {
 
 namespace fs = std::filesystem;
 
-constexpr size_t kMostInMemory = 6;                                  // decoded pictures
-constexpr std::array kLayers = {"photograph", "computed", "front"};  // channels of .layers.exr
+constexpr size_t kMostInMemory = 6;  // decoded pictures
+
+// A channel of what stands beside a montage, a share of each pixel.
+struct ShareLayer {
+  const char* name;
+  const char* ending;
+  int channel;
+};
+constexpr std::array<ShareLayer, 5> kLayers = {{{"photograph", ".layers.exr", 0},
+                                                {"computed", ".layers.exr", 1},
+                                                {"front", ".layers.exr", 2},
+                                                {"sunlit", ".shadows.exr", 0},
+                                                {"unseen", ".unseen.exr", 0}}};
+constexpr std::array kBeside = {".layers", ".shadows", ".unseen", ".parts"};
 
 struct MontageFile {
   fs::path path;
-  std::string variant;  // "": the site's own; "@0915" of another hour
+  std::string variant;  // "": the site's own; "@0915" of another hour, "~fast" of lesser quality
 };
 
 bool IsMontageOf(const fs::path& file, const std::string& photo) {
   if (file.extension() != ".exr") return false;
   const std::string stem = file.stem().string();
-  return stem == photo || stem.starts_with(photo + "@");
+  if (stem == photo) return true;
+  if (!stem.starts_with(photo + "@") && !stem.starts_with(photo + "~")) return false;
+  return std::ranges::none_of(kBeside, [&](const char* end) { return stem.ends_with(end); });
+}
+
+fs::path Beside(const MontageFile& montage, const std::string& ending) {
+  return montage.path.parent_path() / (montage.path.stem().string() + ending);
+}
+
+// "tall@0915~fast"
+SitePaths PathsOf(const SitePaths& site, const std::string& variant) {
+  const size_t quality = std::min(variant.find('~'), variant.size());
+  const size_t hour = std::min(variant.find('@'), quality);
+  SitePaths paths{site.root, variant.substr(0, hour)};
+  if (hour < quality) paths.hour = variant.substr(hour + 1, quality - hour - 1);
+  if (quality < variant.size()) paths.beside = variant.substr(quality + 1);
+  return paths;
 }
 
 void AddMontagesIn(const fs::path& folder, const std::string& variant, const std::string& photo,
@@ -85,9 +114,9 @@ Json::Value SitePictures::Described(int id, const std::string& kind,
   return json;
 }
 
-// As insitu-render noted it; of other hours nothing is noted.
+// As insitu-render noted it.
 std::string SitePictures::FrameOf(const std::string& photo, const std::string& variant) const {
-  const fs::path record = SitePaths{site_.root, variant}.render_record(photo);
+  const fs::path record = PathsOf(site_, variant).render_record(photo);
   if (!fs::exists(record)) return "photo";
   try {
     return ReadJson(record)["frame"].asString();
@@ -115,17 +144,30 @@ Json::Value SitePictures::PicturesOf(const fs::path& photograph) {
   if (fs::exists(site_.input_image(photo))) {
     add_file({site_.input_image(photo), orientation}, "input", "");
   }
-  for (const MontageFile& montage : MontagesOf(site_, photo)) {
+  const std::vector<MontageFile> montages = MontagesOf(site_, photo);
+  for (const MontageFile& montage : montages) {
     add_file({montage.path}, "montage", montage.variant);
   }
-  const fs::path layers = site_.montages() / (photo + ".layers.exr");
-  for (size_t i = 0; i < kLayers.size() && fs::exists(layers); ++i) {
-    const int id = Known(layers.string() + "#" + kLayers[i], [&] {
-      return Entry{std::make_shared<LayerPicture>(layers, static_cast<int>(i)), std::nullopt};
-    });
-    Json::Value described = Described(id, "layer", kLayers[i]);
-    described["frame"] = FrameOf(photo, "");
-    pictures.append(described);
+  for (const MontageFile& montage : montages) {
+    const std::string frame = FrameOf(photo, montage.variant);
+    const auto add = [&](const fs::path& file, const std::string& kind, const std::string& name,
+                         const std::function<std::shared_ptr<Picture>()>& make) {
+      const int id = Known(file.string() + "#" + name, [&] { return Entry{make(), std::nullopt}; });
+      Json::Value described = Described(id, kind, name);
+      described["of"] = montage.variant;
+      described["frame"] = frame;
+      pictures.append(described);
+    };
+    for (const ShareLayer& layer : kLayers) {
+      const fs::path file = Beside(montage, layer.ending);
+      if (!fs::exists(file)) continue;
+      add(file, "layer", layer.name,
+          [&] { return std::make_shared<LayerPicture>(file, layer.channel); });
+    }
+    const fs::path parts = Beside(montage, ".parts.exr");
+    for (const std::string& part : PartNames(parts)) {
+      add(parts, "part", part, [&] { return std::make_shared<PartPicture>(parts, part); });
+    }
   }
   if (const auto unfinished = renders_.Of(photo)) {
     const int id = Known("unfinished " + photo, [&] { return Entry{unfinished, std::nullopt}; });
@@ -195,9 +237,12 @@ std::string SitePictures::Version() const {
   for (const fs::path& photograph : photographs_) {
     const std::string photo = photograph.stem().string();
     for (const MontageFile& montage : MontagesOf(site_, photo)) {
-      version += montage.path.string() + FileVersion(montage.path) + "\n";
+      version += montage.path.string() + FileVersion(montage.path);
+      for (const char* beside : kBeside) {
+        version += " " + FileVersion(Beside(montage, std::string(beside) + ".exr"));
+      }
+      version += "\n";
     }
-    version += FileVersion(site_.montages() / (photo + ".layers.exr")) + "\n";
   }
   return version;
 }

@@ -31,8 +31,9 @@ class SitePictures {
 
   // Of every photograph {name, pictures: [{id, kind, name, frame, width, height, levels, version}],
   // render}. kind: "photo", "input" (the photograph without distortion), "montage", "layer",
-  // "unfinished"; name: of the variant or layer. What cannot be read has {fault} and no size. A
-  // number stays that picture's.
+  // "part" (of what --layers took apart), "unfinished"; name: of the variant with hour and quality,
+  // or of the layer or part, which has {of}, that variant. What cannot be read has {fault} and no
+  // size. A number stays that picture's.
   Json::Value List();
 
   // Throws InputError: there is no such picture.

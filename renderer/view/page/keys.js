@@ -44,7 +44,7 @@ const kActions = [
   {id: "splitRight", key: ".", run: () => setSplit(shown.split + kSplitStep)},
   {id: "outline", key: "O", run: toggleOutline},
   {id: "difference", key: "X", run: toggleDifference},
-  {id: "layer", key: "L", run: () => next(one => one.kind === "layer")},
+  {id: "layer", key: "L", run: () => next(one => one.kind === "layer" || one.kind === "part")},
   {id: "variant", key: "V", run: () => next(one => one.kind === "montage")},
   {id: "unfinished", key: "U", run: () => next(one => one.kind === "unfinished")},
   {id: "swap", key: "T", run: swap},

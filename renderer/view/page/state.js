@@ -7,7 +7,7 @@ import {renewTiles} from "../../prepare/page/photo/tiles.js";
 import {t} from "./words/view_words.js";
 
 /**
- * @typedef {{id: number, kind: string, name: string, frame: string, width: number, height: number,
+ * @typedef {{id: number, kind: string, name: string, of?: string, frame: string, width: number, height: number,
  *   levels: number, version: string, fault?: string, summary?: any}} Picture
  * @typedef {{state: string, done?: number, total?: number}} Render
  * @typedef {{name: string, pictures: Picture[], render: Render, fault?: string}} Photo
@@ -51,14 +51,25 @@ export const pictureOf = id => photo()?.pictures.find(picture => picture.id === 
 export const leftPicture = () => pictureOf(shown.left);
 export const rightPicture = () => shown.difference ?? pictureOf(shown.right);
 
+/** Of "variant@hour~quality", each in words. */
+function madeOf(name) {
+  const [made, quality] = name.split("~");
+  const [variant, hour] = made.split("@");
+  return [
+    variant && t("variant", {name: variant}),
+    hour && t("hour", {name: hour}),
+    quality
+  ].filter(Boolean);
+}
+
 /** @param {Picture|null} picture */
 export function pictureName(picture) {
   if (!picture) return t("noPicture");
-  if (picture.kind === "layer") return t(`layer_${picture.name}`);
-  if (picture.kind !== "montage" || picture.name === "") return t(`kind_${picture.kind}`);
-  const [variant, hour] = picture.name.split("@");
-  const parts = [variant && t("variant", {name: variant}), hour && t("hour", {name: hour})];
-  return `${t("kind_montage")}, ${parts.filter(Boolean).join(", ")}`;
+  const names = madeOf(picture.of ?? picture.name);
+  const withNames = text => [text, ...names].join(", ");
+  if (picture.kind === "layer") return withNames(t(`layer_${picture.name}`));
+  if (picture.kind === "part") return withNames(t("part", {name: picture.name}));
+  return picture.kind === "montage" ? withNames(t("kind_montage")) : t(`kind_${picture.kind}`);
 }
 
 const has = picture => picture.fault === undefined;

@@ -15,10 +15,15 @@ let asked = 0,
 
 const codes = values => values.map(value => number(255 * value, 0)).join(" ");
 
+const thingsOf = things =>
+  things.map(thing => `${thing.name} ${number(thing.share, 3)}`).join(", ") || "–";
+
 /** One picture's words. */
 function textOf(value) {
   if (!value) return "–";
   if (value.unfinished) return t("unfinished");
+  if (value.things) return thingsOf(value.things);
+  if (value.values) return value.values.map(one => number(one, 4)).join(" ");
   if (value.share !== undefined) return `${t("share")} ${number(value.share, 3)}`;
   const linear = `${t("linear")} ${value.linear.map(one => number(one, 4)).join(" ")}`;
   if (value.codes) return `${linear}  Δ ${value.codes.map(one => number(one, 1)).join(" ")}`;

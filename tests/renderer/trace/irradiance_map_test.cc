@@ -57,6 +57,8 @@ class IrradianceMapTest : public testing::Test {
   std::unique_ptr<MontageScene> scene_;
 };
 
+double Largest(const Spectrum& spectrum) { return spectrum.abs().maxCoeff(); }
+
 bool AreSame(const SmoothLight& a, const SmoothLight& b) {
   return (a.before == b.before).all() && (a.change == b.change).all() && a.matters == b.matters;
 }
@@ -209,6 +211,24 @@ TEST(IrradianceMapOptions, NameTheFieldThatIsWrong) {
   EXPECT_NE(WrongField(IrradianceMapOptions{.smallest = -1}).find("smallest"), std::string::npos);
   EXPECT_NE(WrongField(IrradianceMapOptions{.calm = 0.001}).find("calm"), std::string::npos);
   EXPECT_NE(WrongField(IrradianceMapOptions{.reach = -1}).find("reach"), std::string::npos);
+}
+
+TEST_F(IrradianceMapTest, PartsAddUpToTheLight) {
+  for (const bool is_site : {false, true}) {
+    const IrradianceMap& map = is_site ? Light().on_site : Light().on_building;
+    for (FacePlace place : SomePlaces(50)) {
+      if (is_site) place.triangle %= 2;
+      const SmoothLight light = map.At(place);
+      const GatheredParts parts = map.PartsAt(place);
+      const double unit = Largest(light.before) + 1e-9;
+      EXPECT_LT(Largest(parts.sky + parts.surroundings - light.before - light.change), 1e-9 * unit);
+      EXPECT_LT(
+          Largest(parts.bounced - parts.sky_blocked - parts.surroundings_blocked - light.change),
+          1e-9 * unit);
+      EXPECT_GE(parts.sky_blocked.minCoeff(), 0);
+      EXPECT_GE(parts.surroundings_blocked.minCoeff(), 0);
+    }
+  }
 }
 
 }  // namespace

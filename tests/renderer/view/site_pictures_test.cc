@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "renderer/view/site_pictures.h"
 
+#include <OpenImageIO/imageio.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -48,18 +49,75 @@ TEST_F(SitePicturesTest, ListsVariantsHoursAndLayersButNothingElse) {
   WriteExr(site_.montages() / "tall/a.b.exr", montage_);
   WriteExr(site_.montages() / "tall/a.b@1830.exr", montage_);
   WriteExr(site_.montages() / "a.b.layers.exr", montage_);
+  WriteExr(site_.montages() / "a.b@0915.shadows.exr", montage_);
+  WriteExr(site_.montages() / "tall/a.b~fast.exr", montage_);
   WriteExr(site_.montages() / "a.bc.exr", montage_);
   std::vector<std::string> names;
   const Json::Value photos = pictures().List();
   for (const Json::Value& picture : photos[0]["pictures"]) {
     names.push_back(picture["kind"].asString() + ":" + picture["name"].asString());
   }
-  EXPECT_THAT(names, testing::ElementsAre("photo:", "montage:", "montage:@0915", "montage:tall",
-                                          "montage:tall@1830", "layer:photograph", "layer:computed",
-                                          "layer:front"));
+  EXPECT_THAT(names,
+              testing::ElementsAre("photo:", "montage:", "montage:@0915", "montage:tall",
+                                   "montage:tall@1830", "montage:tall~fast", "layer:photograph",
+                                   "layer:computed", "layer:front", "layer:sunlit"));
+  EXPECT_EQ(PictureOf("layer", "front")["of"], "");
+  EXPECT_EQ(PictureOf("layer", "sunlit")["of"], "@0915");
   const Json::Value share =
       pictures().Of(PictureOf("layer", "computed")["id"].asInt())->Value(7, 5);
   EXPECT_EQ(share["share"].asDouble(), 0.5);
+}
+
+// As insitu-render's --layers writes them: of one part each.
+void WriteParts(const std::filesystem::path& file, const std::vector<OIIO::ImageSpec>& specs,
+                const std::vector<float>& samples) {
+  const auto out = OIIO::ImageOutput::create(file.string());
+  ASSERT_TRUE(out->open(file.string(), static_cast<int>(specs.size()), specs.data()));
+  for (size_t i = 0; i < specs.size(); ++i) {
+    if (i > 0) {
+      ASSERT_TRUE(out->open(file.string(), specs[i], OIIO::ImageOutput::AppendSubimage));
+    }
+    ASSERT_TRUE(out->write_image(OIIO::TypeFloat, samples.data()));
+  }
+  ASSERT_TRUE(out->close());
+}
+
+OIIO::ImageSpec PartSpec(const std::string& name, const std::vector<std::string>& channels) {
+  OIIO::ImageSpec spec(40, 30, static_cast<int>(channels.size()), OIIO::TypeFloat);
+  spec.channelnames = channels;
+  spec.attribute("oiio:subimagename", name);
+  spec.attribute("cryptomatte/1234567/manifest", R"({"wall": "3e800000"})");
+  return spec;
+}
+
+TEST_F(SitePicturesTest, PartsAreShownOneByOne) {
+  const std::string matte = "CryptoObject00";
+  std::vector<float> samples(4 * 40 * 30, -0.25F);
+  for (size_t i = 0; i < samples.size(); i += 4) {  // all of a wall, a quarter
+    samples[i] = samples[i + 1] = 0.25F;
+    samples[i + 2] = samples[i + 3] = 0;
+  }
+  WriteParts(site_.montages() / "a.b.parts.exr",
+             {PartSpec("sun_blocked", {"sun_blocked.R", "sun_blocked.G", "sun_blocked.B"}),
+              PartSpec(matte, {matte + ".R", matte + ".G", matte + ".B", matte + ".A"}),
+              PartSpec("CryptoObject01", {"CryptoObject01.R"}), PartSpec("depth", {"depth.Z"})},
+             samples);
+  EXPECT_TRUE(PictureOf("part", "CryptoObject01").isNull());
+  const auto value_of = [&](const std::string& part) {
+    return pictures().Of(PictureOf("part", part)["id"].asInt())->Value(0, 0);
+  };
+  EXPECT_EQ(value_of("sun_blocked")["linear"][0].asDouble(), 0.25);
+  EXPECT_EQ(value_of("depth")["values"][0].asDouble(), 0.25);
+  const Json::Value things = value_of(matte)["things"];
+  ASSERT_EQ(things.size(), 1U);
+  EXPECT_EQ(things[0]["name"], "wall");
+  EXPECT_EQ(things[0]["share"].asDouble(), 0.25);
+}
+
+TEST_F(SitePicturesTest, APartThatCannotBeReadSaysSo) {
+  WriteWhole(site_.montages() / "a.b.parts.exr", "no EXR");
+  EXPECT_TRUE(PictureOf("part", "depth").isNull());
+  EXPECT_EQ(PictureOf("montage", "")["fault"], Json::Value());
 }
 
 TEST_F(SitePicturesTest, ADifferenceIsBlackOnlyWhereAllBitsAreTheSame) {

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A montage taken apart: images that add up to it again, and what they are of.
+#pragma once
+
+#include <Eigen/Core>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "calibration/photo/foreground.h"
+#include "calibration/photo/raster.h"
+#include "renderer/building/artificial_environment.h"
+#include "renderer/layers/light_errors.h"
+#include "renderer/trace/montage_scene.h"
+#include "renderer/trace/render.h"
+
+namespace insitu {
+
+// Names of the parts that `--layers` may choose, in the order of the file: first "montage", then
+// those that are added up, from "photo" to "rest_fine", then the others.
+const std::vector<std::string>& LayerNames();
+
+// "all", or names with commas between them, in that order; with any that is added up, what is left
+// of the sum, "rest" and "rest_fine". Throws InputError naming those there are.
+std::vector<std::string> ChosenLayers(const std::string& text);
+
+// What of a picture its layers are of, by the indices that LayeredPixel has.
+struct LayerThings {
+  std::vector<std::string> polygons, polygon_materials;  // of the site
+  std::vector<std::string> materials;                    // of the building
+  LightErrors errors = {};
+};
+LayerThings ThingsOf(const MontageScene& scene, const ArtificialEnvironment& building,
+                     const LightErrors& errors);
+
+class LayerImages {
+ public:
+  // `photo` as it is rendered into, in the site's unit; `foreground` may be null. Both must outlive
+  // it. `chosen` by ChosenLayers: of others nothing is kept.
+  LayerImages(const Raster& photo, const Foreground* foreground, LayerThings things,
+              std::vector<std::string> chosen);
+  ~LayerImages();
+  LayerImages(const LayerImages&) = delete;
+  LayerImages& operator=(const LayerImages&) = delete;
+
+  // From any thread, each pixel once, those of a tile from one.
+  void Take(int x, int y, const LayeredPixel& pixel);
+
+  // One EXR of many parts, 32-bit float, turned upright as montages are by EXIF's `orientation`.
+  // `montage` is what was delivered: in each pixel and channel it is, bit for bit, the sum of the
+  // parts that the header's "insituSum" names, added as 32-bit floats in that order.
+  // `gain`: of the photograph over the site's unit. Throws std::runtime_error: it cannot be
+  // written.
+  void Write(const std::filesystem::path& file, const Raster& montage, const Eigen::Vector3d& gain,
+             int orientation) const;
+
+ private:
+  struct TileLayers;
+
+  bool IsChosen(const char* name) const;
+  Raster Layer(int layer, const Raster& montage, const Eigen::Vector3f& gain) const;
+
+  const Raster& photo_;
+  const Foreground* const foreground_;
+  const LayerThings things_;
+  const std::vector<std::string> chosen_;
+  const std::vector<float> object_ids_, material_ids_;
+  std::vector<std::unique_ptr<TileLayers>> tiles_;     // null: the photograph stays in all of it
+  Raster coverage_, distance_, normal_;                // empty: not chosen
+  std::vector<Raster> object_ranks_, material_ranks_;  // (id, share), one channel each
+};
+
+}  // namespace insitu
