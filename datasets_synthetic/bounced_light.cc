@@ -58,8 +58,8 @@ BouncedLight::BouncedLight(const Place& place, const BouncedLightOptions& option
     for (const Vector3d& vertex : face.vertices) focus_.extend(vertex);
   }
   if (focus_.isEmpty()) focus_.extend(Vector3d::Zero());
-  AddFaces(place.campus->natural);
-  AddFaces(place.campus->scenery);
+  AddFaces(place.site->natural);
+  AddFaces(place.site->scenery);
   AddFaces(place.building);
   Solve();
 }
@@ -125,7 +125,7 @@ int BouncedLight::CellAt(const Spot& spot) const {
 BouncedLight::Meeting BouncedLight::Meet(const Ray& ray) const {
   const Sighting seen = LookForLight(place_, ray);
   Meeting meeting;
-  if (ray.direction.dot(place_.campus->zenith) > 0) meeting.before = kSky;
+  if (ray.direction.dot(place_.site->zenith) > 0) meeting.before = kSky;
   if (seen.before) meeting.before = CellAt(*seen.before);
   const bool on_building = seen.after && seen.after->on_building;
   meeting.after = on_building ? CellAt(*seen.after) : meeting.before;
@@ -155,7 +155,7 @@ double BouncedLight::Sweep(const std::vector<std::vector<Meeting>>& meetings) {
   tbb::parallel_for(size_t{0}, cells_.size(), [&](size_t i) {
     const Cell& cell = cells_[i];
     const Incoming light = Sum(meetings[i]);
-    const double cosine = std::max(0.0, cell.normal.dot(place_.campus->sun)) / std::numbers::pi;
+    const double cosine = std::max(0.0, cell.normal.dot(place_.site->sun)) / std::numbers::pi;
     next[i].first = cell.albedo * (cosine * cell.sun.before * daylight.sun_irradiance +
                                    light.sky.before * daylight.sky_radiance + light.before);
     next[i].second = cell.albedo * (cosine * cell.sun.after * daylight.sun_irradiance +

@@ -15,13 +15,6 @@ namespace {
 
 using Eigen::Vector3d;
 
-const std::vector<Material>& Layers() {
-  static const std::vector<Material> layers = {Material::kPlaster,  Material::kSlate,
-                                               Material::kTimber,   Material::kGlass,
-                                               Material::kRedPaint, Material::kSandstone};
-  return layers;
-}
-
 constexpr const char* kBlockRecord = "1F";  // handle of the table every block record belongs to
 constexpr const char* kModelSpace = "20";   // handle of the model space's record
 constexpr const char* kWindowRecord = "21";
@@ -106,12 +99,12 @@ void WriteLayer(Drawing& drawing, const std::string& name, int color) {
   drawing.Add(6, std::string("CONTINUOUS"));
 }
 
-void WriteTables(Drawing& drawing) {
+void WriteTables(Drawing& drawing, const std::vector<Material>& layers) {
   drawing.BeginSection("TABLES");
-  BeginTable(drawing, "LAYER", "2", static_cast<int>(Layers().size()) + 1);
+  BeginTable(drawing, "LAYER", "2", static_cast<int>(layers.size()) + 1);
   WriteLayer(drawing, "0", 7);
   int color = 1;
-  for (const Material layer : Layers()) WriteLayer(drawing, MaterialName(layer), color++);
+  for (const Material layer : layers) WriteLayer(drawing, MaterialName(layer), color++);
   drawing.End("ENDTAB");
   BeginTable(drawing, "BLOCK_RECORD", kBlockRecord, 2);
   for (const auto& [handle, name] :
@@ -183,38 +176,39 @@ void EndPolyline(Drawing& drawing, Material material) {
   drawing.BeginEntity("SEQEND", kModelSpace, MaterialName(material));
 }
 
-void WritePolyface(Drawing& drawing, const Polyhedron& ball, const Vector3d& origin) {
+void WritePolyface(Drawing& drawing, const Polyhedron& body, const Vector3d& origin) {
   constexpr int kPolyface = 64, kVertex = 128 + 64, kFace = 128;
-  BeginPolyline(drawing, ball.material, "AcDbPolyFaceMesh", kPolyface,
-                static_cast<int>(ball.vertices.size()), static_cast<int>(ball.triangles.size()));
-  for (const Vector3d& vertex : ball.vertices) {
-    WriteVertex(drawing, ball.material, "AcDbPolyFaceMeshVertex", kVertex, vertex + origin);
+  BeginPolyline(drawing, body.material, "AcDbPolyFaceMesh", kPolyface,
+                static_cast<int>(body.vertices.size()), static_cast<int>(body.triangles.size()));
+  for (const Vector3d& vertex : body.vertices) {
+    WriteVertex(drawing, body.material, "AcDbPolyFaceMeshVertex", kVertex, vertex + origin);
   }
-  for (const Eigen::Vector3i& triangle : ball.triangles) {
-    drawing.BeginEntity("VERTEX", kModelSpace, MaterialName(ball.material));
+  for (const Eigen::Vector3i& triangle : body.triangles) {
+    drawing.BeginEntity("VERTEX", kModelSpace, MaterialName(body.material));
     drawing.Add(100, std::string("AcDbFaceRecord"));
     drawing.AddPoint(Vector3d::Zero());
     drawing.Add(70, kFace);
     for (int i = 0; i < 3; ++i) drawing.Add(71 + i, triangle[i] + 1);
   }
-  EndPolyline(drawing, ball.material);
+  EndPolyline(drawing, body.material);
 }
 
-void WritePolygonMesh(Drawing& drawing, const RoundMesh& mast, const Vector3d& origin) {
-  constexpr int kMeshClosedInN = 16 + 32, kMeshVertex = 64;
-  BeginPolyline(drawing, mast.material, "AcDbPolygonMesh", kMeshClosedInN, mast.rows, mast.columns);
-  for (const Vector3d& vertex : mast.vertices) {
-    WriteVertex(drawing, mast.material, "AcDbPolygonMeshVertex", kMeshVertex, vertex + origin);
+void WritePolygonMesh(Drawing& drawing, const RoundMesh& mesh, const Vector3d& origin) {
+  constexpr int kMesh = 16, kClosedInM = 1, kClosedInN = 32, kMeshVertex = 64;
+  const int flags = kMesh + kClosedInN + (mesh.is_ring ? kClosedInM : 0);
+  BeginPolyline(drawing, mesh.material, "AcDbPolygonMesh", flags, mesh.rows, mesh.columns);
+  for (const Vector3d& vertex : mesh.vertices) {
+    WriteVertex(drawing, mesh.material, "AcDbPolygonMeshVertex", kMeshVertex, vertex + origin);
   }
-  EndPolyline(drawing, mast.material);
+  EndPolyline(drawing, mesh.material);
 }
 
-void WriteEntities(Drawing& drawing, const Pavilion& pavilion, const Vector3d& origin) {
+void WriteEntities(Drawing& drawing, const Building& building, const Vector3d& origin) {
   drawing.BeginSection("ENTITIES");
-  for (const Panel& panel : pavilion.panels) WritePanel(drawing, panel, kModelSpace, origin);
-  for (const Placement& window : pavilion.windows) WriteInsert(drawing, window, origin);
-  WritePolyface(drawing, pavilion.ball, origin);
-  WritePolygonMesh(drawing, pavilion.mast, origin);
+  for (const Panel& panel : building.panels) WritePanel(drawing, panel, kModelSpace, origin);
+  for (const Placement& window : building.windows) WriteInsert(drawing, window, origin);
+  for (const Polyhedron& body : building.bodies) WritePolyface(drawing, body, origin);
+  for (const RoundMesh& mesh : building.meshes) WritePolygonMesh(drawing, mesh, origin);
   drawing.End("ENDSEC");
 }
 
@@ -234,27 +228,28 @@ Json::Value RgbJson(const Vector3d& rgb) {
 
 }  // namespace
 
-void WriteDxf(const std::filesystem::path& path, const Pavilion& pavilion, const Vector3d& origin) {
+void WriteDxf(const std::filesystem::path& path, const Building& building, const Vector3d& origin) {
   Drawing drawing;
   WriteHeader(drawing);
-  WriteTables(drawing);
+  WriteTables(drawing, building.layers);
   drawing.BeginSection("BLOCKS");
   WriteBlock(drawing, "*Model_Space", kModelSpace, {});
-  WriteBlock(drawing, "WINDOW", kWindowRecord, pavilion.window);
+  WriteBlock(drawing, "WINDOW", kWindowRecord, building.window);
   drawing.End("ENDSEC");
-  WriteEntities(drawing, pavilion, origin);
+  WriteEntities(drawing, building, origin);
   WriteObjects(drawing);
   drawing.End("EOF");
   WriteWhole(path, drawing.text());
 }
 
-void WriteBuildingMaterials(const std::filesystem::path& path, const Daylight& daylight) {
+void WriteBuildingMaterials(const std::filesystem::path& path, const Building& building,
+                            const Daylight& daylight) {
   Json::Value root;
   root["colour_space"] = "linear Rec.709 reflectance";
   root["model"] =
       "L = F Lmirror + (1 - F) diffuse; F = unpolarised dielectric Fresnel reflectance of the "
       "given index (air outside) times specular_weight; no shading across facets (flat)";
-  for (const Material material : Layers()) {
+  for (const Material material : building.layers) {
     const double index = MirrorIndex(material);
     Json::Value& layer = root["layers"][MaterialName(material)];
     layer["diffuse_rgb"] = RgbJson(ReflectanceRgb(daylight, PlainReflectance(material)));

@@ -5,17 +5,18 @@
 #include <Eigen/Core>
 #include <filesystem>
 
-#include "datasets_synthetic/pavilion.h"
+#include "datasets_synthetic/building.h"
 #include "datasets_synthetic/spectral_light.h"
 
 namespace insitu::demo {
 
-// Survey coordinates in metres ($INSUNITS 6); layers are materials. Walls and roof are 3DFACEs, the
-// windows INSERTs of one BLOCK, the ball a polyface, the mast a polygon mesh.
-void WriteDxf(const std::filesystem::path& path, const Pavilion& pavilion,
+// Survey coordinates in metres ($INSUNITS 6); layers are materials. Panels are 3DFACEs, windows
+// INSERTs of one BLOCK, bodies polyfaces, round bodies polygon meshes.
+void WriteDxf(const std::filesystem::path& path, const Building& building,
               const Eigen::Vector3d& origin);
 
 // materials.json: linear Rec. 709 reflectance of each layer as a grey card would tell it.
-void WriteBuildingMaterials(const std::filesystem::path& path, const Daylight& daylight);
+void WriteBuildingMaterials(const std::filesystem::path& path, const Building& building,
+                            const Daylight& daylight);
 
 }  // namespace insitu::demo

@@ -16,79 +16,6 @@ using Eigen::Vector3d;
 constexpr double kSunAzimuth = 102.33 * kDegree;
 constexpr double kSunElevation = 37.19 * kDegree;
 
-// The plan's axes: x to the photographers' right, y away from them, z to the true zenith.
-class Plan {
- public:
-  explicit Plan(const Eigen::Matrix3d& site_from_plan) : site_from_plan_(site_from_plan) {}
-
-  // A face through corners by number.
-  Face Polygon(const std::string& name, const std::vector<NamedPoint>& corners,
-               const std::vector<int>& order, Material material,
-               const WindowGrid& windows = {}) const {
-    Face face;
-    face.name = name;
-    face.material = material;
-    face.windows = windows;
-    for (const int index : order) {
-      face.vertices.push_back(site_from_plan_ * corners[index].second);
-      face.vertex_names.push_back(corners[index].first);
-    }
-    return FinishFace(face);
-  }
-
- private:
-  Eigen::Matrix3d site_from_plan_;
-};
-
-struct Footprint {
-  Vector2d center, size;  // [m]
-  double turn = 0;        // [rad], counter-clockwise
-};
-
-// Corners 0..3 counter-clockwise at `bottom` from the lower left, 4..7 above them at `top`.
-std::vector<NamedPoint> BoxCorners(const std::string& name, const Footprint& footprint,
-                                   double bottom, double top) {
-  std::vector<NamedPoint> corners;
-  for (const double height : {bottom, top}) {
-    for (const Vector2d& sign :
-         {Vector2d(-1, -1), Vector2d(1, -1), Vector2d(1, 1), Vector2d(-1, 1)}) {
-      const Vector2d at = footprint.center + Eigen::Rotation2Dd(footprint.turn) *
-                                                 (0.5 * sign.cwiseProduct(footprint.size)).eval();
-      corners.emplace_back(name + "_" + std::to_string(corners.size()),
-                           Vector3d(at.x(), at.y(), height));
-    }
-  }
-  return corners;
-}
-
-struct BoxSide {
-  const char* suffix;
-  std::vector<int> order;
-};
-
-// Walls w0 (front), w1 (right), w2 (back), w3 (left), top and bot.
-const std::vector<BoxSide>& BoxSides() {
-  static const std::vector<BoxSide> sides = {{"w0", {0, 1, 5, 4}},  {"w1", {1, 2, 6, 5}},
-                                             {"w2", {2, 3, 7, 6}},  {"w3", {3, 0, 4, 7}},
-                                             {"top", {4, 5, 6, 7}}, {"bot", {3, 2, 1, 0}}};
-  return sides;
-}
-
-// The first `count` sides of a box.
-std::vector<Face> BoxFaces(const Plan& plan, const std::string& name,
-                           const std::vector<NamedPoint>& corners, int count, Material material) {
-  std::vector<Face> faces;
-  for (int i = 0; i < count; ++i) {
-    const BoxSide& side = BoxSides()[i];
-    faces.push_back(plan.Polygon(name + "_" + side.suffix, corners, side.order, material));
-  }
-  return faces;
-}
-
-void Append(std::vector<Face>& faces, std::vector<Face> more) {
-  faces.insert(faces.end(), more.begin(), more.end());
-}
-
 // A roof on six square supports on a floor slab, open on all sides.
 std::vector<Face> Gallery(const Plan& plan) {
   const Vector2d center(-1.5, 6.5);
@@ -186,67 +113,26 @@ std::vector<Face> Lamp(const Plan& plan) {
   return BoxFaces(plan, "lamp", corners, 4, Material::kMetal);
 }
 
-// Hills as a ring of upright faces whose crest is noise.
-std::vector<Face> Ridge(const Plan& plan, double radius, double low, double high, uint64_t seed) {
-  const auto foot = [radius](int i) {
-    const double heading = (-90 + 1.5 * i) * kDegree;
-    return Vector3d(radius * std::sin(heading), radius * std::cos(heading), -5);
-  };
-  const auto crest = [&](int i) -> Vector3d {
-    const double rise =
-        0.7 * ValueNoise(0.09 * i, 0.5, seed) + 0.3 * ValueNoise(0.4 * i, 0.5, seed);
-    return foot(i) + Vector3d(0, 0, 5 + std::lerp(low, high, rise));
-  };
-  std::vector<Face> faces;
-  for (int i = 0; i < 120; ++i) {
-    const std::vector<NamedPoint> corners = {
-        {"", foot(i)}, {"", foot(i + 1)}, {"", crest(i + 1)}, {"", crest(i)}};
-    faces.push_back(plan.Polygon("hill", corners, {0, 1, 2, 3}, Material::kForest));
-    faces.back().vertex_names.clear();
-  }
-  return faces;
-}
-
-std::vector<Face> Scenery(const Plan& plan) {
-  const double reach = 4000, below = -0.05;  // just under the lawn
-  const std::vector<NamedPoint> square = {{"", {-reach, -reach, below}},
-                                          {"", {reach, -reach, below}},
-                                          {"", {reach, reach, below}},
-                                          {"", {-reach, reach, below}}};
-  Face ground = plan.Polygon("ground", square, {0, 1, 2, 3}, Material::kGrass);
-  ground.vertex_names.clear();
-  std::vector<Face> faces = {ground};
-  Append(faces, Ridge(plan, 520, 7, 26, 5));
-  Append(faces, Ridge(plan, 1500, 40, 190, 9));
-  return faces;
-}
-
-View Photograph(const std::string& name, const Lens& lens, const Eigen::Matrix3d& site_from_plan,
-                const Vector3d& center, const Vector3d& target, double roll) {
-  const Vector3d forward = (target - center).normalized();
-  const Vector3d right = forward.cross(Vector3d::UnitZ()).normalized();
-  Eigen::Matrix3d upright;
-  upright << right.transpose(), forward.cross(right).transpose(), forward.transpose();
-  const Eigen::Matrix3d cam_from_plan = Eigen::AngleAxisd(roll, Vector3d::UnitZ()) * upright;
-  return {name, lens, site_from_plan * center, cam_from_plan * site_from_plan.transpose()};
-}
-
 }  // namespace
 
-Campus MakeCampus(int width, int height) {
-  Campus campus;
-  campus.origin = {2600507.0, 1200318.0, 431.5};
-  campus.azimuth = 145 * kDegree;
+Site MakeCampus(int width, int height, double azimuth) {
+  Site site;
+  site.record = {"demo", "2024-05-15T09:45:00+02:00", "sunny", 46.9538, 7.4452};
+  site.survey.check_points = {"roof_1", "roof_7", "sup10_4", "sup21_1", "house_ridge_1", "path_6"};
+  site.survey.upright_boxes = {"lamp", "house", "block", "tower", "sup00", "sup10", "sup20"};
+  site.survey.level = site.survey.shadows = "lawn";
+  site.origin = {2600507.0, 1200318.0, 431.5};
+  site.azimuth = azimuth;
   const Eigen::AngleAxisd tilt(0.3 * kDegree, Vector3d(0.6, 0.8, 0));
   const Eigen::Matrix3d site_from_plan =
-      (tilt * Eigen::AngleAxisd(campus.azimuth, Vector3d::UnitZ())).toRotationMatrix();
-  campus.zenith = tilt * Vector3d::UnitZ();
-  campus.true_north = tilt * Vector3d::UnitY();
-  campus.sun =
+      (tilt * Eigen::AngleAxisd(site.azimuth, Vector3d::UnitZ())).toRotationMatrix();
+  site.zenith = tilt * Vector3d::UnitZ();
+  site.true_north = tilt * Vector3d::UnitY();
+  site.sun =
       tilt * Vector3d(std::sin(kSunAzimuth) * std::cos(kSunElevation),
                       std::cos(kSunAzimuth) * std::cos(kSunElevation), std::sin(kSunElevation));
   for (const auto& [name, point] : TargetsOnPlan()) {
-    campus.targets.emplace_back(name, site_from_plan * point);
+    site.targets.emplace_back(name, site_from_plan * point);
   }
   const Plan plan(site_from_plan);
   const auto tower = BoxCorners("tower", {{12, 243}, {22, 16}, 12 * kDegree}, 0, 46);
@@ -254,17 +140,17 @@ Campus MakeCampus(int width, int height) {
   for (const auto& part : {Gallery(plan), House(plan), Lamp(plan), Blocks(plan, tower)}) {
     Append(faces, part);
   }
-  campus.blockers = MakeScene(faces);
-  Append(faces, Ground(plan, tower, campus.targets));
-  campus.natural = MakeScene(faces);
-  campus.scenery = MakeScene(Scenery(plan));
+  site.blockers = MakeScene(faces);
+  Append(faces, Ground(plan, tower, site.targets));
+  site.natural = MakeScene(faces);
+  site.scenery = MakeScene(Scenery(plan, -0.05, Material::kGrass));
   const Lens lens = DemoLens(width, height);
-  campus.views = {
+  site.views = {
       Photograph("left", lens, site_from_plan, {-12.6, -12.4, 1.65}, {-1.0, 9, 2.6}, 0.4 * kDegree),
       Photograph("middle", lens, site_from_plan, {0.6, -15.2, 1.70}, {-1.4, 9, 2.9},
                  -0.3 * kDegree),
       Photograph("right", lens, site_from_plan, {13.6, -10.6, 5.8}, {-3.6, 8, 2.0}, 0.6 * kDegree)};
-  return campus;
+  return site;
 }
 
 }  // namespace insitu::demo

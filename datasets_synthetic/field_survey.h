@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Which points a surveyor would measure on the campus, and where each photograph shows them.
+// Which points a surveyor would measure on the site, and where each photograph shows them.
 #pragma once
 
 #include <Eigen/Core>
@@ -7,12 +7,12 @@
 #include <utility>
 #include <vector>
 
-#include "datasets_synthetic/campus.h"
+#include "datasets_synthetic/site.h"
 
 namespace insitu::demo {
 
 struct Mark {
-  int view = 0;           // index into Campus::views
+  int view = 0;           // index into Site::views
   Eigen::Vector2d pixel;  // without noise
 };
 
@@ -34,10 +34,10 @@ struct FieldSurvey {
 };
 
 // Whether a view shows a point of the scene, at least 2 px inside the frame, by ray tracing.
-bool Shows(const Campus& campus, const View& view, const Eigen::Vector3d& point);
+bool Shows(const Site& site, const View& view, const Eigen::Vector3d& point);
 
 // Vertices, targets and shadow points. Surveyed as control: what fewer than two photographs show,
 // what is too far for them to intersect, and the targets.
-FieldSurvey SurveyCampus(const Campus& campus);
+FieldSurvey SurveySite(const Site& site);
 
 }  // namespace insitu::demo

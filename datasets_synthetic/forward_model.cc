@@ -41,7 +41,7 @@ enum class When { kBefore, kAfter };
 Spectrum Diffuse(const Place& place, const Spot& spot, const Lighting& light, When when,
                  double footprint) {
   const bool after = when == When::kAfter;
-  const double cosine = std::max(0.0, spot.normal.dot(place.campus->sun)) / std::numbers::pi;
+  const double cosine = std::max(0.0, spot.normal.dot(place.site->sun)) / std::numbers::pi;
   const double sun = after ? light.sun.after : light.sun.before;
   const double sky = after ? light.rest->sky.after : light.rest->sky.before;
   const Spectrum& bounced = after ? light.rest->after : light.rest->before;
@@ -102,17 +102,27 @@ class Renderer {
     return {VisibleSun(place_, spot.point, spot.normal, sample_seed), &known->light};
   }
 
-  // What glass mirrors at `spot`, after its own way through the air.
-  Spectrum Mirrored(const Spot& spot, const Vector3d& direction, uint64_t seed) const {
-    const Vector3d out = direction - 2 * direction.dot(spot.normal) * spot.normal;
-    const std::optional<Spot> seen = Look(place_, {spot.point, out}).after;
+  // The normal that `spot` mirrors about: waves tilt water's.
+  Vector3d MirrorNormal(const Spot& spot, const Vector3d& direction) const {
+    if (spot.face->material != Material::kWater) return spot.normal;
+    return WaveNormal(place_.site->waves, *spot.face, spot.point, -direction);
+  }
+
+  // What `spot` mirrors about `normal`, after its own way through the air.
+  Spectrum Mirrored(const Spot& spot, const Vector3d& normal, const Vector3d& direction, When when,
+                    uint64_t seed) const {
+    Vector3d out = direction - 2 * direction.dot(normal) * normal;
+    // What a wave throws downwards meets the next one.
+    out -= 2 * std::min(0.0, out.dot(spot.normal)) * spot.normal;
+    const Sighting sighting = Look(place_, {spot.point, out});
+    const std::optional<Spot>& seen = when == When::kAfter ? sighting.after : sighting.before;
     if (!seen) return place_.daylight.sky_radiance;
     // Each sample of a pixel looks for itself.
     const int strata = std::max(1, options_.strata / kGrid);
     const Incoming rest = light_.Gather(seen->point, seen->normal, strata, seed);
     const Lighting light = {VisibleSun(place_, seen->point, seen->normal, seed), &rest};
     const double footprint = (spot.distance + seen->distance) / view_.lens.focal_x;
-    return ThroughAir(place_.daylight, Diffuse(place_, *seen, light, When::kAfter, footprint),
+    return ThroughAir(place_.daylight, Diffuse(place_, *seen, light, when, footprint),
                       seen->distance);
   }
 
@@ -123,8 +133,9 @@ class Renderer {
     const double footprint = pixel_size / std::sqrt(std::max(cosine, 0.01));
     Spectrum radiance = Diffuse(place_, spot, light, when, footprint);
     if (const double index = MirrorIndex(spot.face->material); index > 0) {
-      const double share = Fresnel(cosine, index);
-      radiance = share * Mirrored(spot, direction, seed) + (1 - share) * radiance;
+      const Vector3d normal = MirrorNormal(spot, direction);
+      const double share = Fresnel(std::abs(normal.dot(direction)), index);
+      radiance = share * Mirrored(spot, normal, direction, when, seed) + (1 - share) * radiance;
     }
     return RgbFromSpectrum(ThroughAir(place_.daylight, radiance, spot.distance));
   }
@@ -144,7 +155,8 @@ class Renderer {
         return Color(*seen.before, sight.direction, light, when, seed);
       };
       colors.before = color(When::kBefore);
-      colors.after = light.IsUnchanged() ? colors.before : color(When::kAfter);
+      const bool mirrors = MirrorIndex(seen.before->face->material) > 0;
+      colors.after = light.IsUnchanged() && !mirrors ? colors.before : color(When::kAfter);
       record.sun += static_cast<float>(light.sun.before / (kGrid * kGrid));
       record.sky_share += static_cast<float>(light.rest->sky.before / (kGrid * kGrid));
     } else {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Photographs of the demo site before and after the building stands: sun, sky, the light that
-// surfaces send each other, and one bounce in glass.
+// Photographs of a site before and after the building stands: sun, sky, the light that
+// surfaces send each other, and one bounce in glass, panes and water.
 #pragma once
 
 #include <vector>

@@ -40,16 +40,16 @@ Sighting WithBuilding(const Place& place, const Ray& ray, const std::optional<Hi
 }  // namespace
 
 Sighting Look(const Place& place, const Ray& ray) {
-  std::optional<Hit> natural = NearestHit(place.campus->natural, ray);
+  std::optional<Hit> natural = NearestHit(place.site->natural, ray);
   const double limit = natural ? natural->distance : kEndless;
-  const std::optional<Hit> beyond = NearestHit(place.campus->scenery, ray, limit);
+  const std::optional<Hit> beyond = NearestHit(place.site->scenery, ray, limit);
   return WithBuilding(place, ray, beyond ? beyond : natural);
 }
 
 Sighting LookForLight(const Place& place, const Ray& ray) {
-  std::optional<Hit> natural = NearestHit(place.campus->natural, ray);
-  if (!natural && ray.direction.dot(place.campus->zenith) <= 0) {
-    natural = NearestHit(place.campus->scenery, ray);
+  std::optional<Hit> natural = NearestHit(place.site->natural, ray);
+  if (!natural && ray.direction.dot(place.site->zenith) <= 0) {
+    natural = NearestHit(place.site->scenery, ray);
   }
   return WithBuilding(place, ray, natural);
 }
@@ -73,9 +73,9 @@ std::vector<Vector3d> CosineDirections(const Vector3d& normal, int strata, uint6
 BeforeAfter VisibleSun(const Place& place, const Vector3d& point, const Vector3d& normal,
                        uint64_t seed) {
   constexpr int kRays = 4;
-  if (normal.dot(place.campus->sun) <= 0) return {};
+  if (!place.site->has_sun || normal.dot(place.site->sun) <= 0) return {};
   Random random(seed, 4, 0);
-  const Eigen::Matrix3d site_from_sun = BasisAbout(place.campus->sun);
+  const Eigen::Matrix3d site_from_sun = BasisAbout(place.site->sun);
   const double reach = std::tan(kSunDiameter / 2), start = random.Uniform();
   BeforeAfter seen;
   for (int i = 0; i < kRays; ++i) {  // a golden-angle spiral over the disc
@@ -83,7 +83,7 @@ BeforeAfter VisibleSun(const Place& place, const Vector3d& point, const Vector3d
     const double turn = 2 * std::numbers::pi * (start + 0.381966011 * i);
     const Vector3d toward(r * std::cos(turn), r * std::sin(turn), 1);
     const Ray ray{point, (site_from_sun * toward).normalized()};
-    if (IsBlocked(place.campus->blockers, ray)) continue;
+    if (IsBlocked(place.site->blockers, ray)) continue;
     seen.before += 1;
     if (!IsBlocked(place.building, ray)) seen.after += 1;
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The campus with the building and the light of one morning, and what single rays meet in it.
+// A site with the building and the light of its day, and what single rays meet in it.
 #pragma once
 
 #include <Eigen/Core>
@@ -7,8 +7,8 @@
 #include <optional>
 #include <vector>
 
-#include "datasets_synthetic/campus.h"
 #include "datasets_synthetic/ray_cast.h"
+#include "datasets_synthetic/site.h"
 #include "datasets_synthetic/spectral_light.h"
 
 namespace insitu::demo {
@@ -18,7 +18,7 @@ inline constexpr double kLift = 1e-6;  // [m], keeps a ray off the face it start
 
 // What one picture needs. The building may be empty.
 struct Place {
-  const Campus* campus;
+  const Site* site;
   Scene building;
   Daylight daylight;
 };
@@ -52,7 +52,7 @@ Sighting LookForLight(const Place& place, const Ray& ray);
 std::vector<Eigen::Vector3d> CosineDirections(const Eigen::Vector3d& normal, int strata,
                                               uint64_t seed);
 
-// The visible share of the sun's disc, 0..1, 0 on surfaces turned away.
+// The visible share of the sun's disc, 0..1, 0 on surfaces turned away and under an overcast sky.
 BeforeAfter VisibleSun(const Place& place, const Eigen::Vector3d& point,
                        const Eigen::Vector3d& normal, uint64_t seed);
 

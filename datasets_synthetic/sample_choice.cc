@@ -74,23 +74,24 @@ class Lottery {
 
 // The sky a little above the skyline, where the haze ends.
 std::optional<ChosenPixel> HorizonPixel(const RenderedView& view, int index) {
-  const int x = view.before.width / 2 + (index - 1) * view.before.width / 5;
+  const int x = view.before.width / 2 + (index % 3 - 1) * view.before.width / 5;
   for (int y = view.before.height - 1 - kMargin; y >= kMargin; --y) {
     if (RecordAt(view, x, y).sky && IsPure(view, x, y)) return ChosenPixel{index, x, y, ""};
   }
   return std::nullopt;
 }
 
-std::vector<ChosenPixel> HazePixels(const std::vector<RenderedView>& renderings) {
+std::vector<ChosenPixel> HazePixels(const std::string& level,
+                                    const std::vector<RenderedView>& renderings) {
   constexpr double kNearest = 14, kFarthest = 260;  // [m]
   constexpr double kBinsPerOctave = 5;
   Lottery lottery;
   ForEachPure(renderings, [&](int view, int x, int y, const PixelRecord& record) {
-    if (!record.face || record.face->name != "lawn") return;
+    if (!record.face || record.face->name != level) return;
     if (record.sun != 1 || record.sky_share < 0.9f) return;
     if (record.distance < kNearest || record.distance > kFarthest) return;
     const int bin = static_cast<int>(kBinsPerOctave * std::log2(record.distance / kNearest));
-    lottery.Enter({bin}, {view, x, y, "lawn"});
+    lottery.Enter({bin}, {view, x, y, level});
   });
   return lottery.Winners();
 }
@@ -99,13 +100,14 @@ std::vector<ChosenPixel> HazePixels(const std::vector<RenderedView>& renderings)
 std::string SideOf(const std::string& face) { return face.substr(face.rfind('_') + 1); }
 
 // One pixel for each kind of light: by side, in the sun or not, by share of the sky, by photograph.
-std::vector<ChosenPixel> DaylightPixels(const std::vector<RenderedView>& renderings) {
+std::vector<ChosenPixel> DaylightPixels(Material material,
+                                        const std::vector<RenderedView>& renderings) {
   constexpr double kFarthest = 100;  // [m]
   constexpr double kSkyBins = 5;
   Lottery lottery;
   std::map<std::string, int> sides;
   ForEachPure(renderings, [&](int view, int x, int y, const PixelRecord& record) {
-    if (!record.face || record.face->material != Material::kConcrete) return;
+    if (!record.face || record.face->material != material) return;
     if (record.distance > kFarthest) return;
     const auto side = sides.try_emplace(SideOf(record.face->name), static_cast<int>(sides.size()));
     const int sky = static_cast<int>(record.sky_share * kSkyBins);
@@ -117,14 +119,14 @@ std::vector<ChosenPixel> DaylightPixels(const std::vector<RenderedView>& renderi
 
 }  // namespace
 
-ChosenSamples ChooseSamples(const std::vector<RenderedView>& renderings) {
+ChosenSamples ChooseSamples(const SurveyPlan& plan, const std::vector<RenderedView>& renderings) {
   ChosenSamples samples;
   for (size_t i = 0; i < renderings.size(); ++i) {
     const auto pixel = HorizonPixel(renderings[i], static_cast<int>(i));
     if (pixel) samples.horizon.push_back(*pixel);
   }
-  samples.haze = HazePixels(renderings);
-  samples.daylight = DaylightPixels(renderings);
+  samples.haze = HazePixels(plan.level, renderings);
+  samples.daylight = DaylightPixels(plan.daylight, renderings);
   return samples;
 }
 

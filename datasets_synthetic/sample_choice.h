@@ -17,15 +17,15 @@ struct ChosenPixel {
 
 struct ChosenSamples {
   std::vector<ChosenPixel> horizon;   // one of each photograph, in the sky
-  std::vector<ChosenPixel> haze;      // lawn in full sun, near to far
-  std::vector<ChosenPixel> daylight;  // concrete in varied light
+  std::vector<ChosenPixel> haze;      // level ground in full sun, near to far
+  std::vector<ChosenPixel> daylight;  // one material in varied light
 };
 
 // Each lies 4 px or more from the edge of its polygon, of a shadow, of a pane or of a target, and
 // is not clipped. Small photographs may yield fewer.
-ChosenSamples ChooseSamples(const std::vector<RenderedView>& renderings);
+ChosenSamples ChooseSamples(const SurveyPlan& plan, const std::vector<RenderedView>& renderings);
 
-// For each surveyed face of the campus the view that shows most of it, -1 if fewer than 100 px.
+// For each surveyed face the view that shows most of it, -1 if fewer than 100 px.
 std::vector<int> BestViews(const Scene& natural, const std::vector<RenderedView>& renderings);
 
 }  // namespace insitu::demo

@@ -93,6 +93,14 @@ Daylight ClearMorning() {
   return daylight;
 }
 
+Daylight Overcast() {
+  Daylight daylight;
+  daylight.sun_irradiance = Spectrum::Zero();
+  daylight.sky_radiance = 0.95 * BlackBody(6500);
+  daylight.extinction = Spectrum::Zero();
+  return daylight;
+}
+
 Spectrum ThroughAir(const Daylight& daylight, const Spectrum& radiance, double distance) {
   const Spectrum transmittance = (-distance * daylight.extinction).exp();
   return daylight.sky_radiance + (radiance - daylight.sky_radiance) * transmittance;

@@ -40,6 +40,9 @@ struct Daylight {
 // so that pale plaster facing the sun stays just below white in the photographs.
 Daylight ClearMorning();
 
+// No sun, a grey sky alike everywhere, air that is too clear to matter over a courtyard.
+Daylight Overcast();
+
 // Radiance after `distance` [m] of air: L = L0 t^d + L_infinity (1 - t^d), [Durisch92, Eq. (2)].
 Spectrum ThroughAir(const Daylight& daylight, const Spectrum& radiance, double distance);
 

@@ -49,6 +49,16 @@ std::array<Surface, kMaterials> MakeSurfaces() {
       {"PAV_GLASS", Ramp(0.035, 0.025), {}, plain, 1.8},
       {"CONE_RED", 0.05 + 0.45 * Step(600, 14), {}, plain},
       {"SPHERE_STONE", 0.20 + 0.27 * Step(545, 35), {}, plain},
+      {"TORUS_BLUE", 0.06 + 0.34 * Bell(460, 38), {}, plain},
+      {"BRIDGE_TIMBER", 0.12 + 0.30 * Step(575, 45), {}, plain},
+      {"BRIDGE_ROOF", Ramp(0.13, 0.15), {}, plain},
+      {"plaster_white", Ramp(0.66, 0.72), {{0.4, 0.02}, {1.7, 0.02}}, plain},
+      {"plaster_pale", Ramp(0.47, 0.52), {{0.4, 0.02}, {1.7, 0.02}}, plain},
+      {"stucco", 0.22 + 0.26 * Step(545, 40), {{0.3, 0.03}, {2.0, 0.04}}, plain},
+      {"paving", Ramp(0.19, 0.23), {{0.04, 0.10}, {0.6, 0.06}}, Eigen::Vector2d(0.6, 0.4)},
+      {"boards", 0.05 + 0.16 * Step(590, 40), {{0.15, 0.10}}, Eigen::Vector2d(2.4, 0.18)},
+      {"pane", Ramp(0.035, 0.030), {}, plain, 1.52},
+      {"water", 0.03 + 0.06 * Bell(560, 60), {}, plain, 1.333},
   }};
 }
 

@@ -17,15 +17,26 @@ enum class Material {
   kBrick,
   kRoofTile,
   kMetal,
-  // Of the new building; these carry no texture.
+  // Of new buildings; these carry no texture.
   kPlaster,
   kSlate,
   kTimber,
   kGlass,
   kRedPaint,
   kSandstone,
+  // Of the paper's examples.
+  kBluePaint,
+  kBridgeTimber,
+  kBridgeRoof,
+  kWhitePlaster,
+  kPalePlaster,
+  kStucco,
+  kPaving,
+  kBoards,
+  kPane,
+  kWater,
 };
-inline constexpr int kMaterials = 13;
+inline constexpr int kMaterials = 23;
 
 // "lawn", "concrete", ... as in survey/materials.json, "PAV_WALL", ... as in the DXF's layers.
 const std::string& MaterialName(Material material);

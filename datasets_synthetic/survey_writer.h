@@ -5,9 +5,9 @@
 #include <filesystem>
 #include <vector>
 
-#include "datasets_synthetic/campus.h"
 #include "datasets_synthetic/field_survey.h"
 #include "datasets_synthetic/sample_choice.h"
+#include "datasets_synthetic/site.h"
 #include "datasets_synthetic/spectral_light.h"
 
 namespace insitu::demo {
@@ -18,22 +18,22 @@ struct MeasuringNoise {
 };
 
 // control_points.csv and observations.csv into `folder`.
-void WriteMeasurements(const std::filesystem::path& folder, const Campus& campus,
+void WriteMeasurements(const std::filesystem::path& folder, const Site& site,
                        const FieldSurvey& survey, const MeasuringNoise& noise);
 
 // polygons.json; `best_views` as BestViews gives it.
-void WritePolygons(const std::filesystem::path& path, const Campus& campus,
+void WritePolygons(const std::filesystem::path& path, const Site& site,
                    const std::vector<int>& best_views);
 
 void WriteDirections(const std::filesystem::path& path, const FieldSurvey& survey);
 
-void WriteSamples(const std::filesystem::path& path, const Campus& campus,
-                  const ChosenSamples& samples, const Daylight& daylight);
+void WriteSamples(const std::filesystem::path& path, const Site& site, const ChosenSamples& samples,
+                  const Daylight& daylight);
 
-// survey/materials.json: everything that stands is matt.
-void WriteNaturalMaterials(const std::filesystem::path& path, const Campus& campus);
+// survey/materials.json: matt, but for panes and water.
+void WriteNaturalMaterials(const std::filesystem::path& path, const Site& site);
 
 // site.json: place, time and film.
-void WriteSiteDescription(const std::filesystem::path& path, const Campus& campus);
+void WriteSiteDescription(const std::filesystem::path& path, const Site& site);
 
 }  // namespace insitu::demo

@@ -53,22 +53,22 @@ void WriteTruthImages(const std::filesystem::path& folder, const View& view,
            Encoding::kSrgb8);
 }
 
-void WriteTruth(const std::filesystem::path& path, const Campus& campus, const FieldSurvey& survey,
+void WriteTruth(const std::filesystem::path& path, const Site& site, const FieldSurvey& survey,
                 const Daylight& daylight) {
   Json::Value root;
-  root["sun"] = VectorJson(campus.sun);
-  root["zenith"] = VectorJson(campus.zenith);
-  root["lens"] = LensJson(campus.views[0].lens);
-  for (const View& view : campus.views) {
+  root["sun"] = VectorJson(site.sun);
+  root["zenith"] = VectorJson(site.zenith);
+  root["lens"] = LensJson(site.views[0].lens);
+  for (const View& view : site.views) {
     Json::Value& pose = root["photos"][view.photo];
-    pose["center"] = VectorJson(campus.origin + view.center);
+    pose["center"] = VectorJson(site.origin + view.center);
     pose["cam_from_world_rotation"] = ToJson(Eigen::MatrixXd(view.cam_from_site));
   }
   root["air"] = AirJson(daylight);
   root["light"]["sun_irradiance_rgb"] = VectorJson(RgbFromSpectrum(daylight.sun_irradiance));
   root["light"]["sky_radiance_rgb"] = VectorJson(RgbFromSpectrum(daylight.sky_radiance));
   for (const SurveyPoint& point : survey.points) {
-    root["points"][point.name] = VectorJson(campus.origin + point.position);
+    root["points"][point.name] = VectorJson(site.origin + point.position);
   }
   WriteJson(path, root);
 }

@@ -15,7 +15,7 @@ void WriteTruthImages(const std::filesystem::path& folder, const View& view,
                       const RenderedView& rendering);
 
 // truth.json: directions, poses, lens, air, light and all points, survey coordinates [m].
-void WriteTruth(const std::filesystem::path& path, const Campus& campus, const FieldSurvey& survey,
+void WriteTruth(const std::filesystem::path& path, const Site& site, const FieldSurvey& survey,
                 const Daylight& daylight);
 
 }  // namespace insitu::demo

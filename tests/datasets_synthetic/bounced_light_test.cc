@@ -38,24 +38,24 @@ Face Wall(Material material) {
 }
 
 struct World {
-  Campus campus;
+  Site site;
   Place place;
 };
 
 std::unique_ptr<World> MakeWorld(const std::vector<Face>& natural,
                                  const std::vector<Face>& building = {}) {
   auto world = std::make_unique<World>();
-  world->campus.zenith = Vector3d::UnitZ();
-  world->campus.sun = Vector3d(-0.5, 0, std::sqrt(0.75));
-  world->campus.natural = world->campus.blockers = MakeScene(natural);
-  world->place = {&world->campus, MakeScene(building), ClearMorning()};
+  world->site.zenith = Vector3d::UnitZ();
+  world->site.sun = Vector3d(-0.5, 0, std::sqrt(0.75));
+  world->site.natural = world->site.blockers = MakeScene(natural);
+  world->place = {&world->site, MakeScene(building), ClearMorning()};
   return world;
 }
 
 Spectrum OpenGroundRadiance(const World& world) {
   const Daylight& light = world.place.daylight;
   return PlainReflectance(kGround) *
-         (world.campus.sun.z() / std::numbers::pi * light.sun_irradiance + light.sky_radiance);
+         (world.site.sun.z() / std::numbers::pi * light.sun_irradiance + light.sky_radiance);
 }
 
 void ExpectNear(const Spectrum& value, const Spectrum& expected, double tolerance) {
@@ -77,14 +77,14 @@ TEST(BouncedLight, OfOpenGroundIsItsClosedFormOnAWall) {
 TEST(BouncedLight, BetweenPlatesIsAGeometricSeries) {
   auto world = MakeWorld({Ground()});
   const double reach = 1e4, height = 4;
-  world->campus.natural = MakeScene({Ground(), FaceOf({{-reach, -reach, height},
-                                                       {-reach, reach, height},
-                                                       {reach, reach, height},
-                                                       {reach, -reach, height}},
-                                                      kWhite)});
+  world->site.natural = MakeScene({Ground(), FaceOf({{-reach, -reach, height},
+                                                     {-reach, reach, height},
+                                                     {reach, reach, height},
+                                                     {reach, -reach, height}},
+                                                    kWhite)});
   const BouncedLight light(world->place, kCoarse);
   const Spectrum sun =
-      world->campus.sun.z() / std::numbers::pi * world->place.daylight.sun_irradiance;
+      world->site.sun.z() / std::numbers::pi * world->place.daylight.sun_irradiance;
   const Spectrum &a = PlainReflectance(kGround), &b = PlainReflectance(kWhite);
   const Spectrum ground = a * sun / (1 - a * b);
   ExpectNear(light.Gather({0, 0, 0.01}, Vector3d::UnitZ(), 20, 1).before, b * ground, 0.02);

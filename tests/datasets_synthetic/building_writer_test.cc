@@ -11,6 +11,7 @@
 
 #include "calibration/files/json_file.h"
 #include "calibration/files/whole_file.h"
+#include "datasets_synthetic/pavilion.h"
 
 namespace insitu::demo {
 namespace {
@@ -42,7 +43,7 @@ std::vector<Group> Groups(const fs::path& path) {
 }
 
 TEST_F(BuildingWriter, WritesEveryKindOfEntityIntoAWellFormedDxf) {
-  const Pavilion pavilion = MakePavilion(0.4);
+  const Building pavilion = MakePavilion(0.4);
   WriteDxf(folder_ / "a.dxf", pavilion, {2600507, 1200318, 431.5});
   std::map<std::string, size_t> entities;
   std::map<std::string, int> handles;
@@ -56,14 +57,15 @@ TEST_F(BuildingWriter, WritesEveryKindOfEntityIntoAWellFormedDxf) {
   EXPECT_EQ(entities["3DFACE"], pavilion.panels.size() + pavilion.window.size());
   EXPECT_EQ(entities["INSERT"], pavilion.windows.size());
   EXPECT_EQ(entities["POLYLINE"], 2u);
-  EXPECT_EQ(entities["VERTEX"], pavilion.ball.vertices.size() + pavilion.ball.triangles.size() +
-                                    pavilion.mast.vertices.size());
+  EXPECT_EQ(entities["VERTEX"], pavilion.bodies[0].vertices.size() +
+                                    pavilion.bodies[0].triangles.size() +
+                                    pavilion.meshes[0].vertices.size());
   EXPECT_EQ(entities["EOF"], 1u);
   for (const auto& [handle, count] : handles) EXPECT_EQ(count, 1) << handle;
 }
 
 TEST_F(BuildingWriter, KeepsSurveyCoordinates) {
-  const Pavilion pavilion = MakePavilion(0.4);
+  const Building pavilion = MakePavilion(0.4);
   const Eigen::Vector3d origin(2600507, 1200318, 431.5);
   WriteDxf(folder_ / "a.dxf", pavilion, origin);
   bool in_entities = false;
@@ -80,7 +82,7 @@ TEST_F(BuildingWriter, KeepsSurveyCoordinates) {
 
 TEST_F(BuildingWriter, DescribesEveryLayer) {
   WriteDxf(folder_ / "a.dxf", MakePavilion(0), Eigen::Vector3d::Zero());
-  WriteBuildingMaterials(folder_ / "materials.json", ClearMorning());
+  WriteBuildingMaterials(folder_ / "materials.json", MakePavilion(0), ClearMorning());
   const JsonNode layers = JsonNode::Load(folder_ / "materials.json").At("layers");
   for (const Group& group : Groups(folder_ / "a.dxf")) {
     if (group.code != 8 || group.value == "0") continue;

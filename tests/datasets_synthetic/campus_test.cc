@@ -24,10 +24,10 @@ const SurveyPoint& PointNamed(const FieldSurvey& survey, const std::string& name
 }
 
 TEST(Campus, HasPlanarPolygonsWithOneNameForOnePlace) {
-  const Campus campus = MakeCampus(960, 640);
+  const Site site = MakeCampus(960, 640);
   std::map<std::string, Vector3d> places;
   std::set<std::string> names;
-  for (const Face& face : campus.natural.faces) {
+  for (const Face& face : site.natural.faces) {
     EXPECT_TRUE(names.insert(face.name).second) << face.name;
     ASSERT_EQ(face.vertices.size(), face.vertex_names.size());
     for (size_t i = 0; i < face.vertices.size(); ++i) {
@@ -40,13 +40,13 @@ TEST(Campus, HasPlanarPolygonsWithOneNameForOnePlace) {
 }
 
 TEST(Campus, TiltsTheZenithAndKeepsTheSunWhereTheAlmanacPutsIt) {
-  const Campus campus = MakeCampus(960, 640);
+  const Site site = MakeCampus(960, 640);
   const double degree = std::numbers::pi / 180;
-  EXPECT_NEAR(std::acos(campus.zenith.z()) / degree, 0.3, 1e-9);
-  EXPECT_NEAR(std::asin(campus.sun.dot(campus.zenith)) / degree, 37.19, 1e-9);
-  EXPECT_NEAR(campus.true_north.dot(campus.zenith), 0, 1e-15);
-  const Vector3d east = campus.true_north.cross(campus.zenith);
-  const double azimuth = std::atan2(campus.sun.dot(east), campus.sun.dot(campus.true_north));
+  EXPECT_NEAR(std::acos(site.zenith.z()) / degree, 0.3, 1e-9);
+  EXPECT_NEAR(std::asin(site.sun.dot(site.zenith)) / degree, 37.19, 1e-9);
+  EXPECT_NEAR(site.true_north.dot(site.zenith), 0, 1e-15);
+  const Vector3d east = site.true_north.cross(site.zenith);
+  const double azimuth = std::atan2(site.sun.dot(east), site.sun.dot(site.true_north));
   EXPECT_NEAR(azimuth / degree, 102.33, 1e-9);
 }
 
@@ -60,7 +60,7 @@ TEST(Campus, PhotographersStandUprightFifteenToThirtyMetresAway) {
 }
 
 TEST(Survey, LeavesNoPointUndetermined) {
-  const FieldSurvey survey = SurveyCampus(MakeCampus(960, 640));
+  const FieldSurvey survey = SurveySite(MakeCampus(960, 640));
   int control = 0, check = 0;
   for (const SurveyPoint& point : survey.points) {
     EXPECT_TRUE(point.role == PointRole::kControl || point.marks.size() >= 2) << point.name;
@@ -73,30 +73,30 @@ TEST(Survey, LeavesNoPointUndetermined) {
 }
 
 TEST(Survey, PairsPointAlongSunAndZenith) {
-  const Campus campus = MakeCampus(960, 640);
-  const FieldSurvey survey = SurveyCampus(campus);
+  const Site site = MakeCampus(960, 640);
+  const FieldSurvey survey = SurveySite(site);
   EXPECT_GE(survey.sun_pairs.size(), 3u);
   EXPECT_GE(survey.zenith_pairs.size(), 5u);
   for (const auto& [object, shadow] : survey.sun_pairs) {
     const Vector3d along =
         PointNamed(survey, object).position - PointNamed(survey, shadow).position;
-    EXPECT_GT(along.normalized().dot(campus.sun), 1 - 1e-12) << object;
+    EXPECT_GT(along.normalized().dot(site.sun), 1 - 1e-12) << object;
     EXPECT_GE(PointNamed(survey, shadow).marks.size(), 2u) << shadow;
   }
   for (const auto& [bottom, top] : survey.zenith_pairs) {
     const Vector3d along = PointNamed(survey, top).position - PointNamed(survey, bottom).position;
-    EXPECT_GT(along.normalized().dot(campus.zenith), 1 - 1e-12) << bottom;
+    EXPECT_GT(along.normalized().dot(site.zenith), 1 - 1e-12) << bottom;
   }
 }
 
 // The back of the gallery's floor slab is behind the slab itself for the man in the middle.
 TEST(Survey, MarksOnlyWhatIsVisible) {
-  const Campus campus = MakeCampus(960, 640);
-  const FieldSurvey survey = SurveyCampus(campus);
-  const View& middle = campus.views[1];
-  EXPECT_TRUE(Shows(campus, middle, PointNamed(survey, "floor_0").position));
-  EXPECT_FALSE(Shows(campus, middle, PointNamed(survey, "floor_2").position));
-  EXPECT_FALSE(Shows(campus, middle, middle.center - middle.cam_from_site.row(2).transpose()));
+  const Site site = MakeCampus(960, 640);
+  const FieldSurvey survey = SurveySite(site);
+  const View& middle = site.views[1];
+  EXPECT_TRUE(Shows(site, middle, PointNamed(survey, "floor_0").position));
+  EXPECT_FALSE(Shows(site, middle, PointNamed(survey, "floor_2").position));
+  EXPECT_FALSE(Shows(site, middle, middle.center - middle.cam_from_site.row(2).transpose()));
 }
 
 // The divergence theorem; positive only if every face looks outwards.
@@ -111,11 +111,11 @@ double Volume(const std::vector<std::vector<Vector3d>>& faces) {
 }
 
 TEST(Pavilion, IsClosedAndFacesOutwards) {
-  const Pavilion pavilion = MakePavilion(0.3);
+  const Building pavilion = MakePavilion(0.3);
   std::vector<std::vector<Vector3d>> boxes, triangles;
   for (const Panel& panel : pavilion.panels) boxes.push_back(panel.corners);
   EXPECT_NEAR(Volume(boxes), 9.6 * 6.2 * 6.2 + 11.0 * 7.6 * 0.35, 1e-9);
-  const Polyhedron& ball = pavilion.ball;
+  const Polyhedron& ball = pavilion.bodies[0];
   for (const Eigen::Vector3i& t : ball.triangles) {
     triangles.push_back({ball.vertices[t[0]], ball.vertices[t[1]], ball.vertices[t[2]]});
   }
@@ -126,13 +126,13 @@ TEST(Pavilion, IsClosedAndFacesOutwards) {
 
 // The glass must look away from the wall that it hangs on.
 TEST(Pavilion, HangsItsPanesOutsideTheWalls) {
-  const Pavilion pavilion = MakePavilion(0.3);
+  const Building pavilion = MakePavilion(0.3);
   Vector3d middle = Vector3d::Zero();
   for (const Placement& window : pavilion.windows) {
     middle += window.position / static_cast<double>(pavilion.windows.size());
   }
   int panes = 0;
-  for (const Face& face : PavilionScene(pavilion).faces) {
+  for (const Face& face : BuildingScene(pavilion).faces) {
     if (face.material != Material::kGlass) continue;
     EXPECT_GT(face.normal.dot(face.center - middle), 1);
     ++panes;

@@ -17,8 +17,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-DemoSiteOptions Small() {
-  DemoSiteOptions options;
+SiteOptions Small() {
+  SiteOptions options;
   options.width = 192;
   options.height = 128;
   options.strata = 3;
@@ -29,7 +29,7 @@ DemoSiteOptions Small() {
 class DemoSite : public testing::Test {
  protected:
   static void SetUpTestSuite() {
-    DemoSiteOptions options = Small();
+    SiteOptions options = Small();
     options.step_done = [] { ++steps_; };
     summary_ = MakeDemoSite(Root() / "site", options);
   }
@@ -40,7 +40,7 @@ class DemoSite : public testing::Test {
   }
 
   const fs::path site_ = Root() / "site";
-  static inline DemoSiteSummary summary_;
+  static inline SiteSummary summary_;
   static inline int steps_ = 0;
 };
 
@@ -107,13 +107,13 @@ TEST_F(DemoSite, ChangesOnlyWhatTheMaskMarks) {
 }
 
 TEST_F(DemoSite, ChoosesSamplesOfTheRightColor) {
-  DemoSiteOptions options;
+  SiteOptions options;
   options.width = 720;  // smaller pictures have no room for 9 x 9 pure pixels on a support
   options.height = 480;
   options.strata = 3;
   options.with_boards = false;
   const fs::path large = Root() / "large";
-  const DemoSiteSummary summary = MakeDemoSite(large, options);
+  const SiteSummary summary = MakeDemoSite(large, options);
   EXPECT_EQ(summary.horizon_samples, 3);
   EXPECT_GE(summary.haze_samples, 10);
   EXPECT_GE(summary.daylight_samples, 12);

@@ -35,7 +35,7 @@ Face Wall(double reach) {
 }
 
 struct World {
-  Campus campus;
+  Site site;
   Place place;
   std::unique_ptr<BouncedLight> light;
 };
@@ -44,10 +44,10 @@ struct World {
 std::unique_ptr<World> MakeWorld(const std::vector<Face>& natural,
                                  const std::vector<Face>& building = {}) {
   auto world = std::make_unique<World>();
-  world->campus.zenith = Vector3d::UnitZ();
-  world->campus.sun = Vector3d(0.5, 0, std::sqrt(0.75));
-  world->campus.natural = world->campus.blockers = MakeScene(natural);
-  world->place = {&world->campus, MakeScene(building), ClearMorning()};
+  world->site.zenith = Vector3d::UnitZ();
+  world->site.sun = Vector3d(0.5, 0, std::sqrt(0.75));
+  world->site.natural = world->site.blockers = MakeScene(natural);
+  world->place = {&world->site, MakeScene(building), ClearMorning()};
   constexpr BouncedLightOptions kCoarse = {1e6, 1, 4};
   world->light = std::make_unique<BouncedLight>(world->place, kCoarse);
   return world;
@@ -125,7 +125,7 @@ TEST(RenderView, GivesOpenGroundItsClosedFormColor) {
   const auto world = MakeWorld({Level(0, kHuge)});
   const RenderedView view = RenderView(*world->light, LookingDown(8));
   const Daylight& light = world->place.daylight;
-  const double cosine = world->campus.sun.z();
+  const double cosine = world->site.sun.z();
   const Spectrum leaving =
       PlainReflectance(Material::kMetal) *
       (light.sun_irradiance * (cosine / std::numbers::pi) + light.sky_radiance);
@@ -159,10 +159,42 @@ TEST(RenderView, MirrorsTheSkyInGlass) {
   const double share = Fresnel(1, MirrorIndex(Material::kGlass));
   const Spectrum diffuse =
       PlainReflectance(Material::kGlass) *
-      (light.sun_irradiance * (world->campus.sun.z() / std::numbers::pi) + light.sky_radiance);
+      (light.sun_irradiance * (world->site.sun.z() / std::numbers::pi) + light.sky_radiance);
   const Vector3d expected =
       RgbFromSpectrum(ThroughAir(light, share * light.sky_radiance + (1 - share) * diffuse, 10));
   EXPECT_LT((view.after.Rgb(4, 4) - expected).norm(), 1e-3 * expected.norm());
+}
+
+// A slab stands where a pane of the site mirrored the sky: the picture loses F of the sky's light.
+TEST(RenderView, MirrorsTheBuildingInAPaneOfTheSite) {
+  const auto world = MakeWorld({Level(0, kHuge, Material::kPane)},
+                               {FaceOf({{-9, -9, 30}, {-9, 9, 30}, {9, 9, 30}, {9, -9, 30}})});
+  world->place.daylight.extinction = Spectrum::Zero();
+  const RenderedView view = RenderView(*world->light, LookingDown(8));
+  const double share = Fresnel(1, MirrorIndex(Material::kPane));
+  const Vector3d mirrored = RgbFromSpectrum(share * world->place.daylight.sky_radiance);
+  const Vector3d lost = view.before.Rgb(4, 4) - view.after.Rgb(4, 4);
+  EXPECT_GT(lost.sum(), 0.8 * mirrored.sum());
+  EXPECT_LT(lost.sum(), 1.2 * mirrored.sum());
+}
+
+TEST(RenderView, ShowsWavesInWhatWaterMirrors) {
+  const auto world = MakeWorld({Level(0, kHuge, Material::kWater), Wall(kHuge)});
+  const RenderedView calm = RenderView(*world->light, LookingDown(16));
+  world->site.waves = {0.3, 1.0, 0.25, 5};
+  const RenderedView rough = RenderView(*world->light, LookingDown(16));
+  double calm_steps = 0, rough_steps = 0;
+  for (int x = 1; x < 16; ++x) {
+    calm_steps += (calm.before.Rgb(x, 3) - calm.before.Rgb(x - 1, 3)).norm();
+    rough_steps += (rough.before.Rgb(x, 3) - rough.before.Rgb(x - 1, 3)).norm();
+  }
+  EXPECT_GT(rough_steps, 2 * calm_steps);
+}
+
+TEST(VisibleSun, IsNoneUnderAnOvercastSky) {
+  const auto world = MakeWorld({Level(0, kHuge)});
+  world->site.has_sun = false;
+  EXPECT_EQ(VisibleSun(world->place, {0, 0, 0.001}, Vector3d::UnitZ(), 1).before, 0);
 }
 
 }  // namespace
