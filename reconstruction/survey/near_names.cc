@@ -75,6 +75,15 @@ std::string DigitsWithin(const std::string& name) {
   for (const char letter : Essence(name)) {
     if (letter >= '0' && letter <= '9') digits += letter;
   }
+  const auto is_sign = [&](size_t i) {
+    const auto letter = static_cast<unsigned char>(name[i]);
+    return !std::isalnum(letter) && letter < 0x80;
+  };
+  for (size_t i = 1; i < name.size(); ++i) {
+    const auto letter = static_cast<unsigned char>(name[i]);
+    const bool is_alone = is_sign(i - 1) && (i + 1 == name.size() || is_sign(i + 1));
+    if (is_alone && std::isalpha(letter)) digits += static_cast<char>(std::tolower(letter));
+  }
   return digits;
 }
 

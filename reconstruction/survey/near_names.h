@@ -20,7 +20,8 @@ std::vector<std::string> NearNames(const std::string& name, const std::set<std::
 // form.
 std::string EssenceOf(const std::string& name);
 
-// The digits of a name, its numbers without leading zeros.
+// What tells the points of a kind apart: the digits of a name, its numbers without leading zeros,
+// and single letters that stand alone behind a sign: "f" in "wall_f_1".
 std::string DigitsWithin(const std::string& name);
 
 // Those of the same digits: 'P8' is another point than 'P7', not a slip of its name.

@@ -31,6 +31,13 @@ TEST(NearNames, AreNotGuessedAmongMany) {
   EXPECT_TRUE(NearNames("same", {"same"}).empty());
 }
 
+TEST(DigitsWithin, CountSingleLettersThatStandAlone) {
+  EXPECT_EQ(DigitsWithin("wall_f_1"), "1f");
+  EXPECT_NE(DigitsWithin("wall_f_1"), DigitsWithin("wall_b_1"));
+  EXPECT_NE(DigitsWithin("roof-L"), DigitsWithin("roof-R"));
+  EXPECT_EQ(DigitsWithin("p 12"), DigitsWithin("P012"));
+}
+
 TEST(DidYouMean, IsAQuestionOrNothing) {
   EXPECT_EQ(DidYouMean("ab1", {"ab2", "ab3"}), "; did you mean 'ab2' or 'ab3'?");
   EXPECT_EQ(DidYouMean("ab1", {"ab2", "ab3", "ab4"}), "; did you mean 'ab2', 'ab3' or 'ab4'?");
