@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <map>
 #include <numeric>
 #include <tuple>
 #include <utility>
@@ -169,6 +170,7 @@ class BodyCheck {
       }
       Meet(&edges[begin], end - begin);
     }
+    OpenAtCrowdedEdges();
     Gather();
     Mend();
   }
@@ -181,10 +183,43 @@ class BodyCheck {
       open_.push_back(edges[0].triangle);
     } else if (count > 2) {
       ++report_.crowded_edges;
-      if (count % 2 == 1) open_.push_back(edges[0].triangle);
+      MeetInCrowd(edges, count);
     } else if (!bodies_.Join(edges[0].triangle, edges[1].triangle,
                              edges[0].ascending == edges[1].ascending)) {
       one_sided_.push_back(edges[0].triangle);
+    }
+  }
+
+  // Where bodies touch, the two faces of one name belong together.
+  void MeetInCrowd(const HalfEdge* edges, size_t count) {
+    constexpr size_t kMostPaired = 64;  // a fan of thousands would take its square
+    std::vector<int> faces;
+    for (size_t i = 0; i < count; ++i) {
+      faces.push_back(edges[i].triangle);
+      size_t partner = count, alike = 0;
+      for (size_t j = 0; j < count && count <= kMostPaired; ++j) {
+        if (j == i || SurfaceOf(edges[j]) != SurfaceOf(edges[i])) continue;
+        partner = j;
+        ++alike;
+      }
+      if (alike != 1 || partner < i) continue;
+      const bool turned = edges[i].ascending == edges[partner].ascending;
+      if (!bodies_.Join(edges[i].triangle, edges[partner].triangle, turned)) {
+        one_sided_.push_back(edges[i].triangle);
+      }
+    }
+    crowds_.push_back(std::move(faces));
+  }
+  int SurfaceOf(const HalfEdge& edge) const { return mesh_.surface_of_triangle[edge.triangle]; }
+
+  // A body with an odd number of faces at such an edge is open there.
+  void OpenAtCrowdedEdges() {
+    for (const std::vector<int>& faces : crowds_) {
+      std::map<int, int> count_of_body;
+      for (const int face : faces) ++count_of_body[bodies_.Find(face).body];
+      for (const auto& [body, count] : count_of_body) {
+        if (count % 2 == 1) open_.push_back(body);
+      }
     }
   }
 
@@ -244,6 +279,7 @@ class BodyCheck {
   Bodies bodies_;
   std::vector<BodyState> state_;
   std::vector<int> open_, one_sided_;
+  std::vector<std::vector<int>> crowds_;  // faces at an edge of more than two
 };
 
 }  // namespace
