@@ -34,9 +34,13 @@ std::string Listed(const std::map<std::string, int>& counts) {
 }
 
 std::string Listed(const std::set<std::string>& names) {
+  constexpr size_t kMost = 30;
   std::string list;
-  for (const std::string& name : names) list += (list.empty() ? "\"" : ", \"") + name + "\"";
-  return list;
+  size_t listed = 0;
+  for (auto name = names.begin(); name != names.end() && listed < kMost; ++name, ++listed) {
+    list += (list.empty() ? "\"" : ", \"") + *name + "\"";
+  }
+  return listed == names.size() ? list : list + Formatted(" and %zu more", names.size() - listed);
 }
 
 // What a surface that materials.json does not list is called in messages and in the description.
@@ -317,9 +321,12 @@ Conversion Converter::Finish() {
   environment.triangles = std::move(mesh_.triangles);
   environment.corner_normals = std::move(mesh_.corner_normals);
   environment.corner_uvs = std::move(mesh_.corner_uvs);
-  const bool names_unit = std::ranges::all_of(
-      conversion_.models, [](const ModelReport& m) { return m.metres_per_unit.has_value(); });
-  for (const std::string& suspicion : SuspicionsOf(conversion_.box, SiteBox(site_), names_unit)) {
+  std::optional<double> unit;  // of the first model that names one, as it was taken
+  for (const ModelReport& model : conversion_.models) {
+    const auto& placed = model.placement.metres_per_unit;
+    if (!unit) unit = placed ? placed : model.metres_per_unit;
+  }
+  for (const std::string& suspicion : SuspicionsOf(conversion_.box, SiteBox(site_), unit)) {
     Warn(place_, suspicion);
   }
   const fs::path lights = site_.building() / "lights.json";

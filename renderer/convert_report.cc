@@ -257,7 +257,11 @@ std::string Conversion::BriefReport() const {
     report +=
         "  and " + std::to_string(largest.size() - kMostElements) + " smaller ones: --report\n";
   }
-  return report + WarningLines(warnings);
+  constexpr std::ptrdiff_t kMostWarnings = 60;
+  if (std::ssize(warnings) <= kMostWarnings) return report + WarningLines(warnings);
+  const auto left = std::to_string(std::ssize(warnings) - kMostWarnings);
+  return report + WarningLines({warnings.begin(), warnings.begin() + kMostWarnings}) + "  and " +
+         left + " more warnings: --report\n";
 }
 
 void WriteConvertReport(const std::filesystem::path& path, const Conversion& conversion) {

@@ -157,6 +157,8 @@ std::string Composed(const std::string& utf8) {
   return text && U_SUCCESS(status) ? Utf8(Normalized(*text, form)) : utf8;
 }
 
+bool IsUtf8(const std::string& text) { return IsAscii(text) || Utf16(text).has_value(); }
+
 std::string InCapitals(const std::string& utf8) {
   std::string capitals = utf8;
   if (IsAscii(utf8)) {

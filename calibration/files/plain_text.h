@@ -20,6 +20,8 @@ std::string PlainText(const std::filesystem::path& path, std::string bytes);
 // as it is.
 std::string Composed(const std::string& utf8);
 
+bool IsUtf8(const std::string& text);
+
 // Composed and in capitals, for names that differ in case alone ("Wände", "WÄNDE").
 std::string InCapitals(const std::string& utf8);
 

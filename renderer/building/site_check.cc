@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
-#include <string_view>
 
 #include "calibration/files/csv_file.h"
 #include "calibration/files/wording.h"
@@ -16,18 +15,38 @@ namespace {
 using Eigen::AlignedBox3d;
 using Eigen::Vector3d;
 
-struct Factor {
-  double value;  // the model's coordinates are this many times too large
-  const char* meaning;
+struct DrawnUnit {
+  double metres;
+  const char* name;
 };
 
-constexpr Factor kFactors[] = {
-    {1000, "millimetres taken as metres"},  {1 / 1000.0, "metres taken as millimetres"},
-    {304.8, "millimetres taken as feet"},   {1 / 304.8, "feet taken as millimetres"},
-    {25.4, "millimetres taken as inches"},  {1 / 25.4, "inches taken as millimetres"},
-    {1 / 0.0254, "inches taken as metres"}, {0.0254, "metres taken as inches"},
-    {1 / 0.3048, "feet taken as metres"},   {0.3048, "metres taken as feet"},
-    {100, "centimetres taken as metres"},   {1 / 100.0, "metres taken as centimetres"}};
+constexpr DrawnUnit kUnits[] = {{1e-3, "millimetres"},
+                                {1e-2, "centimetres"},
+                                {1, "metres"},
+                                {0.0254, "inches"},
+                                {0.3048, "feet"}};
+
+// The model's coordinates are `value` times too large.
+struct Factor {
+  double value;
+  std::string meaning;
+};
+
+// What a model may have been drawn in, whose coordinates were taken for `taken` metres each.
+std::vector<Factor> FactorsOf(double taken) {
+  const auto is_taken = [&](const DrawnUnit& unit) {
+    return std::abs(unit.metres / taken - 1) < 1e-4;  // feet of both kinds
+  };
+  const auto known = std::ranges::find_if(kUnits, is_taken);
+  const std::string as =
+      known == std::end(kUnits) ? Number("units of %g m", taken) : std::string(known->name);
+  std::vector<Factor> factors;
+  for (const DrawnUnit& unit : kUnits) {
+    if (is_taken(unit)) continue;
+    factors.push_back({taken / unit.metres, std::string(unit.name) + " taken as " + as});
+  }
+  return factors;
+}
 
 // Sizes a planned building may have, from a kiosk to a district [m].
 constexpr double kSmallest = 1, kLargest = 3000;
@@ -56,14 +75,13 @@ AlignedBox3d Scaled(const AlignedBox3d& box, double factor) {
 // The factor that puts the building onto the site, or else brings its size to the likely one
 // nearest to a tenth of the site.
 std::optional<Factor> FactorOff(const AlignedBox3d& building, const AlignedBox3d& site,
-                                bool names_unit) {
+                                std::optional<double> metres_per_unit) {
   const double size = building.diagonal().norm();
   std::optional<Factor> best;
   double best_misfit = 0;
-  for (const Factor& factor : kFactors) {
-    if (!names_unit && !std::string_view(factor.meaning).ends_with("taken as metres")) continue;
+  for (const Factor& factor : FactorsOf(metres_per_unit.value_or(1))) {
     const AlignedBox3d box = Scaled(building, 1 / factor.value);
-    if (!IsLikely(size / factor.value, site, names_unit)) continue;
+    if (!IsLikely(size / factor.value, site, metres_per_unit.has_value())) continue;
     const bool lands = !site.isEmpty() && IsFar(building, site) && !IsFar(box, site);
     const double usual = site.isEmpty() ? 30 : site.diagonal().norm() / 3;
     const double misfit = std::abs(std::log(size / factor.value / usual)) - (lands ? 100 : 0);
@@ -92,7 +110,7 @@ AlignedBox3d SiteBox(const SitePaths& site) {
 }
 
 std::vector<std::string> SuspicionsOf(const AlignedBox3d& building, const AlignedBox3d& site,
-                                      bool names_unit) {
+                                      std::optional<double> metres_per_unit) {
   std::vector<std::string> suspicions;
   if (building.isEmpty()) return suspicions;
   const double size = building.diagonal().norm();
@@ -102,14 +120,14 @@ std::vector<std::string> SuspicionsOf(const AlignedBox3d& building, const Aligne
         Number("the building lies %.0f m from the site", Distance(building, site)) +
         Number(" (%.0f m across): see placement.json", site.diagonal().norm()));
   }
-  const bool is_likely = IsLikely(size, site, names_unit);
+  const bool is_likely = IsLikely(size, site, metres_per_unit.has_value());
   if (!is_likely) {
     suspicions.push_back(
         Number("the building is %.4g m across", size) +
         (site.isEmpty() ? "" : Number(", the site %.4g m", site.diagonal().norm())));
   }
   if (suspicions.empty()) return suspicions;
-  const std::optional<Factor> factor = FactorOff(building, site, names_unit);
+  const std::optional<Factor> factor = FactorOff(building, site, metres_per_unit);
   const bool lands = factor && far && !IsFar(Scaled(building, 1 / factor->value), site);
   if (factor && (lands || !is_likely)) {
     suspicions.push_back(Number("its unit looks wrong by a factor of %.5g: ", factor->value) +

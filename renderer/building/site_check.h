@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,10 +16,11 @@ namespace insitu {
 Eigen::AlignedBox3d SiteBox(const SitePaths& site);
 
 // What is suspicious, a sentence each: a building far from the site, or one whose size or place
-// would be right if its unit were another (factors 10, 12, 25.4, 39.37, 100, 304.8, 1000 and their
-// inverses). `site` may be empty: then only sizes that no building has are named. Of files that
-// name no unit, which are taken as metres, only units so mistaken are thought of.
+// would be right if its unit were another (mm, cm, m, inches, feet) than `metres_per_unit`, that of
+// its file; nullopt: it names none and was taken as metres, and is suspicious if it is larger than
+// the site. `site` may be empty: then only sizes that no building has are named.
 std::vector<std::string> SuspicionsOf(const Eigen::AlignedBox3d& building,
-                                      const Eigen::AlignedBox3d& site, bool names_unit = true);
+                                      const Eigen::AlignedBox3d& site,
+                                      std::optional<double> metres_per_unit);
 
 }  // namespace insitu

@@ -93,7 +93,7 @@ Model ModelIn(const fs::path& path, const fs::path& stem) {
   const JsonNode root = JsonNode::Load(stem.string() + ".json");
   Model model;
   model.format = root.At("schema").Text();
-  model.metres_per_unit = 1;  // web-ifc has turned it into metres
+  if (root.At("has_unit").Boolean()) model.metres_per_unit = 1;  // web-ifc has made metres of it
   for (const JsonNode& node : root.At("surfaces").Items()) {
     model.mesh.surfaces.push_back(NamesOf(node));
   }

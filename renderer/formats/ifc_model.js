@@ -229,6 +229,10 @@ class Reader extends Names {
     }
     return stated;
   }
+  hasLengthUnit() {
+    return this.lines('IfcUnitAssignment').some((one) => (one.Units || []).some((unit) =>
+      valueOf(this.line(unit.value).UnitType) === 'LENGTHUNIT'));
+  }
   // Of the project's units, else of any of the kind.
   unitOf(type, power) {
     const assigned = this.lines('IfcUnitAssignment').flatMap((one) => one.Units || []).map((one) => this.line(one.value));
@@ -333,7 +337,7 @@ async function main() {
   const warnings = [...reader.warnings, ...whatWasSaid()];
   const counts = {vertices: reader.vertices.length / 3, triangles: reader.triangles.length / 4};
   fs.writeFileSync(out + '.json', JSON.stringify(
-    {schema: api.GetModelSchema(model), ...counts, surfaces, spheres, entities, skipped, warnings, map}));
+    {schema: api.GetModelSchema(model), has_unit: reader.hasLengthUnit(), ...counts, surfaces, spheres, entities, skipped, warnings, map}));
 }
 
 main().catch((error) => {

@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "calibration/files/error.h"
+#include "calibration/files/plain_text.h"
 #include "calibration/files/whole_file.h"
 #include "renderer/foreign/collada_model.h"
 #include "renderer/foreign/ply_model.h"
@@ -44,6 +45,15 @@ bool IsUtf16File(const std::filesystem::path& path) {
   return IsUtf16(std::string_view(head, static_cast<size_t>(file.gcount())));
 }
 
+// By lines, since files are large; a faulty line's bytes are of a code page.
+bool IsUtf8File(const std::filesystem::path& path) {
+  TextLines lines(path);
+  for (std::string line; lines.Next(&line);) {
+    if (!IsUtf8(line)) return false;
+  }
+  return true;
+}
+
 std::string Renamed(std::string text, const std::string& from, const std::string& to) {
   for (size_t at = text.find(from); at != text.npos; at = text.find(from, at + to.size())) {
     text.replace(at, from.size(), to);
@@ -52,12 +62,11 @@ std::string Renamed(std::string text, const std::string& from, const std::string
 }
 
 // DXF and IFC are read piece by piece and name no files: a copy in UTF-8 does.
-Model ReadCopy(const std::filesystem::path& path,
+Model ReadCopy(const std::filesystem::path& path, const std::string& text,
                const std::function<Model(const std::filesystem::path&)>& read) {
-  if (!IsUtf16File(path)) return read(path);
   const TemporaryFolder folder;
   const std::filesystem::path copy = folder.path() / path.filename();
-  WriteWhole(copy, DecodedText(ReadWhole(path)));
+  WriteWhole(copy, text);
   try {
     Model model = read(copy);
     for (std::string& warning : model.warnings) {
@@ -72,6 +81,20 @@ Model ReadCopy(const std::filesystem::path& path,
   }
 }
 
+Model ReadDxfFile(const std::filesystem::path& path, const DxfOptions& options) {
+  if (!IsUtf16File(path)) return ReadDxf(path, options);
+  return ReadCopy(path, DecodedText(ReadWhole(path)),
+                  [&](const auto& file) { return ReadDxf(file, options); });
+}
+
+// Old exporters write names in Windows-1252, where IFC has ASCII and its own codes.
+Model ReadIfcFile(const std::filesystem::path& path, int seconds) {
+  if (!IsUtf16File(path) && IsUtf8File(path)) return ReadIfc(path, seconds);
+  std::string text = DecodedText(ReadWhole(path));
+  if (!IsUtf8(text)) text = PlainText(path, std::move(text));
+  return ReadCopy(path, text, [&](const auto& file) { return ReadIfc(file, seconds); });
+}
+
 }  // namespace
 
 void ImportOptions::Check() const {
@@ -83,9 +106,9 @@ Model ReadModel(const std::filesystem::path& path, const ImportOptions& options)
   options.Check();
   switch (RequireModelFormat(path)) {
     case ModelFormat::kDxf:
-      return ReadCopy(path, [&](const auto& file) { return ReadDxf(file, options.dxf); });
+      return ReadDxfFile(path, options.dxf);
     case ModelFormat::kIfc:
-      return ReadCopy(path, [&](const auto& file) { return ReadIfc(file, options.seconds); });
+      return ReadIfcFile(path, options.seconds);
     case ModelFormat::kGltf:
       return ReadGltfFile(path, options.seconds);
     case ModelFormat::kCollada:

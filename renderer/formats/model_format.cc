@@ -96,7 +96,8 @@ std::optional<ModelFormat> DetectModelFormat(const fs::path& path) {
   const std::string_view text =
       Trimmed(head.substr(std::min(head.find_first_not_of(" \t\r\n"), head.size())));
   if (head.starts_with("glTF")) return ModelFormat::kGltf;
-  if (text.starts_with("ISO-10303-21")) return ModelFormat::kIfc;
+  const bool is_step = text.starts_with("/*") && text.find("ISO-10303-21;") != text.npos;
+  if (is_step || text.starts_with("ISO-10303-21")) return ModelFormat::kIfc;
   if (text.starts_with("{") && IsObjectsFile(path, head)) return ModelFormat::kObjects;
   if (text.starts_with("{") && IsGltf(path, head)) return ModelFormat::kGltf;
   if (text.starts_with("<") && head.find("<COLLADA") != head.npos) return ModelFormat::kCollada;

@@ -7,6 +7,8 @@
 #include <unordered_map>
 #include <vector>
 
+#include "renderer/mesh/near_vertices.h"
+
 namespace insitu {
 namespace {
 
@@ -30,14 +32,19 @@ void AddEdge(int from, int to, MeasureSums* sums) {
   if (edge->second == 0) sums->edges.erase(edge);
 }
 
-void AddTriangle(const ModelMesh& mesh, const Eigen::Vector3i& triangle, MeasureSums* sums) {
+// `first` tells which vertices are one.
+void AddTriangle(const ModelMesh& mesh, const Eigen::Vector3i& triangle,
+                 const std::vector<int>& first, MeasureSums* sums) {
   if (!sums->origin) sums->origin = mesh.vertices[triangle[0]];
   const Vector3d a = mesh.vertices[triangle[0]] - *sums->origin;
   const Vector3d b = mesh.vertices[triangle[1]] - *sums->origin;
   const Vector3d c = mesh.vertices[triangle[2]] - *sums->origin;
   sums->area += (b - a).cross(c - a).norm() / 2;
   sums->volume += a.dot(b.cross(c)) / 6;
-  for (int i = 0; i < 3; ++i) AddEdge(triangle[i], triangle[(i + 1) % 3], sums);
+  for (int i = 0; i < 3; ++i) {
+    const int from = first[triangle[i]], to = first[triangle[(i + 1) % 3]];
+    if (from != to) AddEdge(from, to, sums);
+  }
 }
 
 void AddSphere(const ModelSphere& sphere, MeasureSums* sums) {
@@ -52,8 +59,9 @@ std::map<std::string, ElementMeasures> MeasuresByLayer(const ModelMesh& mesh) {
   std::map<std::string, MeasureSums> sums;
   std::vector<MeasureSums*> sums_of_surface;
   for (const SurfaceNames& names : mesh.surfaces) sums_of_surface.push_back(&sums[names.layer]);
+  const std::vector<int> first = FirstOfNear(mesh.vertices, kJoinTolerance);
   for (size_t t = 0; t < mesh.triangles.size(); ++t) {
-    AddTriangle(mesh, mesh.triangles[t], sums_of_surface[mesh.surface_of_triangle[t]]);
+    AddTriangle(mesh, mesh.triangles[t], first, sums_of_surface[mesh.surface_of_triangle[t]]);
   }
   for (const ModelSphere& sphere : mesh.spheres) AddSphere(sphere, sums_of_surface[sphere.surface]);
   std::map<std::string, ElementMeasures> elements;

@@ -15,7 +15,7 @@ struct ElementMeasures {
   std::optional<double> volume;  // [m3]; nullopt: open, some edge has no face on its other side
 };
 
-// By layer. Faces must be mended (MendSolids): their vertices are compared by index.
+// By layer. Faces must be mended (MendSolids); their vertices are one within kJoinTolerance.
 std::map<std::string, ElementMeasures> MeasuresByLayer(const ModelMesh& mesh);
 
 // Of all of them; the volume is there if each has one.

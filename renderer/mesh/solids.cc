@@ -3,93 +3,21 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <cstdint>
+#include <map>
 #include <numeric>
-#include <optional>
 #include <tuple>
 #include <utility>
 
 #include "renderer/mesh/face_triangles.h"
+#include "renderer/mesh/near_vertices.h"
 
 namespace insitu {
 namespace {
 
 using Eigen::Vector3d;
 using Eigen::Vector3i;
-
-uint64_t Mixed(uint64_t hash, uint64_t value) {
-  hash ^= value + 0x9e3779b97f4a7c15u + (hash << 6) + (hash >> 2);
-  hash *= 0xff51afd7ed558ccdu;
-  return hash ^ hash >> 32;
-}
-
-// Indices by the hash of their key; the caller compares keys. Open addressing takes half the memory
-// of std::unordered_map and a fraction of its time, which 5 million triangles need.
-class IndexTable {
- public:
-  explicit IndexTable(size_t count) : slots_(std::bit_ceil(2 * count + 16), kFree) {}
-
-  template <typename Equal>
-  std::optional<int> Find(uint64_t hash, const Equal& equal) const {
-    for (size_t slot = hash & Mask(); slots_[slot] != kFree; slot = (slot + 1) & Mask()) {
-      if (equal(slots_[slot])) return slots_[slot];
-    }
-    return std::nullopt;
-  }
-  void Add(uint64_t hash, int index) {
-    size_t slot = hash & Mask();
-    while (slots_[slot] != kFree) slot = (slot + 1) & Mask();
-    slots_[slot] = index;
-  }
-
- private:
-  static constexpr int kFree = -1;
-  size_t Mask() const { return slots_.size() - 1; }
-  std::vector<int> slots_;
-};
-
-// For each vertex the first of those with equal coordinates.
-std::vector<int> FirstOfEqual(const std::vector<Vector3d>& vertices) {
-  IndexTable table(vertices.size());
-  std::vector<int> first(vertices.size());
-  for (size_t i = 0; i < vertices.size(); ++i) {
-    uint64_t hash = 0;
-    for (const double x : vertices[i]) hash = Mixed(hash, std::bit_cast<uint64_t>(x + 0.0));
-    const auto found = table.Find(hash, [&](int j) { return vertices[j] == vertices[i]; });
-    first[i] = found.value_or(static_cast<int>(i));
-    if (!found) table.Add(hash, static_cast<int>(i));
-  }
-  return first;
-}
-
-// For each vertex the first of those nearer than `tolerance`.
-std::vector<int> FirstOfNear(const std::vector<Vector3d>& vertices, double tolerance) {
-  IndexTable table(vertices.size());
-  std::vector<int> first(vertices.size());
-  const auto hash_at = [cell = 4 * tolerance](const Vector3d& place) {
-    uint64_t hash = 0;
-    for (const double x : place) {
-      hash = Mixed(hash, static_cast<uint64_t>(static_cast<int64_t>(std::floor(x / cell))));
-    }
-    return hash;
-  };
-  for (size_t i = 0; i < vertices.size(); ++i) {
-    const auto is_near = [&](int j) { return (vertices[j] - vertices[i]).norm() <= tolerance; };
-    std::optional<int> found;
-    uint64_t before = 0;
-    for (int side = 0; side < 8 && !found; ++side) {  // the cells that the tolerance reaches into
-      const Vector3d reach(side & 1 ? 1 : -1, side & 2 ? 1 : -1, side & 4 ? 1 : -1);
-      const uint64_t hash = hash_at(vertices[i] + tolerance * reach);
-      if (side == 0 || hash != before) found = table.Find(hash, is_near);
-      before = hash;
-    }
-    first[i] = found.value_or(static_cast<int>(i));
-    if (!found) table.Add(hash_at(vertices[i]), static_cast<int>(i));
-  }
-  return first;
-}
 
 // Keeps the triangles for which `keep` is set, with what belongs to them.
 void KeepTriangles(const std::vector<bool>& keep, ModelMesh* mesh) {
@@ -242,6 +170,7 @@ class BodyCheck {
       }
       Meet(&edges[begin], end - begin);
     }
+    OpenAtCrowdedEdges();
     Gather();
     Mend();
   }
@@ -254,10 +183,43 @@ class BodyCheck {
       open_.push_back(edges[0].triangle);
     } else if (count > 2) {
       ++report_.crowded_edges;
-      if (count % 2 == 1) open_.push_back(edges[0].triangle);
+      MeetInCrowd(edges, count);
     } else if (!bodies_.Join(edges[0].triangle, edges[1].triangle,
                              edges[0].ascending == edges[1].ascending)) {
       one_sided_.push_back(edges[0].triangle);
+    }
+  }
+
+  // Where bodies touch, the two faces of one name belong together.
+  void MeetInCrowd(const HalfEdge* edges, size_t count) {
+    constexpr size_t kMostPaired = 64;  // a fan of thousands would take its square
+    std::vector<int> faces;
+    for (size_t i = 0; i < count; ++i) {
+      faces.push_back(edges[i].triangle);
+      size_t partner = count, alike = 0;
+      for (size_t j = 0; j < count && count <= kMostPaired; ++j) {
+        if (j == i || SurfaceOf(edges[j]) != SurfaceOf(edges[i])) continue;
+        partner = j;
+        ++alike;
+      }
+      if (alike != 1 || partner < i) continue;
+      const bool turned = edges[i].ascending == edges[partner].ascending;
+      if (!bodies_.Join(edges[i].triangle, edges[partner].triangle, turned)) {
+        one_sided_.push_back(edges[i].triangle);
+      }
+    }
+    crowds_.push_back(std::move(faces));
+  }
+  int SurfaceOf(const HalfEdge& edge) const { return mesh_.surface_of_triangle[edge.triangle]; }
+
+  // A body with an odd number of faces at such an edge is open there.
+  void OpenAtCrowdedEdges() {
+    for (const std::vector<int>& faces : crowds_) {
+      std::map<int, int> count_of_body;
+      for (const int face : faces) ++count_of_body[bodies_.Find(face).body];
+      for (const auto& [body, count] : count_of_body) {
+        if (count % 2 == 1) open_.push_back(body);
+      }
     }
   }
 
@@ -317,6 +279,7 @@ class BodyCheck {
   Bodies bodies_;
   std::vector<BodyState> state_;
   std::vector<int> open_, one_sided_;
+  std::vector<std::vector<int>> crowds_;  // faces at an edge of more than two
 };
 
 }  // namespace

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "renderer/mesh/model.h"
+#include "renderer/mesh/near_vertices.h"
 
 namespace insitu {
 
@@ -21,6 +22,6 @@ struct SolidsReport {
 
 // Vertices of equal coordinates become one; whether faces meet is judged with `tolerance` [m].
 // Closed bodies come out with their faces counter-clockwise seen from outside.
-SolidsReport MendSolids(ModelMesh* mesh, double tolerance = 1e-5);
+SolidsReport MendSolids(ModelMesh* mesh, double tolerance = kJoinTolerance);
 
 }  // namespace insitu

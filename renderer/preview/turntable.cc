@@ -133,14 +133,16 @@ std::string LayerBoxes(const TurntableLayers& layers) {
 
 constexpr char kTurntable[] = R"(<style>
  #turn { width: 100%; height: 34rem; border: 1px solid #ddd; touch-action: none; }
- #turn-layers { max-height: 9rem; overflow: auto; columns: 14rem; }
- #turn-layers label { display: block; }
+ #turn-layers { max-height: 12rem; overflow-y: auto; display: grid;
+  grid-template-columns: repeat(auto-fill, minmax(16rem, 1fr)); column-gap: 1rem; }
+ #turn-layers label { overflow-wrap: anywhere; }
 </style>
 <canvas id="turn" aria-label="the building, to be turned with the mouse"></canvas>
 <p id="turn-told" role="status">Drag to turn, the right button moves, the wheel enlarges; click a point for its
  place, a second one for the distance.</p>
 <p><label><input type="checkbox" id="turn-edges" checked> open edges in red</label>
- <label><input type="checkbox" id="turn-backs"> backs of faces in magenta</label></p>
+ <label><input type="checkbox" id="turn-backs"> backs of faces in magenta</label>
+ <label><input type="checkbox" id="turn-all" checked> all layers</label></p>
 )";
 
 }  // namespace

@@ -64,12 +64,22 @@
   onChange('turn-backs', (shown) => {
     for (const back of backs) back.material.color.copy(shown ? new THREE.Color(0xd000a0) : back.own);
   });
-  for (const box of document.querySelectorAll('[data-layer]')) {
+  const boxes = document.querySelectorAll('[data-layer]');
+  const show = (box) => {
+    for (const mesh of solids) if (mesh.layer === Number(box.dataset.layer)) mesh.visible = box.checked;
+  };
+  for (const box of boxes) {
     box.addEventListener('change', () => {
-      for (const mesh of solids) if (mesh.layer === Number(box.dataset.layer)) mesh.visible = box.checked;
+      show(box);
       draw();
     });
   }
+  onChange('turn-all', (shown) => {
+    for (const box of boxes) {
+      box.checked = shown;
+      show(box);
+    }
+  });
 
   // Two clicks measure; a drag turns and is none.
   let pressed = null;

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "calibration/files/error.h"
+#include "renderer/formats/model_file.h"
 #include "tests/calibration/files/scratch_folder.h"
 #include "tests/renderer/mesh/mesh_measures.h"
 
@@ -122,6 +123,26 @@ TEST(IfcModel, StatedAreasAreHeldAgainstTheFaces) {
   EXPECT_THAT(off[0], HasSubstr("elements that state their surface area have another"));
   EXPECT_THAT(off[0], HasSubstr("14.121 m2, stated 25.000"));
   EXPECT_THAT(warnings("NetSideArea", "2.787"), testing::ElementsAre(HasSubstr("5.574 m2")));
+}
+
+TEST(IfcModel, NoUnitAndNamesInACodePage) {
+  if (!WebIfcFolder()) GTEST_SKIP() << "web-ifc is not there: scripts/setup fetches it";
+  const ScratchFolder folder;
+  std::string text = kBox;
+  EXPECT_EQ(ReadIfc(folder.Write("a.ifc", text), 60).metres_per_unit, 1);
+  text.replace(text.find("IFCUNITASSIGNMENT((#7))"), 23, "IFCUNITASSIGNMENT(())");
+  text.replace(text.find("Au\\X2\\00DF\\X0\\enwand"), 20,
+               "Au\xDF"
+               "enwand");
+  for (const bool is_wide : {false, true}) {
+    std::string wide = "\xFF\xFE";
+    for (const char c : text) wide += {c, '\0'};
+    const Model model = ReadModel(folder.Write("a.ifc", is_wide ? wide : text));
+    EXPECT_EQ(model.metres_per_unit, std::nullopt);
+    EXPECT_EQ(model.mesh.surfaces.at(0).layer,
+              "IfcWall_Au\xC3\x9F"
+              "enwand");
+  }
 }
 
 // Storey and presentation layer are its block; materials of sets and of types have names.

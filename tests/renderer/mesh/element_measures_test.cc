@@ -29,6 +29,18 @@ TEST(ElementMeasures, ClosedElementsHaveAVolume) {
   EXPECT_NEAR(Sum(elements).volume.value(), 1.0 / 6, 1e-9);
 }
 
+// As kernels give them that place each face on its own.
+TEST(ElementMeasures, CornersThatRoundingPartedAreOne) {
+  ModelMesh mesh = Tetrahedron();
+  for (int t = 0; t < 4; ++t) {
+    for (int& corner : mesh.triangles[t]) {
+      mesh.vertices.emplace_back(mesh.vertices[corner] + Eigen::Vector3d::Constant(1e-8 * t));
+      corner = static_cast<int>(mesh.vertices.size()) - 1;
+    }
+  }
+  EXPECT_NEAR(MeasuresByLayer(mesh).at("tetra").volume.value(), 1.0 / 6, 1e-6);
+}
+
 TEST(ElementMeasures, OpenOnesHaveNone) {
   ModelMesh mesh = Tetrahedron();
   mesh.triangles.pop_back();

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -144,6 +146,29 @@ TEST(OverlaidFaces, BoxesThatStandFlushAreLeftAlone) {
   Append(small, &boxes);
   MendSolids(&boxes);
   EXPECT_EQ(RaiseOverlaidFaces(&boxes), 0);
+}
+
+// A tetrahedron on whose base others stand by their edges: its base hangs by crowded edges alone.
+TEST(Solids, FacesAtCrowdedEdgesStayWithTheirBody) {
+  ModelMesh mesh;
+  mesh.surfaces.resize(2);
+  mesh.surfaces[1].layer = "fins";
+  mesh.vertices = {{5, -3, 0}, {1, 1, 1}, {2, 1, 1}, {1, 2, 1}, {1, 1, 2}, {-4, 6, 0}};
+  mesh.triangles = {{1, 3, 2}, {1, 2, 4}, {1, 4, 3}, {2, 3, 4}};
+  for (const auto& [a, b] : {std::pair(1, 2), std::pair(2, 3), std::pair(3, 1)}) {
+    mesh.triangles.emplace_back(a, b, 0);
+    mesh.triangles.emplace_back(a, b, 5);
+  }
+  mesh.surface_of_triangle = {0, 0, 0, 0, 1, 1, 1, 1, 1, 1};
+  EXPECT_EQ(MendSolids(&mesh).closed_bodies, 1);
+  double volume = 0;
+  for (int t = 0; t < 4; ++t) {
+    const Eigen::Vector3i& corners = mesh.triangles[t];
+    volume +=
+        mesh.vertices[corners[0]].dot(mesh.vertices[corners[1]].cross(mesh.vertices[corners[2]])) /
+        6;
+  }
+  EXPECT_NEAR(volume, 1.0 / 6, 1e-12);
 }
 
 }  // namespace
