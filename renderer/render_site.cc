@@ -271,8 +271,8 @@ class SiteRender {
     Raster linear =
         options_.keeps_pictures ? report.result.linear : std::exchange(report.result.linear, {});
     report.remarks =
-        WriteMontage(site_, photograph, {options_.frame, options_.with_tiff}, std::move(view.photo),
-                     std::move(linear), report.result, statement_);
+        WriteMontage(site_, photograph, {options_.frame, options_.with_tiff, options_.is_quick},
+                     std::move(view.photo), std::move(linear), report.result, statement_);
     RemarkClipped(report.result, &report.remarks);
     WriteRenderRecord(site_, photo, options_);
     return report;

@@ -37,6 +37,7 @@ struct RenderSiteOptions {
   bool as_printed = false;          // MontageScene::as_printed, with uniform_ambient
   std::optional<int> bounces = {};  // of light among surfaces, at most; 0: sun and sky alone
   bool with_tiff = false;           // of 16 bits, of every photograph
+  bool is_quick = false;            // pictures packed little
   AvrLevel avr = AvrLevel::kMaterials;
   std::string quality = {};  // what the pictures say of it; empty: final
   // By ChosenLayers(), to <photo>.parts.exr; empty: none. Tiles that an earlier run has kept are

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "renderer/render_view.h"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -98,11 +100,13 @@ bool FitInMemory(const NaturalEnvironment& natural) {
 
 std::vector<Raster> ReadInputImages(const NaturalEnvironment& natural,
                                     const std::vector<Eigen::Vector3d>& gains) {
-  std::vector<Raster> images;
-  for (size_t i = 0; i < gains.size(); ++i) {
-    images.push_back(ReadInputImage(natural.input_images[i]));
-    if (gains[i] != kUnitGain) DivideByGain(gains[i], &images.back());
-  }
+  // One after the other: of several faults always the first is told.
+  for (const InputImage& image : natural.input_images) RequireInputImage(image);
+  std::vector<Raster> images(gains.size());
+  tbb::parallel_for(size_t{0}, gains.size(), [&](size_t i) {
+    images[i] = ReadInputImage(natural.input_images[i]);
+    if (gains[i] != kUnitGain) DivideByGain(gains[i], &images[i]);
+  });
   return images;
 }
 

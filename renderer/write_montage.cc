@@ -88,7 +88,7 @@ std::vector<std::string> WriteMontage(const SitePaths& site,
   return WriteMontageFiles(
       site.montage(photograph.stem().string()),
       {std::move(linear), std::move(photo), photograph, format.frame == Frame::kPhoto,
-       StatementOf(statement, photograph, result), format.with_tiff});
+       StatementOf(statement, photograph, result), format.with_tiff, format.is_quick});
 }
 
 void WriteSunShares(const SitePaths& site, const std::filesystem::path& photograph,

@@ -27,6 +27,7 @@ struct MontageKind {
 struct MontageFormat {
   Frame frame = Frame::kPhoto;
   bool with_tiff = false;  // of 16 bits
+  bool is_quick = false;   // pictures packed little
 };
 
 // What they state of themselves; `computed` names what of the building is in them.

@@ -15,6 +15,7 @@
 #include "calibration/files/whole_file.h"
 #include "calibration/photo/exif.h"
 #include "calibration/photo/jpeg_blocks.h"
+#include "calibration/photo/quick_codes.h"
 
 namespace insitu {
 namespace {
@@ -120,6 +121,10 @@ class Delivery {
     return MontageCodes(montage_, original_ && is_same ? &*original_ : nullptr, encoding, target);
   }
 
+  void WriteSoon(const fs::path& file, const CodedPhotograph& picture) const {
+    return montage_.is_quick ? WriteCodesQuickly(file, picture) : WriteCodes(file, picture);
+  }
+
   fs::path PathOf(const char* ending) const { return stem_.string() + ending; }
 
   void Remark(const fs::path& path, const std::string& text) {
@@ -138,7 +143,7 @@ class Delivery {
 
   void WriteLinear() {
     const CodedPhotograph picture = Upright(Codes(Encoding::kLinear), orientation_);
-    WriteWhole(PathOf(".exr"), [&](const fs::path& temporary) { WriteCodes(temporary, picture); });
+    WriteWhole(PathOf(".exr"), [&](const fs::path& temporary) { WriteSoon(temporary, picture); });
   }
 
   void WritePortableNetworkGraphics(bool is_like_source) {
@@ -147,7 +152,7 @@ class Delivery {
     const CodedPhotograph picture = Upright(Codes(encoding), turn);
     const fs::path path = PathOf(".png");
     WriteWhole(path, [&](const fs::path& temporary) {
-      WriteCodes(temporary, picture);
+      WriteSoon(temporary, picture);
       Describe(path, temporary, is_like_source);
     });
   }

@@ -18,6 +18,7 @@ struct MontagePicture {
   bool is_photo_frame = true;    // else `photo` was resampled
   MontageStatement statement;
   bool wants_tiff = false;  // of 16 bits, whatever the photograph is
+  bool is_quick = false;    // packed little, to be there soon
 };
 
 // A photograph's codes where the montage is bit for bit the photograph, else the nearest ones.

@@ -23,6 +23,7 @@
 #include "calibration/files/raw_ending.h"
 #include "calibration/files/whole_file.h"
 #include "calibration/photo/copy_metadata.h"
+#include "calibration/photo/quick_codes.h"
 #include "calibration/photo/raw_photograph.h"
 
 namespace insitu {
@@ -293,6 +294,18 @@ void DescribeExr(const std::vector<float>& chromaticities, ImageSpec* spec) {
                   chromaticities.empty() ? kOfRec709.data() : chromaticities.data());
 }
 
+// Of a file of the format of its name's ending.
+ImageSpec FileSpecOf(const fs::path& path, const CodedPhotograph& picture) {
+  ImageSpec spec = SpecOf(picture);
+  const std::string ending = path.extension().string();
+  if (ending == ".exr") DescribeExr(picture.color.chromaticities, &spec);
+  if (ending == ".tif") {
+    spec.attribute("compression", "zip");
+    spec.attribute("DateTime", "0000:00:00 00:00:00");
+  }
+  return spec;
+}
+
 }  // namespace
 
 CodedPhotograph ReadCodedPhotograph(const fs::path& path) {
@@ -346,13 +359,14 @@ CodedPhotograph CodesOf(const Raster& linear, Encoding encoding, const ColorSpac
 }
 
 void WriteCodes(const fs::path& path, const CodedPhotograph& picture) {
-  ImageSpec spec = SpecOf(picture);
-  const std::string ending = path.extension().string();
-  if (ending == ".exr") DescribeExr(picture.color.chromaticities, &spec);
-  if (ending == ".tif") {
-    spec.attribute("compression", "zip");
-    spec.attribute("DateTime", "0000:00:00 00:00:00");
-  }
+  const ImageSpec spec = FileSpecOf(path, picture);
+  std::visit([&](const auto& samples) { WriteImage(path, spec, samples); }, picture.samples);
+}
+
+void WriteCodesQuickly(const fs::path& path, const CodedPhotograph& picture) {
+  ImageSpec spec = FileSpecOf(path, picture);
+  if (path.extension() == ".exr") spec.attribute("compression", "none");
+  if (path.extension() == ".png") spec.attribute("png:compressionLevel", 1);
   std::visit([&](const auto& samples) { WriteImage(path, spec, samples); }, picture.samples);
 }
 

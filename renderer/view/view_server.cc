@@ -104,9 +104,12 @@ class ViewService : public PageService {
       throw InputError(site_.photos(), "no photograph is named " + photo);
     }
     std::vector<std::string> options = {"--photo=" + photo};
-    if (question.isMember("rays")) {
-      if (!question["rays"].isInt()) throw InputError("request", "rays is no whole number");
-      options.push_back("--most-rays=" + std::to_string(question["rays"].asInt()));
+    if (question.isMember("quality")) {
+      const Json::Value& quality = question["quality"];
+      if (quality != "fast" && quality != "draft" && quality != "final") {
+        throw InputError("request", "quality is none of fast, draft, final");
+      }
+      options.push_back("--quality=" + quality.asString());
     }
     if (question["frame"].asString() == "pinhole") options.emplace_back("--frame=pinhole");
     Json::Value answer;

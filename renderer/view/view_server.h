@@ -7,7 +7,7 @@
 //   GET  /api/value?photo&x&y          one pixel of a picture: {linear, encoded, ...}
 //   GET  /api/outline?photo&frame      outline +- 2 sigma of a photograph by name (outline_band.h)
 //   POST /api/difference {before, after}   of two pictures: a picture (site_pictures.h)
-//   POST /api/run {photo, rays}        insitu-render of a photograph; goes on where it was stopped
+//   POST /api/run {photo, quality}     insitu-render of a photograph; goes on where it was stopped
 //   POST /api/stop                     ends it when its tiles at work are done
 //   GET  /api/live                     WebSocket: render (running_renders.h), pictures (some are
 //                                      others than before), run (stages/stage_runs.h)

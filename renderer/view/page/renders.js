@@ -8,7 +8,7 @@ import {emit, on} from "../../prepare/page/site/signals.js";
 import {t} from "./words/view_words.js";
 
 const kStopped = 3; // insitu-render's status
-let rays = "16";
+let quality = "final";
 
 export function say(text) {
   byId("say").textContent = text;
@@ -17,7 +17,7 @@ export function say(text) {
 async function run(photo) {
   state.lines = [];
   const frame = photoOf(photo)?.pictures.find(one => one.kind === "montage" && one.name === "")?.frame;
-  const answer = await ask("/api/run", {photo, rays: Number(rays), frame: frame ?? "photo"});
+  const answer = await ask("/api/run", {photo, quality, frame: frame ?? "photo"});
   if (answer.error) return say(answer.error);
   state.running = photo;
   emit("render");
@@ -107,14 +107,15 @@ export function buildRenders() {
       node("span", {text: t("quality")}),
       select(
         [
-          ["4", t("quality_4")],
-          ["16", t("quality_16")]
+          ["fast", t("quality_fast")],
+          ["draft", t("quality_draft")],
+          ["final", t("quality_final")]
         ],
-        rays,
+        quality,
         chosen => {
-          rays = chosen;
+          quality = chosen;
         },
-        {id: "rays"}
+        {id: "quality"}
       )
     )
   );

@@ -23,7 +23,7 @@ const table = [
   ["an outline of no photograph", "GET", "/api/outline?photo=..%2Fsite&frame=photo", {host, ...token}, undefined, 400],
   ["a difference of nothing", "POST", "/api/difference", {host, ...token}, {before: 0, after: 999}, 400],
   ["a render of no photograph", "POST", "/api/run", {host, ...token}, {photo: "--help"}, 400],
-  ["a render of rays that are no number", "POST", "/api/run", {host, ...token}, {photo: "left", rays: "many"}, 400],
+  ["a render of a quality that is none", "POST", "/api/run", {host, ...token}, {photo: "left", quality: "best"}, 400],
   ["what is no JSON", "POST", "/api/run", {host, ...token}, "{", 400],
   ["an address that is none", "GET", "/api/op", {host, ...token}, undefined, 404],
   ["a module of the measuring page that is not shared", "GET", "/prepare/page/points/marking.js", {host, ...token}, undefined, 404]

@@ -92,7 +92,7 @@ OIIO::ImageSpec PartSpec(const std::string& name, const std::vector<std::string>
 
 TEST_F(SitePicturesTest, PartsAreShownOneByOne) {
   const std::string matte = "CryptoObject00";
-  std::vector<float> samples(4 * 40 * 30, -0.25F);
+  std::vector<float> samples(4800, -0.25F);         // of four channels
   for (size_t i = 0; i < samples.size(); i += 4) {  // all of a wall, a quarter
     samples[i] = samples[i + 1] = 0.25F;
     samples[i + 2] = samples[i + 3] = 0;
