@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 #include <utility>
 
 namespace insitu::demo {
@@ -27,13 +28,31 @@ Vector3d PointOn(const Face& face, const Vector2d& uv) {
   return face.vertices[0] + uv.x() * face.u_axis + uv.y() * face.v_axis;
 }
 
-AlignedBox2d QuarterOf(const AlignedBox2d& box, int quarter) {
+// The side of a box that is quartered alone, if any: one much longer than the other.
+std::optional<int> LongSide(const AlignedBox2d& box, bool keep_wide) {
+  int side = 0;
+  const double longest = box.sizes().maxCoeff(&side);
+  if (!keep_wide || longest < 3 * box.sizes().minCoeff()) return std::nullopt;
+  return side;
+}
+
+AlignedBox2d QuarterOf(const AlignedBox2d& box, int quarter, bool keep_wide) {
+  if (const std::optional<int> side = LongSide(box, keep_wide)) {
+    AlignedBox2d strip = box;
+    strip.min()[*side] += box.sizes()[*side] * quarter / 4;
+    strip.max()[*side] = strip.min()[*side] + box.sizes()[*side] / 4;
+    return strip;
+  }
   const Vector2d half = box.sizes() / 2;
   const Vector2d low = box.min() + half.cwiseProduct(Vector2d(quarter % 2, quarter / 2));
   return {low, low + half};
 }
 
-int QuarterAt(const AlignedBox2d& box, const Vector2d& uv) {
+int QuarterAt(const AlignedBox2d& box, const Vector2d& uv, bool keep_wide) {
+  if (const std::optional<int> side = LongSide(box, keep_wide)) {
+    const double share = (uv[*side] - box.min()[*side]) / box.sizes()[*side];
+    return std::clamp(static_cast<int>(4 * share), 0, 3);
+  }
   const Vector2d middle = box.center();
   return (uv.x() >= middle.x() ? 1 : 0) + (uv.y() >= middle.y() ? 2 : 0);
 }
@@ -86,7 +105,8 @@ void BouncedLight::Split(const Face& face, const AlignedBox2d& box, int node) {
   const int quarters = static_cast<int>(quads_.size());
   quads_[node].quarters = quarters;
   quads_.resize(quads_.size() + 4);
-  for (int i = 0; i < 4; ++i) Split(face, QuarterOf(box, i), quarters + i);
+  for (int i = 0; i < 4; ++i)
+    Split(face, QuarterOf(box, i, options_.keep_cells_wide), quarters + i);
 }
 
 BouncedLight::Cell BouncedLight::MakeCell(const Face& face, const AlignedBox2d& box) const {
@@ -115,8 +135,8 @@ int BouncedLight::CellAt(const Spot& spot) const {
   AlignedBox2d box = tree.box;
   int node = tree.root;
   while (quads_[node].cell < 0) {
-    const int quarter = QuarterAt(box, uv);
-    box = QuarterOf(box, quarter);
+    const int quarter = QuarterAt(box, uv, options_.keep_cells_wide);
+    box = QuarterOf(box, quarter, options_.keep_cells_wide);
     node = quads_[node].quarters + quarter;
   }
   return quads_[node].cell;

@@ -18,6 +18,9 @@ struct BouncedLightOptions {
   double smallest = 0.5;  // side of a cell near the building [m]
   double growth = 0.15;   // of the side with distance
   int strata = 8;         // squared: directions gathered at a cell
+  // Quarters of long faces are strips across them, so that a quay has no needles for cells. Not in
+  // the demo, whose bytes are fixed.
+  bool keep_cells_wide = false;
 };
 
 // What a surface receives but for the sun's own light.

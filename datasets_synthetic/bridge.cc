@@ -90,10 +90,10 @@ std::vector<NamedPoint> TargetsOnBanks() {
   return targets;
 }
 
-// Drawn on plan: a covered bridge of timber, its deck on the old supports.
+// Drawn on plan: a covered bridge of timber, bay by bay, its deck on the old supports.
 Building CoveredBridge() {
   constexpr double kEnd = 27, kHalf = 2.4, kDeck = 4.55, kPlate = 7.4;  // [m]
-  constexpr int kFrames = 19;
+  constexpr int kBays = 18;
   Building bridge;
   bridge.layers = {Material::kBridgeTimber, Material::kBridgeRoof, Material::kSandstone};
   std::vector<Panel>& panels = bridge.panels;
@@ -103,22 +103,21 @@ Building CoveredBridge() {
            {std::max(side * kEnd, side * (kBank + 0.2)), kHalf + 0.3, kPierTop - 0.05},
            Material::kSandstone);
   }
-  AddBox(panels, {-kEnd, -kHalf, kPierTop}, {kEnd, kHalf, kDeck}, timber);
-  for (const double y : {-kHalf, kHalf - 0.25}) {
-    AddBox(panels, {-kEnd, y, kPlate}, {kEnd, y + 0.25, kPlate + 0.35}, timber);
-    AddBox(panels, {-kEnd, y + 0.08, kDeck + 0.02}, {kEnd, y + 0.18, kDeck + 1.1}, timber);
-    for (int i = 0; i < kFrames; ++i) {
-      const double x = -kEnd + 0.1 + (2 * kEnd - 0.45) * i / (kFrames - 1);
-      AddBox(panels, {x, y, kDeck}, {x + 0.25, y + 0.25, kPlate}, timber);
-    }
-  }
   constexpr double kEaves = 3.3, kLow = 7.35, kRidge = 9.6;  // [m], of the roof
-  const auto roof = [&](double y0, double z0, double y1, double z1) {
-    panels.push_back(Quad({-kEnd - 0.6, y0, z0}, {kEnd + 0.6, y0, z0}, {kEnd + 0.6, y1, z1},
-                          {-kEnd - 0.6, y1, z1}, Material::kBridgeRoof));
-  };
-  roof(-kEaves, kLow, 0, kRidge);
-  roof(0, kRidge, kEaves, kLow);
+  constexpr double kBay = 2 * kEnd / kBays;
+  for (int i = 0; i < kBays; ++i) {
+    const double x0 = -kEnd + i * kBay, x1 = x0 + kBay;
+    AddBox(panels, {x0, -kHalf, kPierTop}, {x1, kHalf, kDeck}, timber);
+    for (const double y : {-kHalf, kHalf - 0.25}) {
+      AddBox(panels, {x0, y, kPlate}, {x1, y + 0.25, kPlate + 0.35}, timber);
+      AddBox(panels, {x0, y + 0.08, kDeck + 0.15}, {x1, y + 0.18, kDeck + 1.1}, timber);
+      AddBox(panels, {x0 + 0.02, y, kDeck}, {x0 + 0.27, y + 0.25, kPlate}, timber);
+    }
+    panels.push_back(Quad({x0, -kEaves, kLow}, {x1, -kEaves, kLow}, {x1, 0, kRidge},
+                          {x0, 0, kRidge}, Material::kBridgeRoof));
+    panels.push_back(Quad({x0, 0, kRidge}, {x1, 0, kRidge}, {x1, kEaves, kLow}, {x0, kEaves, kLow},
+                          Material::kBridgeRoof));
+  }
   return bridge;
 }
 
@@ -133,6 +132,8 @@ Site MakeRiver(int width, int height) {
   Site site;
   site.record = {"bridge", "2024-05-15T11:00:00+02:00", "sunny", 47.1386, 7.3722};
   site.survey.check_points = {"house_5", "pier0_5", "pier1_4", "balcony1_4"};
+  site.survey.control_points = {"house_1", "house_4", "pier0_0", "pier0_1", "pier0_4", "pier1_0",
+                                "pier1_1", "pier1_5", "post_4",  "right_3", "left_3"};
   site.survey.upright_boxes = {"house", "pier0", "pier1", "post"};
   site.survey.level = "water";
   site.survey.shadows = "left";

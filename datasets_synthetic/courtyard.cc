@@ -154,6 +154,9 @@ Site MakeYard(int width, int height) {
   Site site;
   site.record = {"courtyard", "2024-01-17T11:30:00+01:00", "overcast", 47.3731, 8.5262};
   site.survey.check_points = {"white_5", "back_4", "left_5", "shed_4"};
+  site.survey.control_points = {"white_0", "white_1", "white_4", "back_1",   "back_5",
+                                "right_1", "right_4", "right_5", "left_0",   "left_1",
+                                "left_4",  "shed_0",  "shed_7",  "shop_0_0", "shop_2_3"};
   site.survey.upright_boxes = {"white", "shed"};
   site.survey.level = site.survey.shadows = "paving";
   site.survey.daylight = Material::kWhitePlaster;

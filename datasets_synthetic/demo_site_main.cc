@@ -27,8 +27,8 @@ void MakeExample(const Command& command) {
   const SiteDescription example = DescribeExample(command.example, width, width * 2 / 3);
   Progress progress(command.example, SiteSteps(example.site));
   SiteOptions options;
-  options.strata = 8;
   options.with_boards = false;
+  options.is_example = true;
   options.step_done = [&progress] { progress.Step(); };
   std::cout << WriteSite(command.folder, example, options).BriefReport();
 }

@@ -27,6 +27,7 @@ SurveyPoint Observe(const Site& site, const std::string& name, const Vector3d& p
 PointRole RoleOf(const Site& site, const SurveyPoint& point, bool is_target) {
   if (point.marks.size() < 2) return PointRole::kControl;
   if (site.survey.check_points.count(point.name)) return PointRole::kCheck;
+  if (site.survey.control_points.count(point.name)) return PointRole::kControl;
   return is_target || point.position.norm() > kFar ? PointRole::kControl : PointRole::kMarked;
 }
 

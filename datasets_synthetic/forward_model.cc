@@ -80,6 +80,7 @@ class Renderer {
   // Gathered once for each face in a block of pixels: it varies slowly.
   struct LightOnFace {
     const Face* face;
+    bool is_hidden;  // where the building will stand before it
     Incoming light;
   };
   struct BlockState {
@@ -92,12 +93,15 @@ class Renderer {
     return {view_.center, (view_.cam_from_site.transpose() * in_cam).normalized()};
   }
 
-  Lighting LightAt(const Spot& spot, uint64_t sample_seed, BlockState& block) const {
-    auto known = std::find_if(block.faces.begin(), block.faces.end(),
-                              [&](const LightOnFace& face) { return face.face == spot.face; });
+  Lighting LightAt(const Spot& spot, bool is_hidden, uint64_t sample_seed,
+                   BlockState& block) const {
+    auto known = std::find_if(block.faces.begin(), block.faces.end(), [&](const LightOnFace& face) {
+      return face.face == spot.face && face.is_hidden == is_hidden;
+    });
     if (known == block.faces.end()) {
       known = block.faces.insert(
-          known, {spot.face, light_.Gather(spot.point, spot.normal, options_.strata, block.seed)});
+          known, {spot.face, is_hidden,
+                  light_.Gather(spot.point, spot.normal, options_.strata, block.seed)});
     }
     return {VisibleSun(place_, spot.point, spot.normal, sample_seed), &known->light};
   }
@@ -149,8 +153,10 @@ class Renderer {
     SampleColors colors;
     const Sighting seen = Look(place_, sight);
     Note(seen.before, record);
+    colors.building = seen.after && seen.after->on_building;
     if (seen.before) {
-      const Lighting light = LightAt(*seen.before, seed, block);
+      const Lighting light =
+          LightAt(*seen.before, options_.gather_hidden_apart && colors.building, seed, block);
       const auto color = [&](When when) {
         return Color(*seen.before, sight.direction, light, when, seed);
       };
@@ -162,9 +168,8 @@ class Renderer {
     } else {
       colors.before = colors.after = RgbFromSpectrum(place_.daylight.sky_radiance);
     }
-    colors.building = seen.after && seen.after->on_building;
     if (colors.building) {
-      const Lighting light = LightAt(*seen.after, seed, block);
+      const Lighting light = LightAt(*seen.after, false, seed, block);
       colors.after = Color(*seen.after, sight.direction, light, When::kAfter, seed);
     }
     return colors;

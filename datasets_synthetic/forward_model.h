@@ -29,6 +29,9 @@ struct RenderedView {
 
 struct RenderOptions {
   int strata = 12;  // squared: directions that light is gathered from for 3 x 3 pixels of a face
+  // Gathers apart what the building will hide, where it is dark afterwards. The demo, whose bytes
+  // are fixed, does not: its ground has darker pixels at the building's foot.
+  bool gather_hidden_apart = false;
 };
 
 // 2 x 2 samples a pixel. Independent of the number of threads.

@@ -23,6 +23,7 @@ struct SiteRecord {
 // What a surveyor picks, by name.
 struct SurveyPlan {
   std::set<std::string> check_points;
+  std::set<std::string> control_points;     // besides targets and what lies far away
   std::vector<std::string> upright_boxes;   // whose edges show the zenith
   std::string level;                        // the face that haze is measured on
   std::string shadows;                      // the face that shadows are measured on

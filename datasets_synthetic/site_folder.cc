@@ -98,11 +98,13 @@ SiteSummary WriteSite(const fs::path& folder, const SiteDescription& description
   };
   const Site& site = description.site;
   const Place place{&site, BuildingScene(description.building), description.daylight};
-  const BouncedLight light(place);
+  BouncedLightOptions bounces;
+  bounces.keep_cells_wide = options.is_example;
+  const BouncedLight light(place, bounces);
   SiteSummary summary;
   std::vector<RenderedView> renderings;
   for (const View& view : site.views) {
-    renderings.push_back(RenderView(light, view, {options.strata}));
+    renderings.push_back(RenderView(light, view, {options.strata, options.is_example}));
     WriteTruthImages(folder / "truth", view, renderings.back());
     WriteJpeg(folder / "photos" / (view.photo + ".jpg"), renderings.back().before,
               LinearTruth(folder, view));

@@ -20,9 +20,10 @@ struct SiteDescription {
 };
 
 struct SiteOptions {
-  int width = 960, height = 640;    // [px], of photographs and board photographs
-  int strata = 12;                  // squared: directions that light comes from; for 3 x 3 pixels
-  bool with_boards = true;          // false: the lens is given as a camera file
+  int width = 960, height = 640;  // [px], of photographs and board photographs
+  int strata = 12;                // squared: directions that light comes from; for 3 x 3 pixels
+  bool with_boards = true;        // false: the lens is given as a camera file
+  bool is_example = false;  // with the finer light that the demo, whose bytes are fixed, lacks
   std::function<void()> step_done;  // called SiteSteps times, if set
 };
 

@@ -96,7 +96,7 @@ Daylight ClearMorning() {
 Daylight Overcast() {
   Daylight daylight;
   daylight.sun_irradiance = Spectrum::Zero();
-  daylight.sky_radiance = 0.95 * BlackBody(6500);
+  daylight.sky_radiance = 0.82 * BlackBody(6500);
   daylight.extinction = Spectrum::Zero();
   return daylight;
 }

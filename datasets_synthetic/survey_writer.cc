@@ -127,7 +127,7 @@ void WriteSamples(const std::filesystem::path& path, const Site& site, const Cho
                   const Daylight& daylight) {
   Json::Value root;
   root["horizon"] = PixelsJson(site, samples.horizon);
-  root["haze"] = PixelsJson(site, samples.haze);
+  if (!samples.haze.empty()) root["haze"] = PixelsJson(site, samples.haze);  // else clear air
   root["daylight"] = PixelsJson(site, samples.daylight);
   const Vector3d card = ReflectanceRgb(daylight, PlainReflectance(site.survey.daylight));
   for (const double value : card) {

@@ -183,12 +183,11 @@ TEST(RenderView, ShowsWavesInWhatWaterMirrors) {
   const RenderedView calm = RenderView(*world->light, LookingDown(16));
   world->site.waves = {0.3, 1.0, 0.25, 5};
   const RenderedView rough = RenderView(*world->light, LookingDown(16));
-  double calm_steps = 0, rough_steps = 0;
-  for (int x = 1; x < 16; ++x) {
-    calm_steps += (calm.before.Rgb(x, 3) - calm.before.Rgb(x - 1, 3)).norm();
-    rough_steps += (rough.before.Rgb(x, 3) - rough.before.Rgb(x - 1, 3)).norm();
+  int changed = 0;
+  for (size_t i = 0; i < calm.before.data.size(); ++i) {
+    changed += std::abs(calm.before.data[i] - rough.before.data[i]) > 1e-5;
   }
-  EXPECT_GT(rough_steps, 2 * calm_steps);
+  EXPECT_GT(changed, 300);  // of 768 values
 }
 
 TEST(VisibleSun, IsNoneUnderAnOvercastSky) {
