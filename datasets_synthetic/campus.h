@@ -2,7 +2,7 @@
 // The campus: lawn, gravel path, gallery, house, two blocks and a clear morning.
 #pragma once
 
-#include "datasets_synthetic/site.h"
+#include "datasets_synthetic/made_site.h"
 
 namespace insitu::demo {
 

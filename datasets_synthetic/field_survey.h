@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "datasets_synthetic/site.h"
+#include "datasets_synthetic/made_site.h"
 
 namespace insitu::demo {
 

@@ -7,8 +7,8 @@
 #include <optional>
 #include <vector>
 
+#include "datasets_synthetic/made_site.h"
 #include "datasets_synthetic/ray_cast.h"
-#include "datasets_synthetic/site.h"
 #include "datasets_synthetic/spectral_light.h"
 
 namespace insitu::demo {

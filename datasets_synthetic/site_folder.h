@@ -7,7 +7,7 @@
 #include <string>
 
 #include "datasets_synthetic/building.h"
-#include "datasets_synthetic/site.h"
+#include "datasets_synthetic/made_site.h"
 #include "datasets_synthetic/spectral_light.h"
 
 namespace insitu::demo {

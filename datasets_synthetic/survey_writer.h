@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "datasets_synthetic/field_survey.h"
+#include "datasets_synthetic/made_site.h"
 #include "datasets_synthetic/sample_choice.h"
-#include "datasets_synthetic/site.h"
 #include "datasets_synthetic/spectral_light.h"
 
 namespace insitu::demo {
