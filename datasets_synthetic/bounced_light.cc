@@ -61,7 +61,8 @@ int QuarterAt(const AlignedBox2d& box, const Vector2d& uv, bool keep_wide) {
 std::vector<Vector2d> PointsIn(const Face& face, const AlignedBox2d& box) {
   std::vector<Vector2d> points;
   for (int i = 0; i < kPointsAcross * kPointsAcross; ++i) {
-    const Vector2d share(i % kPointsAcross + 0.5, i / kPointsAcross + 0.5);
+    const int column = i % kPointsAcross, row = i / kPointsAcross;
+    const Vector2d share(column + 0.5, row + 0.5);
     const Vector2d uv = box.min() + share.cwiseProduct(box.sizes()) / kPointsAcross;
     if (Contains(face.outline, uv)) points.push_back(uv);
   }

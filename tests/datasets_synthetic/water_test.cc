@@ -17,7 +17,8 @@ TEST(Waves, HaveTheirSlopesAndNoTiltOfTheirOwn) {
   Vector2d mean = Vector2d::Zero();
   double square = 0;
   for (int i = 0; i < kAcross * kAcross; ++i) {
-    const Vector2d at(0.317 * (i % kAcross), 0.293 * (i / kAcross));
+    const int column = i % kAcross, row = i / kAcross;
+    const Vector2d at(0.317 * column, 0.293 * row);
     const Vector2d slope = WaveSlope(waves, at);
     mean += slope / (kAcross * kAcross);
     square += slope.squaredNorm() / (kAcross * kAcross);

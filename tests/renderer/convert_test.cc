@@ -212,13 +212,13 @@ TEST_F(Convert, ReportNamesSizeAndPlace) {
 }
 
 TEST_F(Convert, TheTerminalListsTheLargestAlone) {
-  std::string model;
+  std::ostringstream model;
   for (int i = 0; i < 40; ++i) {
-    const std::string x = std::to_string(3 * i), size = std::to_string(i + 1);
-    model += "o part" + size + "\nusemtl m" + size + "\nv " + x + " 0 0\nv " + x + " " + size +
-             " 0\nv " + x + " 0 1\nf -3 -2 -1\n";
+    const int x = 3 * i, size = i + 1;
+    model << "o part" << size << "\nusemtl m" << size << "\nv " << x << " 0 0\nv " << x << " "
+          << size << " 0\nv " << x << " 0 1\nf -3 -2 -1\n";
   }
-  Write("a.obj", model);
+  Write("a.obj", model.str());
   const std::string report = Converted().BriefReport();
   EXPECT_THAT(report, HasSubstr(" m\n  part40: 1 faces, 20.00 m2, open\n  part39: "));
   EXPECT_THAT(report, HasSubstr("  part11: 1 faces, 5.50 m2, open\n  and 10 smaller ones"));
