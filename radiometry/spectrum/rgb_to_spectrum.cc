@@ -85,25 +85,38 @@ PiecewiseBasis FindBasis(const Eigen::Vector3d& tristimulus, const SpectralBins&
   return exact ? *exact : FindNearestBox(tristimulus, bins);
 }
 
+namespace {
+
+// Columns blue, green, red.
+Eigen::Matrix<double, kMaxBins, 3> BasisOf(const RgbPrimaries& primaries,
+                                           const SpectralBins& bins) {
+  const Eigen::Matrix3d primary_xyz = RgbFromXyz(primaries).inverse();  // columns red, green, blue
+  Eigen::Matrix<double, kMaxBins, 3> basis;
+  for (int i = 0; i < 3; ++i) {
+    basis.col(i) = Evaluate(FindBasis(primary_xyz.col(2 - i), bins), bins).matrix();
+  }
+  return basis;
+}
+
+}  // namespace
+
 SpectralBasis::SpectralBasis(const RgbPrimaries& primaries, const SpectralBins& bins)
     : SpectralBasis(primaries, bins, primaries) {}
 
 SpectralBasis::SpectralBasis(const RgbPrimaries& primaries, const SpectralBins& bins,
                              const RgbPrimaries& basis_primaries)
-    : bins_(bins), basis_primaries_(basis_primaries) {
+    : bins_(bins), basis_primaries_(basis_primaries), basis_(BasisOf(basis_primaries, bins)) {
   const Eigen::Matrix3d rgb_from_xyz = RgbFromXyz(primaries);
-  const Eigen::Matrix3d primary_xyz = rgb_from_xyz.inverse();  // columns red, green, blue
-  const Eigen::Matrix3d basis_xyz = RgbFromXyz(basis_primaries).inverse();
-  for (int i = 0; i < 3; ++i) {
-    basis_.col(i) = Evaluate(FindBasis(basis_xyz.col(2 - i), bins), bins).matrix();
-  }
   const Eigen::Matrix<double, 3, kMaxBins> matching = ColorMatching(bins);
   rgb_from_spectrum_ = rgb_from_xyz * matching / matching.row(1).sum();
-  luminance_from_rgb_ = primary_xyz.row(1);
+  luminance_from_rgb_ = rgb_from_xyz.inverse().row(1);
   const Eigen::Matrix3d W = rgb_from_spectrum_ * basis_;
   weights_from_rgb_ = W.fullPivLu().inverse();
   spectrum_from_rgb_ = basis_ * weights_from_rgb_;
-  white_ = SpectrumFromRgb(Eigen::Vector3d::Ones());
+  const Eigen::Matrix<double, kMaxBins, 3> own = BasisOf(primaries, bins);
+  const Eigen::Matrix3d own_W = rgb_from_spectrum_ * own;
+  own_from_rgb_ = own * own_W.fullPivLu().inverse();
+  white_ = (own_from_rgb_ * Eigen::Vector3d::Ones()).array();
 }
 
 Spectrum SpectralBasis::Ones() const { return DomainIndicator(0, bins_.count); }
@@ -118,7 +131,7 @@ Eigen::Vector3d SpectralBasis::RgbFromSpectrum(const Spectrum& stimulus) const {
 
 Spectrum SpectralBasis::ReflectanceFromRgb(const Eigen::Vector3d& rgb) const {
   const double luminance = luminance_from_rgb_ * rgb;
-  return Ones() * (white_ > 0).select(SpectrumFromRgb(rgb) / white_, luminance);
+  return Ones() * (white_ > 0).select((own_from_rgb_ * rgb).array() / white_, luminance);
 }
 
 }  // namespace insitu

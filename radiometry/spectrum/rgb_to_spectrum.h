@@ -53,7 +53,9 @@ class SpectralBasis {
   // A reflectance whose colour under the RGB white is `rgb`: SpectrumFromRgb over the spectrum of
   // white, so that grey is flat and 0..1 stays 0..1. In a bin where white is zero nothing can be
   // seen of the reflectance: its luminance stands there, so grey is flat there too.
-  // Departure: App. A alone makes white 0.85-2.7.
+  // Departure: App. A alone makes white 0.85-2.7. On the space's own primaries, whatever those of
+  // the basis are: NTSC's red is a narrow band, in which colours would change with the light's
+  // spectrum.
   Spectrum ReflectanceFromRgb(const Eigen::Vector3d& rgb) const;
 
   const Eigen::Matrix<double, kMaxBins, 3>& basis() const { return basis_; }     // columns b, g, r
@@ -66,8 +68,9 @@ class SpectralBasis {
   Eigen::Matrix<double, 3, kMaxBins> rgb_from_spectrum_;
   Eigen::Matrix3d weights_from_rgb_;
   Eigen::Matrix<double, kMaxBins, 3> spectrum_from_rgb_;
+  Eigen::Matrix<double, kMaxBins, 3> own_from_rgb_;  // the same on the space's own primaries
   Eigen::RowVector3d luminance_from_rgb_;
-  Spectrum white_;
+  Spectrum white_;  // by own_from_rgb_
 };
 
 }  // namespace insitu

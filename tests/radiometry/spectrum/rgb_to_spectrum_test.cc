@@ -138,6 +138,7 @@ TEST(SpectralBasis, RgbOfOneSpaceStandsOnThePrimariesOfAnother) {
   const Eigen::Vector3d rgb(0.7, 0.4, 0.2);
   EXPECT_LT((mixed.RgbFromSpectrum(mixed.SpectrumFromRgb(rgb)) - rgb).norm(), 1e-13);
   EXPECT_GT((mixed.SpectrumFromRgb(rgb) - own.SpectrumFromRgb(rgb)).abs().maxCoeff(), 0.01);
+  EXPECT_TRUE((mixed.ReflectanceFromRgb(rgb) == own.ReflectanceFromRgb(rgb)).all());
   EXPECT_LT(
       (Tristimulus(mixed.SpectrumFromRgb(rgb), {9}) - Tristimulus(own.SpectrumFromRgb(rgb), {9}))
           .norm(),
