@@ -17,6 +17,10 @@ constexpr double kFieldSpan = 0.25;  // of the squared half diagonal, that they 
 constexpr double kSignificant = 3;   // growth over its standard deviation
 constexpr double kOutlier = 3;       // robust standard deviations
 
+// An edge longer than that runs towards the camera's own plane: its halves are looked at.
+constexpr double kFarOut = 1e5;  // [px]
+constexpr int kMostHalvings = 24;
+
 using Cell = std::pair<long, long>;
 
 // A world point's pixel; nullopt behind the camera or beyond the frame.
@@ -40,10 +44,17 @@ std::optional<EdgePiece> PieceOf(const PosedCamera& posed, const Eigen::Vector3d
 }
 
 void AddPieces(const PosedCamera& posed, const Eigen::Vector3d& start, const Eigen::Vector3d& end,
-               std::set<Cell>* taken, std::vector<EdgePiece>* pieces) {
+               std::set<Cell>* taken, std::vector<EdgePiece>* pieces, int halvings = 0) {
   const auto first = posed.camera.Project(posed.cam_from_world * start);
   const auto last = posed.camera.Project(posed.cam_from_world * end);
   if (!first || !last || *first == *last) return;
+  if (!((*last - *first).norm() < kFarOut)) {
+    if (halvings == kMostHalvings) return;
+    const Eigen::Vector3d middle = (start + end) / 2;
+    AddPieces(posed, start, middle, taken, pieces, halvings + 1);
+    AddPieces(posed, middle, end, taken, pieces, halvings + 1);
+    return;
+  }
   const auto length = SlantedLength((*last - *first).normalized());
   const int count = length ? static_cast<int>((*last - *first).norm() / *length) : 0;
   for (int i = 0; i < count; ++i) {

@@ -80,6 +80,15 @@ TEST(MeasurePointSpread, SaysSoWhereNoEdgeTells) {
   EXPECT_TRUE(EdgePiecesIn(CardScene(400, 0), 0).empty());
 }
 
+// One of a river or a road that goes on to where the photographer stands.
+TEST(EdgePieces, AnEdgeToTheCamerasOwnPlaneIsSeenWhereItIsInTheFrame) {
+  SceneGeometry scene = CardScene(400, 0.1);
+  scene.polygons[0].vertices = {{0.02, 0.001, 1e-13}, {0, 0, 50}, {0.1, 0.3, 40}};
+  const std::vector<EdgePiece> pieces = EdgePiecesIn(scene, 0);
+  EXPECT_GE(pieces.size(), 3u);
+  EXPECT_LE(pieces.size(), 20u);
+}
+
 // The same edge of two polygons is one.
 TEST(EdgePieces, CountsAPlaceOnce) {
   SceneGeometry scene = CardScene(400, 0.1);
