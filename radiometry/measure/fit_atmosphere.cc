@@ -121,16 +121,6 @@ AtmosphereFit FitBins(const std::vector<HazeSample>& samples, const Spectrum& ho
   return fit;
 }
 
-// All of the same sigma, the root mean square of theirs in each bin.
-std::vector<HazeSample> AlikeInSigma(std::vector<HazeSample> samples) {
-  Spectrum variance = Spectrum::Zero();
-  for (const HazeSample& sample : samples) variance += sample.sigma.square();
-  for (HazeSample& sample : samples) {
-    sample.sigma = (variance / static_cast<double>(samples.size())).sqrt();
-  }
-  return samples;
-}
-
 // Per sample: root mean square over the bins, in units of sigma.
 std::vector<double> ResidualMagnitudes(const std::vector<HazeSample>& samples,
                                        const AtmosphereFit& fit, const SpectralBins& bins) {

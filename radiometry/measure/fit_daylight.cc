@@ -103,6 +103,23 @@ std::vector<int> Subset(const std::vector<int>& columns, unsigned mask) {
   return subset;
 }
 
+// Least squares, whatever the sign, of some columns alone, which need not be independent.
+struct Unbounded {
+  Eigen::Vector3d x = Eigen::Vector3d::Zero();
+  bool is_unique = false;
+};
+Unbounded SolveUnbounded(const Equations& equations, const std::vector<int>& columns) {
+  const LeastSquaresSolution scaled =
+      SolveLeastSquares(ScaledColumns(equations.A, columns), equations.y, kRankTolerance);
+  Unbounded solution;
+  solution.is_unique = scaled.rank == static_cast<int>(columns.size());
+  for (size_t i = 0; i < columns.size(); ++i) {
+    const double scale = equations.A.col(columns[i]).norm();
+    solution.x[columns[i]] = scaled.x(static_cast<Eigen::Index>(i)) / scale;
+  }
+  return solution;
+}
+
 // Exact non-negative least squares: its solution is the least-squares solution on its own support,
 // so with three unknowns all supports can be tried.
 Eigen::Vector3d SolveNonNegative(const Equations& equations, const std::vector<int>& columns) {
@@ -110,13 +127,8 @@ Eigen::Vector3d SolveNonNegative(const Equations& equations, const std::vector<i
   double smallest = equations.y.squaredNorm();
   for (unsigned mask = 1; mask < 1u << columns.size(); ++mask) {
     const std::vector<int> support = Subset(columns, mask);
-    const LeastSquaresSolution scaled =
-        SolveLeastSquares(ScaledColumns(equations.A, support), equations.y, kRankTolerance);
-    if (scaled.rank < static_cast<int>(support.size()) || scaled.x.minCoeff() < 0) continue;
-    Eigen::Vector3d x = Eigen::Vector3d::Zero();
-    for (size_t i = 0; i < support.size(); ++i) {
-      x[support[i]] = scaled.x(static_cast<Eigen::Index>(i)) / equations.A.col(support[i]).norm();
-    }
+    const auto [x, is_unique] = SolveUnbounded(equations, support);
+    if (!is_unique || x.minCoeff() < 0) continue;
     const double cost = (equations.A * x - equations.y).squaredNorm();
     if (cost >= smallest) continue;
     smallest = cost;
@@ -145,23 +157,12 @@ void SetPrecision(const Equations& equations, const std::vector<int>& columns, S
   }
 }
 
-// Least squares, whatever the sign.
-Eigen::Vector3d SolveUnbounded(const Equations& equations, const std::vector<int>& columns) {
-  const LeastSquaresSolution scaled =
-      SolveLeastSquares(ScaledColumns(equations.A, columns), equations.y, kRankTolerance);
-  Eigen::Vector3d x = Eigen::Vector3d::Zero();
-  for (size_t i = 0; i < columns.size(); ++i) {
-    x[columns[i]] = scaled.x(static_cast<Eigen::Index>(i)) / equations.A.col(columns[i]).norm();
-  }
-  return x;
-}
-
 Solution Solve(const Equations& equations, bool is_bounded) {
   Solution solution;
   const std::vector<int> columns = InfluentialColumns(equations.A);
   if (columns.empty()) return solution;
   solution.radiance =
-      is_bounded ? SolveNonNegative(equations, columns) : SolveUnbounded(equations, columns);
+      is_bounded ? SolveNonNegative(equations, columns) : SolveUnbounded(equations, columns).x;
   SetPrecision(equations, columns, &solution);
   return solution;
 }
@@ -265,16 +266,6 @@ double VarianceScale(const std::vector<double>& residuals, const std::vector<dou
 double SkyOverSigma(const DaylightFit& fit, const SkyObservation& sky, const SpectralBins& bins) {
   const Spectrum residual = (fit.sky_radiance - sky.radiance) / sky.sigma;
   return std::sqrt(residual.head(bins.count).square().mean());
-}
-
-// All of the same sigma, the root mean square of theirs in each bin.
-std::vector<DaylightSample> AlikeInSigma(std::vector<DaylightSample> samples) {
-  Spectrum variance = Spectrum::Zero();
-  for (const DaylightSample& sample : samples) variance += sample.sigma.square();
-  for (DaylightSample& sample : samples) {
-    sample.sigma = (variance / static_cast<double>(samples.size())).sqrt();
-  }
-  return samples;
 }
 
 // Robust: weights and solution take turns.
