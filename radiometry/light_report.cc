@@ -68,16 +68,26 @@ void AddSky(const LightMeasurement& measured, Json::Value* sky) {
   json["rms_of_ln"] = fit.rms;
 }
 
+// The paper's L, that of D65 or as stated. [Durisch92, §7]
+Spectrum RelativeSpectrum(const LightMeasurement& measured) {
+  const SpectralBins& bins = measured.environment.spectra.bins();
+  const auto& table = measured.samples.daylight_spectrum;
+  return table ? Sampled(*table, bins) : IlluminantD65(bins);
+}
+
+// The paper's k, one for all wavelengths: that of the same luminance. [Durisch92, §4.3]
+double WeightOf(const Spectrum& radiance, const LightMeasurement& measured) {
+  const SpectralBins& bins = measured.environment.spectra.bins();
+  return Tristimulus(radiance, bins).y() / Tristimulus(RelativeSpectrum(measured), bins).y();
+}
+
 // A row of the paper's table, in whose unit rho = 1 / sr at the samples: ours is 1 / pi there.
 // [Durisch92, Tab. 1]
 Json::Value TableOne(const LightMeasurement& measured) {
   const NaturalEnvironment& environment = measured.environment;
   const Daylight& light = environment.light;
-  const SpectralBins& bins = environment.spectra.bins();
-  const auto& table = measured.samples.daylight_spectrum;
-  const Spectrum relative = table ? Sampled(*table, bins) : IlluminantD65(bins);
   const auto weight = [&](const Spectrum& radiance) {
-    return Tristimulus(radiance, bins).y() / Tristimulus(relative, bins).y() / std::numbers::pi;
+    return WeightOf(radiance, measured) / std::numbers::pi;
   };
   Json::Value json;
   json["input_images"] = static_cast<int>(environment.scene.cameras.size());
@@ -98,16 +108,10 @@ void AddLight(const LightMeasurement& measured, Json::Value* light) {
   const Daylight& daylight = environment.light;
   const DaylightFit& fit = measured.daylight_fit;
   Json::Value& json = *light;
-  // The paper's: one k for all wavelengths, and L that of D65 or as stated. [Durisch92, §4.3, §7]
-  const auto& table = measured.samples.daylight_spectrum;
-  const Spectrum relative = table ? Sampled(*table, spectra.bins()) : IlluminantD65(spectra.bins());
-  json["relative_spectrum"] = BinsJson(relative, spectra.bins());
-  const auto weight = [&](const Spectrum& radiance) {
-    return Tristimulus(radiance, spectra.bins()).y() / Tristimulus(relative, spectra.bins()).y();
-  };
-  json["k_s"] = weight(daylight.sun_radiance);
-  json["k_u"] = weight(daylight.ambient_radiance);
-  json["k_h"] = weight(daylight.sky_radiance);
+  json["relative_spectrum"] = BinsJson(RelativeSpectrum(measured), spectra.bins());
+  json["k_s"] = WeightOf(daylight.sun_radiance, measured);
+  json["k_u"] = WeightOf(daylight.ambient_radiance, measured);
+  json["k_h"] = WeightOf(daylight.sky_radiance, measured);
   if (measured.as_printed) json["table_1"] = TableOne(measured);
   json["sun_radiance_sigma"] = BinsJson(fit.sun_sigma, spectra.bins());
   json["sun_irradiance_rgb"] = ToJson(SunIrradianceRgb(environment));
