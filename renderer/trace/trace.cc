@@ -161,6 +161,12 @@ std::optional<LightBalance> BalanceAt(const MontageScene& scene, const SurfacePo
       -(SunIrradiance(daylight, split.blocked) + SkyIrradiance(daylight, split.blocked)), E_lamps};
 }
 
+// No surface sends back more than it receives, but for errors of photograph and light: they must
+// not grow where light is added.
+Spectrum BoundedBrdf(const Spectrum& brdf, const LightBalance& balance, double diffuse_weight) {
+  return (balance.change > 0).select(brdf.min(1 / (diffuse_weight * kPi)), brdf);
+}
+
 // The change of a surface's radiance.
 Spectrum ChangeBy(const LightBalance& balance, const Spectrum& true_color, double diffuse_weight) {
   const Spectrum rho = DiffuseBrdf(true_color, diffuse_weight, balance.before);
@@ -169,9 +175,7 @@ Spectrum ChangeBy(const LightBalance& balance, const Spectrum& true_color, doubl
     const Spectrum added = ReflectedRadiance(diffuse_weight, rho, *balance.lamps);    // D1
     return removed.max(-true_color) + added;
   }
-  // No surface sends back more than it receives, but for errors of photograph and light: they
-  // must not grow where light is added.
-  const Spectrum bounded = (balance.change > 0).select(rho.min(1 / (diffuse_weight * kPi)), rho);
+  const Spectrum bounded = BoundedBrdf(rho, balance, diffuse_weight);
   return ReflectedRadiance(diffuse_weight, bounded, balance.change).max(-true_color);
 }
 
@@ -179,11 +183,11 @@ Spectrum ChangeBy(const LightBalance& balance, const Spectrum& true_color, doubl
 void NoteChange(const LightBalance& balance, const Spectrum& true_color, double diffuse_weight,
                 RayParts* parts) {
   const Spectrum rho = DiffuseBrdf(true_color, diffuse_weight, balance.before);
-  const Spectrum bounded = (balance.change > 0).select(rho.min(1 / (diffuse_weight * kPi)), rho);
+  const Spectrum used = balance.lamps ? rho : BoundedBrdf(rho, balance, diffuse_weight);
   for (const LightPart part :
        {kSunBlocked, kSkyBlocked, kSurroundingsBlocked, kBounced, kChangeLamps}) {
     Spectrum& light = parts->light[part];
-    light = ReflectedRadiance(diffuse_weight, balance.lamps ? rho : bounded, light);
+    light = ReflectedRadiance(diffuse_weight, used, light);
   }
 }
 

@@ -103,6 +103,24 @@ TEST(CaseC, AsPrintedMirrorsAddToTheDiffusePartAndAreSharp) {
   EXPECT_NEAR(color_of(rough), color_of(glossy), 1e-12);
 }
 
+// Where the half vector is the normal, cos^n is 1: (n + 2) / (8 pi) times the sun's 2 across its
+// rays.
+TEST(CaseC, AsPrintedARoughMirrorsHighlightHasItsClosedForm) {
+  const SmallSite site = MakeSmallSite();
+  const double m = 0.3, power = 2 / (m * m) - 2;
+  SurfaceMaterial rough = Grey(0.5);
+  rough.specular = Specular{0.3, std::nullopt, {m, FacetDistribution::kBeckmann}};
+  const auto color_of = [&](const SurfaceMaterial& material) {
+    MontageScene scene = site.With(Plate(site, {0, 0, 2}, 1, material));
+    scene.as_printed = true;
+    return TracePrimary(scene, Primary(scene, {-10, 0, 12}, {0, 0, 2})).rgb.x();
+  };
+  const MontageScene scene = site.With({});
+  const double horizon = Red(scene, scene.natural.air.horizon);
+  const double highlight = (power + 2) / (8 * std::numbers::pi) * 2;
+  EXPECT_NEAR(color_of(rough) - color_of(Grey(0.5)), 0.3 * (horizon + highlight), 1e-5);
+}
+
 // Open plate: sun 2 cos 45, sky pi 0.3, ambient pi 0.05, albedo over pi.
 TEST(CaseC, OpenHorizontalPlateHasItsClosedForm) {
   const SmallSite site = MakeSmallSite();
