@@ -280,7 +280,8 @@ class Waves : public testing::Test {
     for (int i = 0; i < kRays; ++i) {
       PrimaryRay ray = Primary(scene, {0, -10, 12}, {-12 + 24.0 * i / kRays, 1.25, 0});
       ray.light.seed = SplitMix64(i);
-      ray.light.facet = {SplitMix64(2 * i) * 0x1p-64, SplitMix64(2 * i + 1) * 0x1p-64};
+      const uint64_t pair = 2 * static_cast<uint64_t>(i);
+      ray.light.facet = {SplitMix64(pair) * 0x1p-64, SplitMix64(pair + 1) * 0x1p-64};
       const double change = TracePrimary(scene, ray).rgb.x();
       sum += change / kRays;
       squares += change * change / kRays;
