@@ -24,7 +24,7 @@ constexpr double kUnseenSigma = 0.5;  // of what unseen surroundings are taken t
 constexpr double kCurved = 1e-3;      // share by which twice a code is not twice the light
 // While samples are being chosen: at once, within a fraction of the sigmas.
 constexpr SurroundingsDetail kSoFar = {
-    .directions = 1024, .piece_m = 0.5, .piece_directions = 64, .rounds = 2};
+    .directions = 1024, .piece_m = 0.6, .piece_directions = 64, .rounds = 2};
 
 std::map<std::string, NaturalMaterial> MaterialsOfPolygons(const SitePaths& site,
                                                            const SceneGeometry& scene,
@@ -303,13 +303,16 @@ void MeasureAirAndLight(const SitePaths& site, const PhotographSet& photos,
   }
 }
 
+SpectralBasis BasisFor(const LightOptions& options) {
+  return {Rec709(), {options.bins}, options.as_printed ? Ntsc1953() : Rec709()};
+}
+
 LightMeasurement WithoutSamples(const SitePaths& site, SceneGeometry scene,
-                                const LightOptions& options) {
+                                const SpectralBasis& spectra) {
   LightMeasurement measured;
   NaturalEnvironment& environment = measured.environment;
   environment.scene = std::move(scene);
-  environment.spectra =
-      SpectralBasis(Rec709(), {options.bins}, options.as_printed ? Ntsc1953() : Rec709());
+  environment.spectra = spectra;
   environment.materials = MaterialsOfPolygons(site, environment.scene, &measured.warnings);
   return measured;
 }
@@ -345,7 +348,7 @@ void LightOptions::Check() const {
 
 LightMeasurement MeasureDaylight(const SitePaths& site, const LightOptions& options) {
   options.Check();
-  LightMeasurement measured = WithoutSamples(site, ReadSceneGeometry(site), options);
+  LightMeasurement measured = WithoutSamples(site, ReadSceneGeometry(site), BasisFor(options));
   NaturalEnvironment& environment = measured.environment;
   const int photographs = static_cast<int>(environment.scene.cameras.size());
   constexpr int kMeasurements = 2;  // samples, light, each about as long as a photograph
@@ -369,7 +372,8 @@ LightMeasurement MeasureDaylightSoFar(const SitePaths& site, const SceneGeometry
                                       std::vector<Sentence>* left_out) {
   LightOptions options;
   options.around = kSoFar;
-  LightMeasurement measured = WithoutSamples(site, scene, options);
+  static const SpectralBasis spectra = BasisFor({});  // takes as long as the fit
+  LightMeasurement measured = WithoutSamples(site, scene, spectra);
   measured.samples = ReadSamples(site, scene, photos, {}, left_out);
   RequireEnough(site, &measured.samples, left_out);
   MeasureAirAndLight(site, photos, options, kept, &measured);

@@ -37,6 +37,17 @@ struct MeanBrdfSum {
   }
 };
 
+// Materials by number: the first polygon's is 0.
+std::vector<int> MaterialOfPolygons(const SceneGeometry& scene) {
+  std::map<std::string, int> numbers;
+  std::vector<int> of_polygon;
+  for (const Polygon& polygon : scene.polygons) {
+    const int next = static_cast<int>(numbers.size());
+    of_polygon.push_back(numbers.try_emplace(polygon.material, next).first->second);
+  }
+  return of_polygon;
+}
+
 double LargestShare(const Spectrum& change, const Spectrum& of) {
   return change.abs().maxCoeff() / std::max(of.maxCoeff(), 1e-300);
 }
@@ -166,7 +177,8 @@ void Interreflection::Solve(const Daylight& light) {
 
 // From all pieces that a photograph shows, by material; where it shows none of it, of the site.
 void Interreflection::SetBrdfs(const std::vector<Spectrum>& irradiance) {
-  std::map<std::string, MeanBrdfSum> of_material;
+  const std::vector<int> material_of = MaterialOfPolygons(scene_.site.scene);
+  std::vector<MeanBrdfSum> of_material(material_of.size());
   MeanBrdfSum of_site;
   for (size_t i = 0; i < irradiance.size(); ++i) {
     const Patch& patch = Pieces()[i];
@@ -174,11 +186,11 @@ void Interreflection::SetBrdfs(const std::vector<Spectrum>& irradiance) {
     brdf_[i] = MeanBrdfSum{patch.photographed, irradiance[i]}.Value();
     if (patch.is_beyond) continue;  // a photograph may show anything there
     const MeanBrdfSum one = {patch.area * patch.photographed, patch.area * irradiance[i]};
-    of_material[scene_.site.scene.polygons[patch.polygon].material].Add(one);
+    of_material[material_of[patch.polygon]].Add(one);
     of_site.Add(one);
   }
   for (size_t p = 0; p < brdf_of_polygon_.size(); ++p) {
-    const MeanBrdfSum& sum = of_material[scene_.site.scene.polygons[p].material];
+    const MeanBrdfSum& sum = of_material[material_of[p]];
     brdf_of_polygon_[p] = (sum.IsEmpty() ? of_site : sum).Value();
   }
 }

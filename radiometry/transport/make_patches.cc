@@ -5,7 +5,6 @@
 
 #include <Eigen/Geometry>
 #include <array>
-#include <functional>
 #include <limits>
 #include <optional>
 #include <utility>
@@ -19,8 +18,8 @@ constexpr size_t kPointsAtOnce = 1 << 14;
 using Corners = std::array<Eigen::Vector3d, 3>;
 
 // Calls visit(centroid, area) for parts of a triangle whose edges are at most half a voxel long.
-void ForParts(const PatchGrid& grid, const Corners& corners,
-              const std::function<void(const GridPlace&, double)>& visit) {
+template <typename Visit>
+void ForParts(const PatchGrid& grid, const Corners& corners, const Visit& visit) {
   int longest = 0;
   double length = 0;
   for (int i = 0; i < 3; ++i) {

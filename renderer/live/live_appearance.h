@@ -50,11 +50,17 @@ class AppearanceThread {
  private:
   void Work(const std::stop_token& stop);
   void Building(const AppearanceOrder& order);
-  void Light(const AppearanceOrder& order);
+  struct Lit {
+    Json::Value message;
+    std::shared_ptr<const NaturalEnvironment> environment;
+  };
+  Lit LightOf(const AppearanceOrder& order);  // beside Building
+  void TellLight(const AppearanceOrder& order, Lit lit);
 
   const SitePaths site_;
   const Tell tell_;
-  LinearPhotos linear_;  // this and the next two are the thread's
+  LinearPhotos linear_;  // the light's
+  // The thread's.
   std::optional<BuildingWireframe> building_;
   LiveAppearance last_;
 

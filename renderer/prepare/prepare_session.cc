@@ -23,7 +23,7 @@
 namespace insitu {
 namespace {
 
-constexpr auto kQuiet = std::chrono::milliseconds(60);  // after the last operation
+constexpr auto kQuiet = std::chrono::milliseconds(40);  // after the last operation
 constexpr auto kLook = std::chrono::seconds(1);         // between looks at the files
 
 Json::Value OrNull(const std::optional<std::string>& text) {

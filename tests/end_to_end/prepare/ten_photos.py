@@ -9,7 +9,7 @@ import sys
 demo, folder = sys.argv[1:3]
 PHOTOS, MARKS, NOISE = 10, 20, 0.4  # NOISE [px]
 shutil.copytree(demo, folder, ignore=shutil.ignore_patterns("work", "montages", "truth"))
-shutil.copytree(f"{demo}/work/calibration", f"{folder}/work/calibration")
+shutil.copytree(f"{demo}/work/calibration", f"{folder}/work/calibration", symlinks=True)  # they may lead nowhere
 noise = random.Random(1)
 with open(f"{demo}/survey/control_points.csv", encoding="utf-8") as file:
     control = {row["name"] for row in csv.DictReader(file) if row["role"] == "control"}

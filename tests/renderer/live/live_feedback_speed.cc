@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// live_feedback_speed SITE: what the adjustment and the light after a changed mark cost, the page
-// left out.
+// live_feedback_speed SITE: what the adjustment, the building and the light after a changed mark
+// cost, the page left out.
 #include <chrono>
 #include <cstdio>
 #include <ctime>
 #include <functional>
 
+#include "renderer/live/live_building.h"
 #include "renderer/live/live_light.h"
 #include "renderer/live/live_worker.h"
 
@@ -26,10 +27,12 @@ void Time(const char* what, const std::function<void()>& work) {
 void Measure(const SitePaths& site) {
   LiveWorker worker(site);
   LinearPhotos photos(site);
+  const BuildingWireframe building = ReadBuildingWireframe(site);
   for (int i = 0; i < kTimes; ++i) {
     LiveState state;
     Time("adjustment", [&] { state = worker.Adjust(i); });
     if (!state.result.scene) return;
+    Time("building", [&] { LiveBuilding(building, *state.result.scene); });
     Time("light", [&] { LiveLight(site, *state.result.scene, photos); });
   }
 }
