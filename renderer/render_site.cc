@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <future>
 #include <memory>
 #include <utility>
 
@@ -211,7 +212,9 @@ class SiteRender {
       : site_(site),
         options_(options),
         building_(BuildingShown(site, options)),
-        edges_(building_),
+        edges_(std::async(options.is_quick ? std::launch::deferred : std::launch::async,
+                          [this] { return BuildingEdges(building_); })
+                   .share()),
         gains_(ReadPhotoGains(site)),
         scene_(LoadScene(site, ReadEnvironment(site), gains_, building_)),
         files_(SiteInputsSha256(site, scene_.natural, building_)),
@@ -236,9 +239,6 @@ class SiteRender {
     RenderView view = LoadView(site_, scene_, gains_, photograph, options_.frame);
     RenderSiteReport report;
     report.photo = photo;
-    if (options_.with_building) {
-      report.uncertainty = WriteUncertaintyOf(site_, geometry, camera, edges_);
-    }
     std::optional<LayerImages> layers;
     if (!options_.layers.empty() && !IsDrawn(options_.avr)) {
       layers.emplace(InUnit(view), view.foreground.get(),
@@ -274,6 +274,9 @@ class SiteRender {
         WriteMontage(site_, photograph, {options_.frame, options_.with_tiff, options_.is_quick},
                      std::move(view.photo), std::move(linear), report.result, statement_);
     RemarkClipped(report.result, &report.remarks);
+    if (options_.with_building) {
+      report.uncertainty = WriteUncertaintyOf(site_, geometry, camera, edges_.get());
+    }
     WriteRenderRecord(site_, photo, options_);
     return report;
   }
@@ -331,7 +334,7 @@ class SiteRender {
   RenderResult Drawn(const RenderView& view) const {
     const DrawnView drawn = {scene_, view.camera, InUnit(view), view.foreground.get()};
     return options_.avr == AvrLevel::kSilhouette ? DrawSilhouette(drawn)
-                                                 : DrawOutline(drawn, edges_);
+                                                 : DrawOutline(drawn, edges_.get());
   }
 
   RenderResult Tiles(const std::filesystem::path& photograph, const RenderView& view,
@@ -377,7 +380,8 @@ class SiteRender {
   const SitePaths& site_;
   const RenderSiteOptions& options_;
   const ArtificialEnvironment building_;
-  const BuildingEdges edges_;
+  // While files are read; of a quick look, whose picture needs none, after it.
+  const std::shared_future<BuildingEdges> edges_;
   const std::vector<Eigen::Vector3d> gains_;
   MontageScene scene_;
   const std::string files_, inputs_, light_inputs_;  // hashes

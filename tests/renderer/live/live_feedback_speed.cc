@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cstdio>
 #include <ctime>
+#include <filesystem>
 #include <functional>
 
 #include "renderer/live/live_building.h"
@@ -27,7 +28,9 @@ void Time(const char* what, const std::function<void()>& work) {
 void Measure(const SitePaths& site) {
   LiveWorker worker(site);
   LinearPhotos photos(site);
-  const BuildingWireframe building = ReadBuildingWireframe(site);
+  const bool has_building = std::filesystem::exists(site.artificial());
+  const BuildingWireframe building =
+      has_building ? ReadBuildingWireframe(site) : BuildingWireframe();
   for (int i = 0; i < kTimes; ++i) {
     LiveState state;
     Time("adjustment", [&] { state = worker.Adjust(i); });
