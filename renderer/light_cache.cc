@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "renderer/light_cache.h"
 
+#include <algorithm>
 #include <bit>
 #include <cstring>
 #include <string_view>
@@ -64,6 +65,7 @@ class LightNumbers {
   void List(std::vector<Item>& items, const Each& each) {
     uint64_t count = 0;
     (*this)(count);
+    items.reserve(std::min<uint64_t>(count, bytes_.size() / sizeof(Item)));
     // Every item takes bytes, so that a wrong count ends at the end of the file.
     for (uint64_t i = 0; i < count && is_whole_; ++i) each(*this, items.emplace_back());
   }

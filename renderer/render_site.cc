@@ -67,14 +67,22 @@ std::shared_ptr<const SurfaceTextures> LoadTextures(const SitePaths& site,
 // With its photographs in one unit.
 MontageScene WithImages(NaturalEnvironment natural, const std::vector<Eigen::Vector3d>& gains,
                         const ArtificialEnvironment& building) {
+  const std::vector<InputImage> files = natural.input_images;
   if (!FitInMemory(natural)) {
-    const auto images = TiledInputImages(natural, gains);
+    const auto images = TiledInputImages(files, gains);
     const PhaseScope shading(Phase::kShading);
-    return MakeMontageScene(std::move(natural), building, images);
+    MontageScene scene = SceneWithoutImages(std::move(natural), building);
+    SetInputImages(images, &scene);
+    return scene;
   }
-  std::vector<Raster> images = ReadInputImages(natural, gains);
+  auto images = std::async(std::launch::async, [&] {
+    const PhaseScope phase(Phase::kFiles);
+    return ReadInputImages(files, gains);
+  });
   const PhaseScope shading(Phase::kShading);
-  return MakeMontageScene(std::move(natural), building, std::move(images));
+  MontageScene scene = SceneWithoutImages(std::move(natural), building);
+  SetInputImages(images.get(), &scene);
+  return scene;
 }
 
 MontageScene LoadScene(const SitePaths& site, NaturalEnvironment natural,
@@ -209,26 +217,7 @@ ArtificialEnvironment BuildingShown(const SitePaths& site, const RenderSiteOptio
 class SiteRender {
  public:
   SiteRender(const SitePaths& site, const RenderSiteOptions& options)
-      : site_(site),
-        options_(options),
-        building_(BuildingShown(site, options)),
-        edges_(std::async(options.is_quick ? std::launch::deferred : std::launch::async,
-                          [this] { return BuildingEdges(building_); })
-                   .share()),
-        gains_(ReadPhotoGains(site)),
-        scene_(LoadScene(site, ReadEnvironment(site), gains_, building_)),
-        files_(SiteInputsSha256(site, scene_.natural, building_)),
-        inputs_(Sha256OfText(OptionsText(options) + "\n" + files_)),
-        light_inputs_(Sha256OfText(LightOptionsText(options) + "\n" + files_)),
-        statement_(StatementOf(
-            site, {options.with_building, options.avr, options.quality, OptionsText(options)})) {
-    ThrowIfStopped();
-    scene_.as_printed = options.as_printed;
-    if (options.uniform_ambient || IsDrawn(options.avr)) return;
-    const auto kept = ReadLightCache(LightCacheOf(site, options), light_inputs_);
-    AddInterreflection(&scene_, options.bounces, kept ? &*kept : nullptr, options.light_coarseness);
-    if (kept) kept_points_ = GatheredPoints();
-  }
+      : SiteRender(site, options, ReadEnvironment(site)) {}
 
   RenderSiteReport Render(const std::filesystem::path& photograph) {
     ThrowIfStopped();
@@ -300,6 +289,37 @@ class SiteRender {
   }
 
  private:
+  SiteRender(const SitePaths& site, const RenderSiteOptions& options, NaturalEnvironment natural)
+      : site_(site),
+        options_(options),
+        building_(BuildingShown(site, options)),
+        edges_(std::async(options.is_quick ? std::launch::deferred : std::launch::async,
+                          [this] { return BuildingEdges(building_); })
+                   .share()),
+        gains_(ReadPhotoGains(site)),
+        files_(SiteInputsSha256(site, natural, building_)),
+        inputs_(Sha256OfText(OptionsText(options) + "\n" + files_)),
+        light_inputs_(Sha256OfText(LightOptionsText(options) + "\n" + files_)),
+        kept_light_(std::async(std::launch::async, [this] { return KeptLightIfAny(); })),
+        scene_(LoadScene(site, std::move(natural), gains_, building_)),
+        statement_(StatementOf(
+            site, {options.with_building, options.avr, options.quality, OptionsText(options)})) {
+    ThrowIfStopped();
+    scene_.as_printed = options.as_printed;
+    const auto kept = kept_light_.get();
+    if (!IsLit()) return;
+    AddInterreflection(&scene_, options.bounces, kept ? &*kept : nullptr, options.light_coarseness);
+    if (kept) kept_points_ = GatheredPoints();
+  }
+
+  bool IsLit() const { return !options_.uniform_ambient && !IsDrawn(options_.avr); }
+
+  std::optional<KeptLight> KeptLightIfAny() const {
+    const PhaseScope phase(Phase::kFiles);
+    if (!IsLit()) return std::nullopt;
+    return ReadLightCache(LightCacheOf(site_, options_), light_inputs_);
+  }
+
   long GatheredPoints() const {
     return scene_.interreflected->on_site.points() + scene_.interreflected->on_building.points();
   }
@@ -383,9 +403,10 @@ class SiteRender {
   // While files are read; of a quick look, whose picture needs none, after it.
   const std::shared_future<BuildingEdges> edges_;
   const std::vector<Eigen::Vector3d> gains_;
+  const std::string files_, inputs_, light_inputs_;   // hashes
+  std::future<std::optional<KeptLight>> kept_light_;  // read while the scene is made
   MontageScene scene_;
-  const std::string files_, inputs_, light_inputs_;  // hashes
-  long kept_points_ = -1;                            // -1: none were kept
+  long kept_points_ = -1;  // -1: none were kept
   const MontageStatement statement_;
   std::vector<std::unique_ptr<PartialRender>> partials_;
 };

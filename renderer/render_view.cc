@@ -98,27 +98,27 @@ bool FitInMemory(const NaturalEnvironment& natural) {
   return bytes <= kMostBytes;
 }
 
-std::vector<Raster> ReadInputImages(const NaturalEnvironment& natural,
+std::vector<Raster> ReadInputImages(const std::vector<InputImage>& images,
                                     const std::vector<Eigen::Vector3d>& gains) {
   // One after the other: of several faults always the first is told.
-  for (const InputImage& image : natural.input_images) RequireInputImage(image);
-  std::vector<Raster> images(gains.size());
+  for (const InputImage& image : images) RequireInputImage(image);
+  std::vector<Raster> rasters(gains.size());
   tbb::parallel_for(size_t{0}, gains.size(), [&](size_t i) {
-    images[i] = ReadInputImage(natural.input_images[i]);
-    if (gains[i] != kUnitGain) DivideByGain(gains[i], &images[i]);
+    rasters[i] = ReadInputImage(images[i]);
+    if (gains[i] != kUnitGain) DivideByGain(gains[i], &rasters[i]);
   });
-  return images;
+  return rasters;
 }
 
-std::vector<LocalImage::ImageFunction> TiledInputImages(const NaturalEnvironment& natural,
+std::vector<LocalImage::ImageFunction> TiledInputImages(const std::vector<InputImage>& images,
                                                         const std::vector<Eigen::Vector3d>& gains) {
-  std::vector<LocalImage::ImageFunction> images;
+  std::vector<LocalImage::ImageFunction> functions;
   for (size_t i = 0; i < gains.size(); ++i) {
-    RequireInputImage(natural.input_images[i]);
-    const TiledImage tiled(natural.input_images[i].file, FactorOfGain(gains[i]));
-    images.emplace_back([tiled](const Eigen::Vector2d& pixel) { return tiled.At(pixel); });
+    RequireInputImage(images[i]);
+    const TiledImage tiled(images[i].file, FactorOfGain(gains[i]));
+    functions.emplace_back([tiled](const Eigen::Vector2d& pixel) { return tiled.At(pixel); });
   }
-  return images;
+  return functions;
 }
 
 const Raster& InUnit(const RenderView& view) {

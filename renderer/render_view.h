@@ -47,9 +47,9 @@ bool FitInMemory(const NaturalEnvironment& natural);
 
 // In the site's unit: whole, or as functions that read what they are asked for and give the same to
 // the last bit. `gains`: of the scene's cameras. Throw InputError as ReadInputImage does.
-std::vector<Raster> ReadInputImages(const NaturalEnvironment& natural,
+std::vector<Raster> ReadInputImages(const std::vector<InputImage>& images,
                                     const std::vector<Eigen::Vector3d>& gains);
-std::vector<LocalImage::ImageFunction> TiledInputImages(const NaturalEnvironment& natural,
+std::vector<LocalImage::ImageFunction> TiledInputImages(const std::vector<InputImage>& images,
                                                         const std::vector<Eigen::Vector3d>& gains);
 
 // The photograph in the site's unit, in which the scene's light is measured.

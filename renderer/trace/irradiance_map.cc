@@ -366,6 +366,7 @@ IrradianceMap::IrradianceMap(const Interreflection& light, const TriangleMesh& m
                              const IrradianceMapOptions& options, std::span<const KeptPoint> kept)
     : tree_(std::make_unique<Tree>(light, mesh, std::move(normals), options)) {
   options.Check();
+  for (Tree::Shard& shard : tree_->shards) shard.points.reserve(kept.size() / Tree::kShards);
   for (const KeptPoint& point : kept) {
     const PointKey key{point.cells};
     auto gathered = std::make_unique<const GatheredPoint>(GatheredPoint{

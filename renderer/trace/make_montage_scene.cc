@@ -139,7 +139,38 @@ void AddLamp(const PointLight& lamp, MontageScene* scene) {
       {position - (lamp.edge_u + lamp.edge_v) / 2, lamp.edge_u, lamp.edge_v, intensity / area});
 }
 
-MontageScene WithoutImages(NaturalEnvironment natural, const ArtificialEnvironment& artificial) {
+}  // namespace
+
+double PixelAngle(const NaturalEnvironment& natural) {
+  double smallest = 1;
+  for (const InputImage& image : natural.input_images) {
+    const Eigen::Vector2d center(image.camera.width() / 2.0, image.camera.height() / 2.0);
+    const Eigen::Vector3d here = image.camera.Unproject(center).normalized();
+    const Eigen::Vector3d next =
+        image.camera.Unproject(center + Eigen::Vector2d::UnitX()).normalized();
+    smallest = std::min(smallest, (next - here).norm());
+  }
+  return smallest;
+}
+
+SpectralMaterial SpectralMaterialOf(const SpectralBasis& spectra, const SurfaceMaterial& material) {
+  const Spectrum albedo = material.reflectance.empty()
+                              ? spectra.ReflectanceFromRgb(material.diffuse_rgb)
+                              : Sampled(material.reflectance, spectra.bins());
+  SpectralMaterial surface{.diffuse_weight = material.diffuse_weight,
+                           .brdf = albedo / std::numbers::pi,
+                           .specular = material.specular,
+                           .mirror_color = spectra.ReflectanceFromRgb(material.specular_rgb)};
+  if (material.metal) {
+    surface.metal = SpectralMetal{Sampled(material.metal->index, spectra.bins()),
+                                  Sampled(material.metal->extinction, spectra.bins())};
+  }
+  if (material.glass) surface.glass = GlassOf(spectra, *material.glass);
+  return surface;
+}
+
+MontageScene SceneWithoutImages(NaturalEnvironment natural,
+                                const ArtificialEnvironment& artificial) {
   const Eigen::Vector3d origin = natural.scene.origin;
   PolygonMesh polygons = MeshOfPolygons(natural.scene);
   std::optional<ArtificialEnvironment> with_facets;  // a large mesh is copied for spheres alone
@@ -201,59 +232,32 @@ MontageScene WithoutImages(NaturalEnvironment natural, const ArtificialEnvironme
   return scene;
 }
 
-}  // namespace
-
-double PixelAngle(const NaturalEnvironment& natural) {
-  double smallest = 1;
-  for (const InputImage& image : natural.input_images) {
-    const Eigen::Vector2d center(image.camera.width() / 2.0, image.camera.height() / 2.0);
-    const Eigen::Vector3d here = image.camera.Unproject(center).normalized();
-    const Eigen::Vector3d next =
-        image.camera.Unproject(center + Eigen::Vector2d::UnitX()).normalized();
-    smallest = std::min(smallest, (next - here).norm());
-  }
-  return smallest;
-}
-
-SpectralMaterial SpectralMaterialOf(const SpectralBasis& spectra, const SurfaceMaterial& material) {
-  const Spectrum albedo = material.reflectance.empty()
-                              ? spectra.ReflectanceFromRgb(material.diffuse_rgb)
-                              : Sampled(material.reflectance, spectra.bins());
-  SpectralMaterial surface{.diffuse_weight = material.diffuse_weight,
-                           .brdf = albedo / std::numbers::pi,
-                           .specular = material.specular,
-                           .mirror_color = spectra.ReflectanceFromRgb(material.specular_rgb)};
-  if (material.metal) {
-    surface.metal = SpectralMetal{Sampled(material.metal->index, spectra.bins()),
-                                  Sampled(material.metal->extinction, spectra.bins())};
-  }
-  if (material.glass) surface.glass = GlassOf(spectra, *material.glass);
-  return surface;
-}
-
-MontageScene MakeMontageScene(NaturalEnvironment natural, const ArtificialEnvironment& artificial,
-                              const std::vector<LocalImage::ImageFunction>& images) {
+void SetInputImages(const std::vector<LocalImage::ImageFunction>& images, MontageScene* scene) {
+  const NaturalEnvironment& natural = scene->natural;
   INSITU_CHECK(images.size() == natural.scene.cameras.size());
   INSITU_CHECK(natural.input_images.size() == images.size());
-  MontageScene scene = WithoutImages(std::move(natural), artificial);
   for (size_t i = 0; i < images.size(); ++i) {
-    PosedCamera camera = scene.natural.scene.cameras[i];
-    camera.camera = scene.natural.input_images[i].camera;
-    scene.images.emplace_back(camera, scene.natural.scene.origin, images[i]);
+    PosedCamera camera = natural.scene.cameras[i];
+    camera.camera = natural.input_images[i].camera;
+    scene->images.emplace_back(camera, natural.scene.origin, images[i]);
   }
-  scene.mean_brdf_of_polygon = MeanBrdfOfPolygons(scene);
-  return scene;
+  scene->mean_brdf_of_polygon = MeanBrdfOfPolygons(*scene);
 }
 
-MontageScene MakeMontageScene(NaturalEnvironment natural, const ArtificialEnvironment& artificial,
-                              std::vector<Raster> images) {
+void SetInputImages(std::vector<Raster> images, MontageScene* scene) {
   std::vector<LocalImage::ImageFunction> functions;
   for (const Raster& image : images) {
     functions.emplace_back(
         [&image](const Eigen::Vector2d& pixel) { return Interpolate(image, pixel); });
   }
-  MontageScene scene = MakeMontageScene(std::move(natural), artificial, functions);
-  scene.input_images = std::move(images);  // which stay where they are
+  SetInputImages(functions, scene);
+  scene->input_images = std::move(images);  // which stay where they are
+}
+
+MontageScene MakeMontageScene(NaturalEnvironment natural, const ArtificialEnvironment& artificial,
+                              std::vector<Raster> images) {
+  MontageScene scene = SceneWithoutImages(std::move(natural), artificial);
+  SetInputImages(std::move(images), &scene);
   return scene;
 }
 

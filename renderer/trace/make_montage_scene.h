@@ -15,9 +15,12 @@ namespace insitu {
 MontageScene MakeMontageScene(NaturalEnvironment natural, const ArtificialEnvironment& artificial,
                               std::vector<Raster> images);
 
-// The same where the images are not in memory; scene.input_images stays empty.
-MontageScene MakeMontageScene(NaturalEnvironment natural, const ArtificialEnvironment& artificial,
-                              const std::vector<LocalImage::ImageFunction>& images);
+// The same in two steps, so that images can be read while the first is done.
+MontageScene SceneWithoutImages(NaturalEnvironment natural,
+                                const ArtificialEnvironment& artificial);
+void SetInputImages(std::vector<Raster> images, MontageScene* scene);
+// Images that are not in memory: scene->input_images stays empty.
+void SetInputImages(const std::vector<LocalImage::ImageFunction>& images, MontageScene* scene);
 
 // What a pixel in the middle of the sharpest input image spans [rad].
 double PixelAngle(const NaturalEnvironment& natural);

@@ -252,7 +252,7 @@ export class Pane extends Zoomed {
   /** @param {string} name */
   noteOf(name, about) {
     const percent = Math.round(100 * this.k * devicePixelRatio);
-    return `${orientationOf(name, about)}  ${percent} %${ui.arrows ? `  v × ${ui.arrows}` : ""}`;
+    return `${orientationOf(name, about)} · ${percent} %${ui.arrows ? ` · v × ${ui.arrows}` : ""}`;
   }
 
   /** In which light the photo is shown, and what is to be known of it. */
