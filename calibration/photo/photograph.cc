@@ -220,6 +220,7 @@ Code NearestCode(double encoded) {
 // The default's, of one channel.
 template <typename Code>
 Code Encoded(float linear) {
+  if constexpr (std::is_same_v<Code, uint8_t>) return NearestSrgbCode(linear);
   return NearestCode<Code>(SrgbFromLinear(linear));
 }
 

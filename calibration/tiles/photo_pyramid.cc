@@ -12,6 +12,7 @@
 #include <utility>
 #include <variant>
 
+#include "calibration/color/srgb_table.h"
 #include "calibration/files/error.h"
 #include "calibration/files/error_at.h"
 #include "calibration/files/whole_file.h"
@@ -127,8 +128,7 @@ cv::Mat EightBit(const cv::Mat& image, const ColorSpace& color) {
   shown.create(image.size(), CV_8UC3);
   for (int y = 0; y < image.rows; ++y) {
     for (int i = 0; i < 3 * image.cols; ++i) {
-      const double value = std::clamp(static_cast<double>(image.ptr<float>(y)[i]), 0., 1.);
-      shown.ptr<uint8_t>(y)[i] = static_cast<uint8_t>(std::lround(255 * SrgbFromLinear(value)));
+      shown.ptr<uint8_t>(y)[i] = NearestSrgbCode(image.ptr<float>(y)[i]);
     }
   }
   return shown;

@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
-#include <cmath>
 #include <string_view>
 #include <utility>
 
+#include "calibration/color/srgb_table.h"
 #include "calibration/files/error.h"
 #include "calibration/photo/photograph.h"
 
@@ -49,10 +49,6 @@ std::vector<uint8_t> FromBase64(std::string_view text) {
     }
   }
   return bytes;
-}
-
-uint8_t CodeOf(double linear) {
-  return static_cast<uint8_t>(std::lround(255 * SrgbFromLinear(std::clamp(linear, 0., 1.))));
 }
 
 void AppendRows(const CodeImage& image, std::string* text) {
@@ -138,7 +134,7 @@ std::vector<uint8_t> TileCodes(const FinishedTile& tile, const Raster& photo) {
     for (int x = place.left; x < place.right; ++x) {
       const bool is_computed = tile.is_computed[pixel++] != 0;
       const float* rgb = is_computed ? computed : photo.At(x, y);
-      for (int c = 0; c < 3; ++c) codes.push_back(CodeOf(rgb[c]));
+      for (int c = 0; c < 3; ++c) codes.push_back(NearestSrgbCode(rgb[c]));
       if (is_computed) computed += 3;
     }
   }
@@ -159,7 +155,9 @@ CodeImage Reduced(const Raster& photo, int most) {
           sum += photo.Rgb(u, v);
         }
       }
-      for (const double mean : sum / count) image.codes.push_back(CodeOf(mean));
+      for (const double mean : sum / count) {
+        image.codes.push_back(NearestSrgbCode(static_cast<float>(mean)));
+      }
     }
   }
   return image;

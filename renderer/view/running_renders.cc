@@ -2,20 +2,16 @@
 #include "renderer/view/running_renders.h"
 
 #include <algorithm>
-#include <cmath>
 #include <opencv2/core.hpp>
 #include <utility>
 
+#include "calibration/color/srgb_table.h"
 #include "calibration/photo/exif.h"
 #include "calibration/photo/photograph.h"
 #include "calibration/tiles/shown_image.h"
 
 namespace insitu {
 namespace {
-
-uchar ShownCode(float linear) {
-  return static_cast<uchar>(std::lround(255 * SrgbFromLinear(std::clamp(linear, 0.f, 1.f))));
-}
 
 int CountOf(const PartialHeader& header) { return TileCount(header.width, header.height); }
 
@@ -59,7 +55,7 @@ void UnfinishedPicture::Put(const FinishedTile& finished) {
       const Eigen::Vector2d at =
           UprightPixel(Eigen::Vector2d(x, y), header_.width, header_.height, before_.orientation);
       auto& pixel = shown_.at<cv::Vec3b>(static_cast<int>(at.y()), static_cast<int>(at.x()));
-      for (int c = 0; c < 3; ++c) pixel[2 - c] = ShownCode(rgb[c]);
+      for (int c = 0; c < 3; ++c) pixel[2 - c] = NearestSrgbCode(rgb[c]);
       rgb += 3;
     }
   }
