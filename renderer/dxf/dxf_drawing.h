@@ -6,6 +6,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "renderer/dxf/dxf_block.h"
 
@@ -26,6 +27,7 @@ struct DxfDrawing {
   std::map<std::string, DxfBlock> blocks;  // by NameKey
   DxfBlock model_space;
   std::vector<std::string> warnings;                   // with the file's name
+  std::vector<std::filesystem::path> files;            // that it refers to and that were read
   std::map<std::string, std::string> block_of_handle;  // of the table of blocks
   std::map<std::string, std::string> body_of_handle;   // SAB of entities, by DxfHandle
   // A state of a dynamic block, "*U3" by NameKey -> handle of the block that a user named.
@@ -38,9 +40,14 @@ std::string NameByUser(const DxfDrawing& drawing, const std::string& block);
 // The block that an INSERT names. Throws InputError: the drawing does not define it.
 const DxfBlock& InsertedBlock(const DxfDrawing& drawing, const DxfInsert& insert);
 
+// With the drawings that it refers to, sought about `beside`, which stands for `path`.
 // Throws InputError: a section that is not closed, a faulty entity; and, among the
 // blocks that the model space uses, one that lies more than 64 deep,
 // or copies that come to over `most_pieces` (vertices, entities and the copies themselves).
-DxfDrawing ReadDxfDrawing(const std::filesystem::path& path, double most_pieces);
+DxfDrawing ReadDxfDrawing(const std::filesystem::path& path, double most_pieces,
+                          const std::filesystem::path& beside);
+
+// The DXF drawings that a drawing refers to, where they are there. Throws InputError as above.
+std::vector<std::filesystem::path> ExternalDrawingsOf(const std::filesystem::path& path);
 
 }  // namespace insitu

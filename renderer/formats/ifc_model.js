@@ -142,13 +142,15 @@ class Reader extends Names {
 
   // What gives surfaces a look that is not shown, and what is no surface.
   countLooks() {
-    for (const [type, reason] of [['IfcImageTexture', 'an image: list it in materials.json'], ['IfcBlobTexture', 'an image within: not read'],
-      ['IfcPixelTexture', 'an image within: not read'], ['IfcIndexedColourMap', 'colours by face are not read'],
-      ['IfcLightSourcePositional', 'list lamps in lights.json'], ['IfcLightSourceSpot', 'list lamps in lights.json'],
-      ['IfcLightSourceGoniometric', 'list lamps in lights.json']]) {
+    const map = 'where an image lies on faces: not read';
+    const lamp = 'list lamps in lights.json';
+    for (const [type, reason] of [['IfcIndexedColourMap', 'colours by face are not read'], ['IfcTextureMap', map],
+      ['IfcIndexedTriangleTextureMap', map], ['IfcIndexedPolygonalTextureMap', map], ['IfcTextureCoordinateGenerator', map],
+      ['IfcLightSourcePositional', lamp], ['IfcLightSourceSpot', lamp], ['IfcLightSourceGoniometric', lamp]]) {
       const count = this.ids(type).length;
       if (count > 0) this.skipped.push([type, reason, count]);
     }
+    for (const [what, count] of this.texturesByName()) this.skipped.push([...JSON.parse(what), count]);
   }
 
   // Elements whose shapes are solids by their type and whose faces leave edges open.
