@@ -15,7 +15,7 @@
 #include "renderer/foreign/mesh_builder.h"
 #include "renderer/formats/obj_material.h"
 #include "renderer/formats/obj_words.h"
-#include "renderer/formats/unit_comment.h"
+#include "renderer/foreign/unit_comment.h"
 #include "renderer/mesh/face_triangles.h"
 
 namespace insitu {

@@ -242,7 +242,7 @@ TEST(IfcModel, UnitsWithAnOffsetAndSmallLettersAreRead) {
   const ScratchFolder folder;
   const double area = 216 * 0.3048 * 0.3048;
   std::string text = kBox;
-  text.replace(text.find("IFCCONVERSIONBASEDUNIT(#4,.LENGTHUNIT.,'FOOT',#6)"), 50,
+  text.replace(text.find("IFCCONVERSIONBASEDUNIT(#4,.LENGTHUNIT.,'FOOT',#6)"), 49,
                "IFCCONVERSIONBASEDUNITWITHOFFSET(#4,.LENGTHUNIT.,'FOOT',#6,0.)");
   EXPECT_NEAR(AreaOf(ReadIfc(folder.Write("a.ifc", text), 60).mesh), area, 1e-5);
   text = kBox;
@@ -254,7 +254,7 @@ TEST(IfcModel, UnitsWithAnOffsetAndSmallLettersAreRead) {
             "IfcWall_Au\xC3\x9F"
             "enwand");
   text = kBox;
-  text.replace(text.find("IFCCONVERSIONBASEDUNIT(#4,.LENGTHUNIT.,'FOOT',#6)"), 50,
+  text.replace(text.find("IFCCONVERSIONBASEDUNIT(#4,.LENGTHUNIT.,'FOOT',#6)"), 49,
                "IFCCONTEXTDEPENDENTUNIT(#4,.LENGTHUNIT.,'brick')");
   const Model other = ReadIfc(folder.Write("a.ifc", text), 60);
   EXPECT_EQ(other.metres_per_unit, std::nullopt);

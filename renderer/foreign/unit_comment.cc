@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "renderer/formats/unit_comment.h"
+#include "renderer/foreign/unit_comment.h"
 
 #include <algorithm>
 #include <map>
