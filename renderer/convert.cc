@@ -404,6 +404,9 @@ void RequireSurface(const SitePaths& site, const Conversion& conversion) {
     for (const auto& [what, count] : model.skipped) {
       reasons[what.first + " left out (" + what.second + ")"] += count;
     }
+    if (model.degenerate_faces > 0) {
+      reasons["faces of no area, or whose outline crosses itself"] += model.degenerate_faces;
+    }
   }
   const fs::path file = FileOf(site, conversion);
   throw InputError(file, "has no surface to show, expected faces, meshes or solids; it has " +

@@ -41,15 +41,26 @@ void ReadHeader(const DxfRecord& header, DxfReader* reader, DxfDrawing* drawing)
 void ReadBlockTableEntry(const DxfRecord& record, DxfDrawing* drawing) {
   const std::string name = record.Name(2);
   if (const DxfTag* handle = record.Find(5)) {
-    drawing->block_of_handle[std::string(handle->value)] = name;
+    drawing->block_of_handle[DxfHandle(handle->value)] = name;
   }
   bool is_representation = false;
   for (const DxfTag& tag : record.tags()) {
     constexpr int kApplication = 1001, kHandle = 1005;
     if (tag.code == kApplication) is_representation = tag.value == "AcDbBlockRepBTag";
     if (is_representation && tag.code == kHandle) {
-      drawing->dynamic_block[NameKey(name)] = std::string(tag.value);
+      drawing->dynamic_block[NameKey(name)] = DxfHandle(tag.value);
     }
+  }
+}
+
+// A colour that is no number costs itself: white, as of a new layer.
+int LayerColor(const DxfRecord& record, DxfDrawing* drawing) {
+  constexpr int kWhite = 7;
+  try {
+    return record.Integer(62, kWhite);
+  } catch (const InputError& error) {
+    drawing->warnings.push_back(std::string(error.what()) + ": the layer's colour is left out");
+    return kWhite;
   }
 }
 
@@ -57,7 +68,7 @@ void ReadTableEntry(const DxfRecord& record, DxfDrawing* drawing) {
   if (record.kind() == "BLOCK_RECORD") return ReadBlockTableEntry(record, drawing);
   if (record.kind() != "LAYER") return;
   DxfLayer layer;
-  const int color = record.Integer(62, 7);  // negative if off
+  const int color = LayerColor(record, drawing);  // negative if off
   layer.frozen = record.Integer(70, 0) & 1;
   layer.off = color < 0;
   layer.no_plot = record.Integer(290, 1) == 0;

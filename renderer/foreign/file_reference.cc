@@ -101,7 +101,9 @@ std::optional<fs::path> FindAsWritten(const fs::path& folder, const std::string&
 }
 
 // "wall.png?v=3#part": what an address has behind a file's name.
-std::string WithoutQuery(const std::string& name) { return name.substr(0, name.find_first_of("?#")); }
+std::string WithoutQuery(const std::string& name) {
+  return name.substr(0, name.find_first_of("?#"));
+}
 
 }  // namespace
 
