@@ -4,10 +4,11 @@
 
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
-#include "renderer/dxf/dxf_drawing.h"
+#include "renderer/dxf/dxf_contents.h"
 
 namespace insitu {
 
