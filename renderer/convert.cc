@@ -90,6 +90,7 @@ class Converter {
   std::string TextureOf(const SurfaceNames& names) const;
   void TakeMeanColor(const SurfaceNames& names, SurfaceMaterial* material);
   void WarnOfMaterials();
+  void WarnOfTexturedSpheres();
   void WarnOfSolids();
   void DropHidden(const std::vector<std::optional<int>>& material_of_surface);
 
@@ -283,6 +284,19 @@ void Converter::WarnOfMaterials() {
   }
 }
 
+// An exact sphere has no place for an image.
+void Converter::WarnOfTexturedSpheres() {
+  std::map<std::string, int> spheres;
+  for (const EnvironmentSphere& sphere : conversion_.environment.spheres) {
+    const SurfaceMaterial& material = conversion_.environment.materials[sphere.material];
+    if (!material.texture.empty()) ++spheres[material.name];
+  }
+  for (const auto& [name, count] : spheres) {
+    Warn(file_, std::to_string(count) + " spheres of \"" + name +
+                    "\" show the mean colour of its texture, not the image");
+  }
+}
+
 void Converter::WarnOfSolids() {
   const SolidsReport& s = conversion_.solids;
   const auto warn = [this](int count, const std::string& what) {
@@ -300,6 +314,7 @@ Conversion Converter::Finish() {
   conversion_.solids = MendSolids(&mesh_);
   ResolveMaterials();
   WarnOfMaterials();
+  WarnOfTexturedSpheres();
   for (const std::string& name : OpenGlassBodies(mesh_, conversion_.environment)) {
     Warn(file_, "\"" + name +
                     "\" is solid glass, and its faces leave a body open: light that meets no face "
@@ -388,6 +403,9 @@ void RequireSurface(const SitePaths& site, const Conversion& conversion) {
     for (const auto& [kind, count] : model.entities) entities[kind] += count;
     for (const auto& [what, count] : model.skipped) {
       reasons[what.first + " left out (" + what.second + ")"] += count;
+    }
+    if (model.degenerate_faces > 0) {
+      reasons["faces of no area, or whose outline crosses itself"] += model.degenerate_faces;
     }
   }
   const fs::path file = FileOf(site, conversion);

@@ -112,6 +112,7 @@ Json::Value SolidsJson(const SolidsReport& solids) {
 
 void AddMeasures(const ElementMeasures& measures, Json::Value* json) {
   (*json)["area_m2"] = measures.area;
+  (*json)["open_edges"] = measures.open_edges;
   (*json)["volume_m3"] = measures.volume ? Json::Value(*measures.volume) : Json::Value();
 }
 

@@ -20,7 +20,8 @@ namespace {
 using Eigen::Vector3d;
 using Ring = std::vector<int>;  // of vertices
 
-constexpr double kOffSurface = 1e-3;  // of a face's size
+constexpr double kOffSurface = 1e-3;  // of a face's size, or an edge's
+constexpr char kEndsOff[] = "with an edge whose ends are off its curve";
 
 class BodyFaceter {
  public:
@@ -182,10 +183,14 @@ class BodyFaceter {
     }
     const bool is_reversed = IsReversed(file_.records[edge], curve);
     if (const auto ellipse = AcisEllipseOf(file_.records[curve])) {
+      const auto place = [&](const Vector3d& p) { return ellipse->PointAt(ellipse->AngleOf(p)); };
+      if (AreOff(place, start, end)) return kEndsOff;
       points_of_edge_[edge] = ArcPoints(*ellipse, start, end, is_reversed);
     } else if (const auto spline = AcisSplineOf(file_.records[curve])) {
       // The curve itself may run against its spline.
       const bool is_against = is_reversed != IsReversedSpline(file_.records[curve]);
+      const auto place = [&](const Vector3d& p) { return spline->PointAt(spline->ParameterOf(p)); };
+      if (AreOff(place, start, end)) return kEndsOff;
       const Ring points = CurvePoints(*spline, start, end, is_against);
       if (points.empty()) return "bounded by a closed " + type;
       points_of_edge_[edge] = points;
@@ -193,6 +198,15 @@ class BodyFaceter {
       return "bounded by a " + type;
     }
     return "";
+  }
+
+  // Whether an edge's ends are not on its curve: it is another one than the file means.
+  template <typename Place>
+  bool AreOff(const Place& place, int start, int end) const {
+    if (start < 0) return false;
+    const Vector3d &a = local_[start], &b = local_[end];
+    const double most = std::max(kOffSurface * (a - b).norm(), 10 * tolerance_ / ScaleOfBody());
+    return (place(a) - a).norm() > most || (place(b) - b).norm() > most;
   }
 
   // The word before the spline.

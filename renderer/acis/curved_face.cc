@@ -8,6 +8,7 @@
 #include <optional>
 #include <utility>
 
+#include "renderer/acis/uv_grid.h"
 #include "renderer/acis/uv_mesh.h"
 #include "renderer/acis/uv_ring.h"
 #include "renderer/mesh/outline_with_holes.h"
@@ -337,7 +338,10 @@ class FaceCutter {
     const std::vector<int> joined = OutlineWithHoles(flat, outline, holes, &lost);
     UvMesh mesh(std::move(scaled), joined);
     if (lost > 0 || mesh.triangles().empty()) return "has loops that cross";
-    if (surface_.kind != AcisSurface::Kind::kCone) InsertWithin(joined, box, &mesh);
+    if (surface_.kind != AcisSurface::Kind::kCone) {
+      for (const Vector2d& p : GridWithin(points_, joined, step_))
+        mesh.Insert(p.cwiseQuotient(step_));
+    }
     for (size_t i = points_.size(); i < mesh.points().size(); ++i) {
       vertices_.push_back(Lifted(mesh.points()[i].cwiseProduct(unit)));
       vertex_of_point_.push_back(static_cast<int>(vertices_.size()) - 1);
@@ -351,26 +355,6 @@ class FaceCutter {
     }
     vertex_of_point_.resize(points_.size());
     return "";
-  }
-
-  // A grid, but for what is close to the outline.
-  void InsertWithin(const std::vector<int>& outline, const Eigen::AlignedBox2d& box,
-                    UvMesh* mesh) const {
-    constexpr double kClose = 0.6, kMostRows = 256;  // of a chord; of points
-    const Eigen::Array2d counts = (box.sizes().cwiseQuotient(step_)).array().ceil().min(kMostRows);
-    const auto is_close = [&](const Vector2d& p) {
-      return std::ranges::any_of(outline, [&](int at) {
-        return (points_[at] - p).cwiseQuotient(step_).squaredNorm() < kClose * kClose;
-      });
-    };
-    for (int i = 1; i < counts.y(); ++i) {
-      for (int j = 0; j < counts.x(); ++j) {
-        const double stagger = i % 2 == 0 ? 0.25 : 0.75;
-        const Vector2d p = box.min() + box.sizes().cwiseProduct(
-                                           Vector2d((j + stagger) / counts.x(), i / counts.y()));
-        if (IsWithin(points_, outline, p) && !is_close(p)) mesh->Insert(p.cwiseQuotient(step_));
-      }
-    }
   }
 
   AcisSurface surface_;

@@ -101,8 +101,8 @@ void UvMesh::Insert(const Vector2d& point) {
   const Vector3i corners = triangles_[t];
   const double area = TurnOf(points_[corners[0]], points_[corners[1]], points_[corners[2]]);
   for (int i = 0; i < 3; ++i) {
-    const double part = TurnOf(points_[corners[i]], points_[corners[(i + 1) % 3]], point);
-    if (part <= 1e-9 * area) return;
+    const int a = corners[i], b = corners[(i + 1) % 3];
+    if (TurnOf(points_[a], points_[b], point) <= 1e-9 * area) return SplitEdge(a, b, point);
   }
   const int added = static_cast<int>(points_.size());
   points_.push_back(point);
@@ -113,6 +113,28 @@ void UvMesh::Insert(const Vector2d& point) {
   Set(next + 1, {corners[2], corners[0], added});
   last_ = t;
   Legalize({{corners[0], corners[1]}, {corners[1], corners[2]}, {corners[2], corners[0]}});
+}
+
+// Of two triangles, that become four; those of the region's rim stay whole.
+void UvMesh::SplitEdge(int a, int b, const Vector2d& point) {
+  const int left = Find(a, b), right = Find(b, a);
+  if (left < 0 || right < 0) return;
+  const int c = Opposite(triangles_[left], a, b), d = Opposite(triangles_[right], b, a);
+  for (const auto& [from, to] : {std::pair(b, c), {c, a}, {a, d}, {d, b}}) {
+    if (TurnOf(points_[from], points_[to], point) <= 0) return;
+  }
+  const int added = static_cast<int>(points_.size());
+  points_.push_back(point);
+  triangle_of_edge_.erase(EdgeKey(a, b));
+  triangle_of_edge_.erase(EdgeKey(b, a));
+  const int next = static_cast<int>(triangles_.size());
+  triangles_.resize(triangles_.size() + 2);
+  Set(left, {c, a, added});
+  Set(right, {d, b, added});
+  Set(next, {b, c, added});
+  Set(next + 1, {a, d, added});
+  last_ = left;
+  Legalize({{b, c}, {c, a}, {a, d}, {d, b}});
 }
 
 // Turns edges between two triangles as long as one's circle holds the other's corner. [Lawson 1977]

@@ -20,13 +20,14 @@ class UvMesh {
   const std::vector<Eigen::Vector2d>& points() const { return points_; }
   const std::vector<Eigen::Vector3i>& triangles() const { return triangles_; }
 
-  // Adds a point within the region, but for one on an edge: that is left out.
+  // Adds a point within the region; one on its rim, or without, is left out.
   void Insert(const Eigen::Vector2d& point);
 
  private:
   int Find(int from, int to) const;  // the triangle on the left of an edge; -1: the boundary
   void Set(int triangle, const Eigen::Vector3i& corners);
   int Locate(const Eigen::Vector2d& point) const;
+  void SplitEdge(int a, int b, const Eigen::Vector2d& point);
   void Legalize(std::vector<std::pair<int, int>> edges);
 
   std::vector<Eigen::Vector2d> points_;

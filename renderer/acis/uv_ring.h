@@ -17,4 +17,9 @@ Eigen::Vector2d MeanOf(const std::vector<Eigen::Vector2d>& points, const std::ve
 bool IsWithin(const std::vector<Eigen::Vector2d>& points, const std::vector<int>& ring,
               const Eigen::Vector2d& place);
 
+// Rising x of where a ring crosses a line of constant y: a place on it is within where an odd
+// number of them lies beyond.
+std::vector<double> CrossingsAt(const std::vector<Eigen::Vector2d>& points,
+                                const std::vector<int>& ring, double y);
+
 }  // namespace insitu

@@ -220,9 +220,8 @@ void Assembly::AddInsert(const DxfInsert& insert, const Affine3d& world_from_hol
   const DxfBlock& block = InsertedBlock(drawing_, insert);
   const std::string layer = insert.look.layer == "0" ? holder.layer : insert.look.layer;
   if (block.external) {
-    ++model.skipped[{"INSERT", "of the external drawing \"" + block.external_file +
-                                   "\", which is not read: bind it (AutoCAD: XREF > Bind), or put "
-                                   "it into building/ as DXF"}];
+    const std::string why = block.why_unread.empty() ? "which is not read" : block.why_unread;
+    ++model.skipped[{"INSERT", "of the external drawing \"" + block.external_file + "\", " + why}];
   }
   if (LayerNamed(layer).frozen) {
     seen_.insert(&block);
@@ -260,6 +259,7 @@ void Assembly::CountUnusedBlocks() {
 void Assembly::Run() {
   model.metres_per_unit = drawing_.metres_per_unit;
   model.warnings = drawing_.warnings;
+  model.files = drawing_.files;
   model.entities = drawing_.model_space.entities;
   const Affine3d metres_from_units(Eigen::Scaling(drawing_.metres_per_unit.value_or(1)));
   Add(drawing_.model_space, metres_from_units, {});
@@ -287,7 +287,8 @@ void DxfOptions::Check() const {
 
 Model ReadDxf(const std::filesystem::path& path, const DxfOptions& options) {
   options.Check();
-  DxfDrawing drawing = ReadDxfDrawing(path, options.most_pieces);
+  const std::filesystem::path& beside = options.stands_for.empty() ? path : options.stands_for;
+  DxfDrawing drawing = ReadDxfDrawing(path, options.most_pieces, beside);
   Assembly assembly(path, &drawing, options);
   assembly.Run();
   assembly.model.format =

@@ -59,8 +59,10 @@ struct DxfBlock {
   std::map<std::string, int> entities;                       // kind -> count, read or not
   SkippedEntities skipped;
   int degenerate_faces = 0;
-  bool external = false;      // a reference to another drawing
+  bool external = false;      // a reference to another drawing, which is not read
+  bool is_overlay = false;    // one that further drawings do not show
   std::string external_file;  // as the drawing names it
+  std::string why_unread;     // "which is not there: ..."
 };
 
 }  // namespace insitu

@@ -15,8 +15,6 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr size_t kLineOfText = 255;  // what is longer goes on in a group of its own
-
 std::optional<int> HexDigit(char c) {
   if (c >= '0' && c <= '9') return c - '0';
   if (c >= 'A' && c <= 'F') return c - 'A' + 10;
@@ -32,22 +30,23 @@ void AppendBytes(const DxfRecord& record, const DxfTag& tag, std::string* bytes)
   }
 }
 
-// Lines begin with group 1 and go on in groups 3; "^ " stands for "^".
+// Lines begin with group 1 and go on, after 255 characters, in groups 3; "^ " stands for "^".
 std::string TextOf(const DxfRecord& entity) {
   std::string text;
-  size_t last = kLineOfText;
+  bool has_blank = false, ends_with_caret = false;
   for (const DxfTag& tag : entity.tags()) {
     if (tag.code != 1 && tag.code != 3) continue;
     if (tag.code == 1) {
       text += '\n';
-    } else if (last < kLineOfText) {
-      text += ' ';  // the blank at its end was trimmed away
+    } else if ((has_blank || tag.has_blank_before) && !ends_with_caret) {
+      text += ' ';
     }
     for (size_t i = 0; i < tag.value.size(); ++i) {
       text += tag.value[i];
       if (tag.value[i] == '^' && i + 1 < tag.value.size() && tag.value[i + 1] == ' ') ++i;
     }
-    last = tag.value.size();
+    has_blank = tag.has_blank_behind;
+    ends_with_caret = tag.value.ends_with('^');
   }
   if (!text.empty()) text.erase(0, 1);
   return text;

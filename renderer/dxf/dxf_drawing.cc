@@ -9,6 +9,7 @@
 #include "renderer/dxf/dxf_body.h"
 #include "renderer/dxf/dxf_color.h"
 #include "renderer/dxf/dxf_entity_reader.h"
+#include "renderer/dxf/dxf_external.h"
 #include "renderer/dxf/dxf_reader.h"
 #include "renderer/dxf/dxf_units.h"
 
@@ -40,15 +41,26 @@ void ReadHeader(const DxfRecord& header, DxfReader* reader, DxfDrawing* drawing)
 void ReadBlockTableEntry(const DxfRecord& record, DxfDrawing* drawing) {
   const std::string name = record.Name(2);
   if (const DxfTag* handle = record.Find(5)) {
-    drawing->block_of_handle[std::string(handle->value)] = name;
+    drawing->block_of_handle[DxfHandle(handle->value)] = name;
   }
   bool is_representation = false;
   for (const DxfTag& tag : record.tags()) {
     constexpr int kApplication = 1001, kHandle = 1005;
     if (tag.code == kApplication) is_representation = tag.value == "AcDbBlockRepBTag";
     if (is_representation && tag.code == kHandle) {
-      drawing->dynamic_block[NameKey(name)] = std::string(tag.value);
+      drawing->dynamic_block[NameKey(name)] = DxfHandle(tag.value);
     }
+  }
+}
+
+// A colour that is no number costs itself: white, as of a new layer.
+int LayerColor(const DxfRecord& record, DxfDrawing* drawing) {
+  constexpr int kWhite = 7;
+  try {
+    return record.Integer(62, kWhite);
+  } catch (const InputError& error) {
+    drawing->warnings.push_back(std::string(error.what()) + ": the layer's colour is left out");
+    return kWhite;
   }
 }
 
@@ -56,7 +68,7 @@ void ReadTableEntry(const DxfRecord& record, DxfDrawing* drawing) {
   if (record.kind() == "BLOCK_RECORD") return ReadBlockTableEntry(record, drawing);
   if (record.kind() != "LAYER") return;
   DxfLayer layer;
-  const int color = record.Integer(62, 7);  // negative if off
+  const int color = LayerColor(record, drawing);  // negative if off
   layer.frozen = record.Integer(70, 0) & 1;
   layer.off = color < 0;
   layer.no_plot = record.Integer(290, 1) == 0;
@@ -110,12 +122,13 @@ class SectionReader {
   }
 
   void BeginBlock(const DxfRecord& head) {
-    constexpr int kExternal = 4 | 8;  // attached, overlaid
+    constexpr int kAttached = 4, kOverlaid = 8;
     block_place_ = head.place();
     block_.emplace();
     block_->name = head.Name(2);
     block_->base = head.FindPoint(10).value_or(Eigen::Vector3d(Eigen::Vector3d::Zero()));
-    block_->external = head.Integer(70, 0) & kExternal;
+    block_->external = head.Integer(70, 0) & (kAttached | kOverlaid);
+    block_->is_overlay = head.Integer(70, 0) & kOverlaid;
     block_->external_file = head.Name(1);
     block_entities_.emplace(&*block_);
   }
@@ -211,6 +224,39 @@ void DropLostInserts(const DxfDrawing& drawing, DxfBlock* holder) {
   });
 }
 
+DxfDrawing ReadSections(const std::filesystem::path& path, bool blocks_only = false) {
+  DxfDrawing drawing;
+  DxfReader reader(path);
+  drawing.binary = reader.binary();
+  SectionReader section(&reader, &drawing);
+  while (const DxfRecord* record = reader.Next()) {
+    if (record->kind() != "SECTION") continue;
+    if (blocks_only && record->Name(2) == "ENTITIES") break;  // the bulk of it
+    section.Read(*record);
+  }
+  return drawing;
+}
+
+// `nesting` ends with the drawing itself.
+DxfDrawing ReadWithReferences(const std::filesystem::path& path,
+                              const std::vector<std::filesystem::path>& nesting) {
+  DxfDrawing drawing = ReadSections(path);
+  const auto read = [&nesting](const std::filesystem::path& other) {
+    std::vector<std::filesystem::path> deeper = nesting;
+    deeper.push_back(other);
+    return ReadWithReferences(other, deeper);
+  };
+  AddExternalDrawings(nesting, read, &drawing);
+  return drawing;
+}
+
+std::filesystem::path Whole(const std::filesystem::path& path) {
+  return std::filesystem::absolute(path).lexically_normal();
+}
+
+// Of "grid|*U3", "*U3".
+std::string WithoutDrawing(const std::string& name) { return name.substr(name.rfind('|') + 1); }
+
 }  // namespace
 
 const DxfBlock& InsertedBlock(const DxfDrawing& drawing, const DxfInsert& insert) {
@@ -223,22 +269,18 @@ const DxfBlock& InsertedBlock(const DxfDrawing& drawing, const DxfInsert& insert
 }
 
 std::string NameByUser(const DxfDrawing& drawing, const std::string& block) {
-  if (!block.starts_with('*')) return block;
+  if (!WithoutDrawing(block).starts_with('*')) return block;
   const auto handle = drawing.dynamic_block.find(NameKey(block));
   if (handle == drawing.dynamic_block.end()) return "";
   const auto named = drawing.block_of_handle.find(handle->second);
-  return named == drawing.block_of_handle.end() || named->second.starts_with('*') ? ""
-                                                                                  : named->second;
+  const bool is_named =
+      named != drawing.block_of_handle.end() && !WithoutDrawing(named->second).starts_with('*');
+  return is_named ? named->second : "";
 }
 
-DxfDrawing ReadDxfDrawing(const std::filesystem::path& path, double most_pieces) {
-  DxfDrawing drawing;
-  DxfReader reader(path);
-  drawing.binary = reader.binary();
-  SectionReader section(&reader, &drawing);
-  while (const DxfRecord* record = reader.Next()) {
-    if (record->kind() == "SECTION") section.Read(*record);
-  }
+DxfDrawing ReadDxfDrawing(const std::filesystem::path& path, double most_pieces,
+                          const std::filesystem::path& beside) {
+  DxfDrawing drawing = ReadWithReferences(path, {Whole(beside)});
   DropLostInserts(drawing, &drawing.model_space);
   for (auto& [name, block] : drawing.blocks) DropLostInserts(drawing, &block);
   std::vector<const DxfBlock*> nesting;
@@ -246,6 +288,18 @@ DxfDrawing ReadDxfDrawing(const std::filesystem::path& path, double most_pieces)
   DropOwnInserts(&drawing, &drawing.model_space, &nesting, &done);
   InsertCheck(drawing, most_pieces).AllInserted(drawing.model_space);
   return drawing;
+}
+
+std::vector<std::filesystem::path> ExternalDrawingsOf(const std::filesystem::path& path) {
+  std::vector<std::filesystem::path> files;
+  const DxfDrawing drawing = ReadSections(path, /*blocks_only=*/true);
+  for (const auto& [key, block] : drawing.blocks) {
+    if (!block.external || !block.entities.empty()) continue;
+    if (const auto file = FindExternalDrawing(Whole(path), block.external_file)) {
+      files.push_back(*file);
+    }
+  }
+  return files;
 }
 
 }  // namespace insitu

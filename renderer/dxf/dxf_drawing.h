@@ -1,36 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A DXF drawing as it stands in the file: units, layers, blocks, and the model space.
+// A DXF drawing as it stands in the file, with those that it refers to.
 #pragma once
 
 #include <filesystem>
-#include <map>
-#include <optional>
 #include <string>
+#include <vector>
 
-#include "renderer/dxf/dxf_block.h"
+#include "renderer/dxf/dxf_contents.h"
 
 namespace insitu {
-
-struct DxfLayer {
-  bool frozen = false;   // neither its entities nor the blocks inserted on it are shown
-  bool off = false;      // its entities are not shown
-  bool no_plot = false;  // its entities are not printed
-  std::optional<Eigen::Vector3d> rgb;  // linear Rec. 709
-};
-
-struct DxfDrawing {
-  std::string version;  // $ACADVER, "AC1032"; empty: not named
-  bool binary = false;
-  std::optional<double> metres_per_unit;   // nullopt: the drawing names none
-  std::map<std::string, DxfLayer> layers;  // by NameKey; those of the layer table
-  std::map<std::string, DxfBlock> blocks;  // by NameKey
-  DxfBlock model_space;
-  std::vector<std::string> warnings;                   // with the file's name
-  std::map<std::string, std::string> block_of_handle;  // of the table of blocks
-  std::map<std::string, std::string> body_of_handle;   // SAB of entities, by DxfHandle
-  // A state of a dynamic block, "*U3" by NameKey -> handle of the block that a user named.
-  std::map<std::string, std::string> dynamic_block;
-};
 
 // What a user calls a block: its name, of a state of a dynamic block that block's; empty: nothing.
 std::string NameByUser(const DxfDrawing& drawing, const std::string& block);
@@ -38,9 +16,14 @@ std::string NameByUser(const DxfDrawing& drawing, const std::string& block);
 // The block that an INSERT names. Throws InputError: the drawing does not define it.
 const DxfBlock& InsertedBlock(const DxfDrawing& drawing, const DxfInsert& insert);
 
+// With the drawings that it refers to, sought about `beside`, which stands for `path`.
 // Throws InputError: a section that is not closed, a faulty entity; and, among the
 // blocks that the model space uses, one that lies more than 64 deep,
 // or copies that come to over `most_pieces` (vertices, entities and the copies themselves).
-DxfDrawing ReadDxfDrawing(const std::filesystem::path& path, double most_pieces);
+DxfDrawing ReadDxfDrawing(const std::filesystem::path& path, double most_pieces,
+                          const std::filesystem::path& beside);
+
+// The DXF drawings that a drawing refers to, where they are there. Throws InputError as above.
+std::vector<std::filesystem::path> ExternalDrawingsOf(const std::filesystem::path& path);
 
 }  // namespace insitu

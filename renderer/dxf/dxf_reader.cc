@@ -167,7 +167,17 @@ DxfReader::RawTag DxfReader::ReadTag() {
                      Quoted(code_line) + ", expected a DXF group code (an integer)");
   }
   const std::string_view value = ReadLine();
-  return {*code, value, line_};
+  return TagOf(*code, buffer_, value, line_);
+}
+
+// `value` looks into `text`.
+DxfReader::RawTag DxfReader::TagOf(int code, const std::string& text, std::string_view value,
+                                   int64_t place) {
+  if (value.empty()) return {code, value, place};
+  const size_t first = static_cast<size_t>(value.data() - text.data());
+  const size_t end = first + value.size();
+  return {code, value, place, first > 0 && text[first - 1] == ' ',
+          end < text.size() && text[end] == ' '};
 }
 
 std::string_view DxfReader::Take(size_t count) {
@@ -234,13 +244,13 @@ DxfReader::RawTag DxfReader::ReadBinaryTag() {
   const int64_t place = here();
   written_.clear();
   AppendBinaryValue(code, &written_);
-  return {code, Trimmed(written_), place};
+  return TagOf(code, written_, Trimmed(written_), place);
 }
 
 void DxfReader::AddTag(const RawTag& tag) {
   offsets_.push_back(record_.text_.size());
   record_.text_.insert(record_.text_.end(), tag.value.begin(), tag.value.end());
-  record_.tags_.push_back({tag.code, {}, tag.place});
+  record_.tags_.push_back({tag.code, {}, tag.place, tag.has_blank_before, tag.has_blank_behind});
 }
 
 // The text no longer moves: now the tags can look into it.
@@ -256,7 +266,7 @@ const DxfRecord* DxfReader::Next() {
   record_.text_.clear();
   record_.tags_.clear();
   offsets_.clear();
-  if (has_first_) AddTag({0, first_value_, first_place_});
+  if (has_first_) AddTag({.code = 0, .value = first_value_, .place = first_place_});
   for (;;) {
     const RawTag tag = ReadTag();
     if (tag.code == kComment) continue;

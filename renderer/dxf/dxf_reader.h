@@ -35,7 +35,9 @@ class DxfReader {
     int code;
     std::string_view value;  // until the next read
     int64_t place;
+    bool has_blank_before = false, has_blank_behind = false;  // that were trimmed away
   };
+  static RawTag TagOf(int code, const std::string& text, std::string_view value, int64_t place);
   RawTag ReadTag();
   RawTag ReadBinaryTag();
   void AppendBinaryValue(int code, std::string* text);

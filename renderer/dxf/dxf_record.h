@@ -19,6 +19,7 @@ struct DxfTag {
   int code;                // group code
   std::string_view value;  // blanks trimmed; of a binary file, the value written out
   int64_t place;           // of the value: line of an ASCII file, byte of a binary one
+  bool has_blank_before = false, has_blank_behind = false;  // that were trimmed away
 };
 
 // What programs write in the place of a number ("nan", "-1.#IND"): it costs its entity.

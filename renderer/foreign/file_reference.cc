@@ -95,18 +95,26 @@ std::optional<fs::path> FindInFolders(const fs::path& folder, const std::string&
   return *std::ranges::min_element(found);
 }
 
+std::optional<fs::path> FindAsWritten(const fs::path& folder, const std::string& name) {
+  const auto path = Find(folder, name);
+  return path ? path : FindInFolders(folder, name);
+}
+
+// "wall.png?v=3#part": what an address has behind a file's name.
+std::string WithoutQuery(const std::string& name) {
+  return name.substr(0, name.find_first_of("?#"));
+}
+
 }  // namespace
 
 std::optional<fs::path> FindReference(const fs::path& model, const std::string& name) {
   std::string plain = WithoutQuotes(name);
   if (plain.empty()) return std::nullopt;
   const fs::path folder = fs::absolute(model).parent_path();
-  if (const auto path = Find(folder, plain)) return path;
-  if (const auto path = FindInFolders(folder, plain)) return path;
+  if (const auto path = FindAsWritten(folder, plain)) return path;
   if (NameKey(plain.substr(0, 5)) == "FILE:") plain.erase(0, 5);
-  plain = PercentDecoded(plain);
-  if (const auto path = Find(folder, plain)) return path;
-  return FindInFolders(folder, plain);
+  if (const auto path = FindAsWritten(folder, PercentDecoded(plain))) return path;
+  return FindAsWritten(folder, PercentDecoded(WithoutQuery(plain)));
 }
 
 }  // namespace insitu

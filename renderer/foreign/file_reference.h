@@ -9,8 +9,8 @@
 namespace insitu {
 
 // The file that `name` in the file `model` means: relative to it, in quotes, with backslashes, a
-// drive, a server, "file:" or "%20", in another case; else the file of that name beside the model,
-// with as many of its folders as are there. nullopt: none.
+// drive, a server, "file:", "%20" or a "?query", in another case; else the file of that name beside
+// the model, with as many of its folders as are there. nullopt: none.
 std::optional<std::filesystem::path> FindReference(const std::filesystem::path& model,
                                                    const std::string& name);
 

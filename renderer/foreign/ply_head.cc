@@ -61,10 +61,14 @@ class PlyHeadReader {
   }
 
   void ReadComment(std::istringstream& words) {
+    std::string comment;
+    std::getline(words >> std::ws, comment);
+    if (!head_.unit) head_.unit = ReadUnitComment(comment);
+    std::istringstream rest(comment);
     std::string what;
-    words >> what;
+    rest >> what;
     if (what != "TextureFile") return;
-    std::getline(words >> std::ws, head_.texture);
+    std::getline(rest >> std::ws, head_.texture);
     while (!head_.texture.empty() && head_.texture.back() == '\r') head_.texture.pop_back();
   }
 

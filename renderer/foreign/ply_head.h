@@ -9,6 +9,8 @@
 #include <string_view>
 #include <vector>
 
+#include "renderer/foreign/unit_comment.h"
+
 namespace insitu {
 
 enum class PlyType { kInt8, kUint8, kInt16, kUint16, kInt32, kUint32, kFloat, kDouble };
@@ -31,7 +33,8 @@ enum class PlyEncoding { kText, kLittleEndian, kBigEndian };
 struct PlyHead {
   PlyEncoding encoding = PlyEncoding::kText;
   std::vector<PlyElement> elements;
-  std::string texture;  // of a comment "TextureFile NAME", as MeshLab writes it
+  std::string texture;              // of a comment "TextureFile NAME", as MeshLab writes it
+  std::optional<UnitComment> unit;  // of the first comment that names one
   int lines = 0;
   size_t size = 0;  // [bytes], with the end of its last line
 };

@@ -11,6 +11,7 @@
 #include "calibration/photo/photograph.h"
 #include "renderer/foreign/mesh_builder.h"
 #include "renderer/foreign/ply_values.h"
+#include "renderer/foreign/single_precision.h"
 #include "renderer/foreign/text_lines.h"
 #include "renderer/mesh/face_triangles.h"
 
@@ -84,10 +85,27 @@ class PlyReader {
     if (!colors_.empty() && !starts_.empty()) builder_.SayColorsByVertex();
     for (size_t f = 0; f + 1 < starts_.size(); ++f) AddFace(f);
     builder_.Finish();
+    SayWhatHeadSays();
     return std::move(model_);
   }
 
  private:
+  // Of unit and precision; text has as many digits as it has.
+  void SayWhatHeadSays() {
+    const Eigen::AlignedBox3d box = BoxOf(model_.mesh);
+    if (box.isEmpty()) return;
+    const bool is_text = head_.encoding == PlyEncoding::kText;
+    const double largest =
+        std::max(box.min().cwiseAbs().maxCoeff(), box.max().cwiseAbs().maxCoeff());
+    const std::string note =
+        is_text || has_double_places_ ? "" : SinglePrecisionNote(path_, largest);
+    if (!note.empty()) model_.warnings.push_back(note);
+    if (!head_.unit) return;
+    model_.metres_per_unit = head_.unit->metres;
+    for (Vector3d& vertex : model_.mesh.vertices) vertex *= head_.unit->metres.value_or(1);
+    model_.warnings.push_back(InputError(path_, UnitNote(*head_.unit)).what());
+  }
+
   void ReadElement(const PlyElement& element) {
     const bool is_vertex = element.name == "vertex", is_face = element.name == "face";
     const bool is_strips = element.name == "tristrips";
@@ -100,6 +118,7 @@ class PlyReader {
     for (const PlyProperty& property : element.properties) {
       meanings.push_back(MeaningOf(property));
       states_normals_ |= meanings.back() == kNx;
+      has_double_places_ |= meanings.back() == kX && property.type == PlyType::kDouble;
       if (!meanings.back() && element.count > 0 && (is_vertex || is_face)) {
         ++model_.skipped[{"property " + property.name.substr(0, 40),
                           "of " + element.name + ": not shown"}];
@@ -233,6 +252,7 @@ class PlyReader {
   BuiltFace face_;
   int surface_ = 0;
   bool states_normals_ = false;  // of the element at hand
+  bool has_double_places_ = false;
   std::array<double, kMeanings> row_{};
   std::vector<double> corners_, all_corners_;
   std::vector<float> corner_uvs_, all_uvs_;

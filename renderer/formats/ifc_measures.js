@@ -2,6 +2,8 @@
 // Areas and volumes of elements of an IFC file, from the triangles that ifc_model.js collects.
 'use strict';
 
+const MOST_CORNERS = 2 ** 26;  // of one part: pairs stay exact
+
 class Measures {
   // visit(x, y, z) with half the cross product of each triangle's sides.
   forAreas(ranges, visit) {
@@ -46,24 +48,22 @@ class Measures {
   volumeOfPart(from, to) {
     const {vertices: v, triangles: t} = this;
     const idOf = new Map();  // place to 0.01 mm -> number
+    const places = [];  // by number
     const numbers = new Map();  // vertex -> number
     const number = (i) => {
       let id = numbers.get(i);
       if (id !== undefined) return id;
       const key = Math.round(v[3 * i] * 1e5) + ',' + Math.round(v[3 * i + 1] * 1e5) + ',' + Math.round(v[3 * i + 2] * 1e5);
       id = idOf.get(key);
-      if (id === undefined) idOf.set(key, id = idOf.size);
+      if (id === undefined) {
+        idOf.set(key, id = idOf.size);
+        places.push([v[3 * i], v[3 * i + 1], v[3 * i + 2]]);
+      }
       numbers.set(i, id);
       return id;
     };
-    const most = 2 ** 26;  // of vertices of one part: pairs stay exact
     const edges = new Map();
-    const step = (p, q) => {
-      if (p === q) return;
-      const edge = p < q ? p * most + q : q * most + p;
-      const count = (edges.get(edge) || 0) + (p < q ? 1 : -1);
-      if (count === 0) edges.delete(edge); else edges.set(edge, count);
-    };
+    const step = (p, q) => this.addEdge(edges, p, q, 1);
     const o = 3 * t[from];
     const at = (i, c) => v[3 * i + c] - v[o + c];
     let volume = 0;
@@ -76,6 +76,35 @@ class Measures {
       step(q, r);
       step(r, p);
     }
-    return edges.size > 0 ? null : Math.abs(volume);
+    return this.cutAtCorners(edges, places).size > 0 ? null : Math.abs(volume);
+  }
+  addEdge(edges, p, q, passes) {
+    if (p === q) return;
+    const edge = Math.min(p, q) * MOST_CORNERS + Math.max(p, q);
+    const count = (edges.get(edge) || 0) + (p < q ? passes : -passes);
+    if (count === 0) edges.delete(edge); else edges.set(edge, count);
+  }
+  // web-ifc drops corners on straight lines: an open edge is cut where the corner of another lies on it, as in
+  // element_measures.cc.
+  cutAtCorners(edges, places) {
+    if (edges.size === 0 || edges.size > 2000) return edges;
+    const endsOf = (edge) => [Math.floor(edge / MOST_CORNERS), edge % MOST_CORNERS];
+    const corners = new Set([...edges.keys()].flatMap(endsOf));
+    const pieces = new Map();
+    for (const [edge, passes] of edges) {
+      const [p, q] = endsOf(edge);
+      const way = places[q].map((value, c) => value - places[p][c]);
+      const square = way.reduce((sum, value) => sum + value * value, 0);
+      const stops = [[0, p], [1, q]];
+      for (const corner of corners) {
+        const offset = places[corner].map((value, c) => value - places[p][c]);
+        const along = offset.reduce((sum, value, c) => sum + value * way[c], 0) / square;
+        const off = Math.hypot(...offset.map((value, c) => value - along * way[c]));
+        if (along > 0 && along < 1 && off <= 1e-5 && corner !== p && corner !== q) stops.push([along, corner]);
+      }
+      stops.sort((a, b) => a[0] - b[0]);
+      for (let i = 1; i < stops.length; ++i) this.addEdge(pieces, stops[i - 1][1], stops[i][1], passes);
+    }
+    return pieces;
   }
 }

@@ -10,7 +10,7 @@ const {IfcAPI, ...ifc} = require(path.join(folder, 'web-ifc-api-node.js'));
 const typeCode = (name) => ifc[name.toUpperCase()];
 const valueOf = (attribute) => (attribute && attribute.value !== undefined ? attribute.value : attribute);
 
-class Reader extends Names {
+class Reader extends Georeference {
   constructor(api, model) {
     super();
     Object.assign(this, {api, model, vertices: [], triangles: [], spheres: [], surfaces: [], indexOf: new Map()});
@@ -142,13 +142,15 @@ class Reader extends Names {
 
   // What gives surfaces a look that is not shown, and what is no surface.
   countLooks() {
-    for (const [type, reason] of [['IfcImageTexture', 'an image: list it in materials.json'], ['IfcBlobTexture', 'an image within: not read'],
-      ['IfcPixelTexture', 'an image within: not read'], ['IfcIndexedColourMap', 'colours by face are not read'],
-      ['IfcLightSourcePositional', 'list lamps in lights.json'], ['IfcLightSourceSpot', 'list lamps in lights.json'],
-      ['IfcLightSourceGoniometric', 'list lamps in lights.json']]) {
+    const map = 'where an image lies on faces: not read';
+    const lamp = 'list lamps in lights.json';
+    for (const [type, reason] of [['IfcIndexedColourMap', 'colours by face are not read'], ['IfcTextureMap', map],
+      ['IfcIndexedTriangleTextureMap', map], ['IfcIndexedPolygonalTextureMap', map], ['IfcTextureCoordinateGenerator', map],
+      ['IfcLightSourcePositional', lamp], ['IfcLightSourceSpot', lamp], ['IfcLightSourceGoniometric', lamp]]) {
       const count = this.ids(type).length;
       if (count > 0) this.skipped.push([type, reason, count]);
     }
+    for (const [what, count] of this.texturesByName()) this.skipped.push([...JSON.parse(what), count]);
   }
 
   // Elements whose shapes are solids by their type and whose faces leave edges open.
@@ -229,69 +231,6 @@ class Reader extends Names {
     }
     return stated;
   }
-  hasLengthUnit() {
-    return this.lines('IfcUnitAssignment').some((one) => (one.Units || []).some((unit) =>
-      valueOf(this.line(unit.value).UnitType) === 'LENGTHUNIT'));
-  }
-  // Of the project's units, else of any of the kind.
-  unitOf(type, power) {
-    const assigned = this.lines('IfcUnitAssignment').flatMap((one) => one.Units || []).map((one) => this.line(one.value));
-    for (const unit of [...assigned, ...this.lines('IfcSIUnit'), ...this.lines('IfcConversionBasedUnit')]) {
-      if (valueOf(unit.UnitType) === type) return this.metresOf(unit, power) || 1;
-    }
-    return 1;
-  }
-  metresOf(unit, power = 1) {
-    const prefixes = {CENTI: 1e-2, DECI: 1e-1, MILLI: 1e-3, KILO: 1e3};
-    const factor = unit.ConversionFactor && this.line(unit.ConversionFactor.value);
-    if (!factor) return (prefixes[valueOf(unit.Prefix)] || 1) ** power;
-    const base = factor.UnitComponent ? this.metresOf(this.line(factor.UnitComponent.value), power) : 1;
-    return (Number(valueOf(factor.ValueComponent)) || 1) * base;
-  }
-  // Where the file says the model stands: applied if placement.json says so.
-  readMapConversion() {
-    const values = [...this.lines('IfcMapConversion'), ...this.lines('IfcMapConversionScaled'), ...this.mapProperties()];
-    const crs = this.lines('IfcProjectedCRS');
-    const system = crs.map((one) => valueOf(one.Name)).find(Boolean);
-    for (const map of values.slice(0, 1)) {
-      const number = (name) => Number(valueOf(map[name]) || 0);
-      const turn = Math.atan2(number('XAxisOrdinate'), Number(valueOf(map.XAxisAbscissa) ?? 1)) * 180 / Math.PI;
-      const [unit, scale] = this.mapUnitAndScale(map, crs);
-      const shift = ['Eastings', 'Northings', 'OrthogonalHeight'].map((name) => number(name) * unit);
-      this.map = {rotation_deg: Number(turn.toFixed(9)), shift, scale};
-      this.warnings.push('holds map coordinates' + (system ? ' (' + system + ')' : '') +
-        ' that are not applied: to use them write {"map_conversion": true} into placement.json, which is {"rotation_deg": ' +
-        this.map.rotation_deg + ', "shift": [' + shift.join(', ') + ']' + (scale === 1 ? '' : ', "scale": ' + scale) + '}');
-    }
-    if (values.length > 0) return;
-    for (const site of this.lines('IfcSite')) {
-      const degrees = (angle) => angle && angle.map ? angle.map((part, i) => Number(valueOf(part)) / [1, 60, 3600, 3.6e9][i]).reduce((a, b) => a + b, 0) : null;
-      const [latitude, longitude] = [degrees(site.RefLatitude), degrees(site.RefLongitude)];
-      if (latitude === null || longitude === null) continue;
-      this.warnings.push('its site is at latitude ' + latitude.toFixed(6) + ', longitude ' + longitude.toFixed(6) +
-        ', which is not applied: place the model by placement.json');
-    }
-  }
-  // Metres of a map's unit, and how many times larger the model is on the map. What exporters write where units differ is
-  // a thousand times off either way; a map is never.
-  mapUnitAndScale(map, crs) {
-    const project = this.unitOf('LENGTHUNIT', 1);
-    const stated = crs.map((one) => one.MapUnit && this.metresOf(this.line(one.MapUnit.value))).find(Boolean);
-    const factor = Number(valueOf(map.Scale) || 1);
-    const isUnit = Math.abs(factor / project - 1) < 0.01 && Math.abs(project - 1) > 0.01;
-    const unit = stated || (isUnit ? 1 : project);
-    const scale = factor * unit / project;
-    const isNear = (value) => Math.abs(value - 1) < 0.01;
-    return [unit, isNear(scale) ? scale : isNear(factor) ? factor : 1];
-  }
-  mapProperties() {
-    return this.lines('IfcPropertySet')
-      .filter((set) => /^e?pset_mapconversion$/i.test(String(valueOf(set.Name))))
-      .map((set) => Object.fromEntries((set.HasProperties || []).map((reference) => {
-        const property = this.line(reference.value);
-        return [valueOf(property.Name), valueOf(property.NominalValue)];
-      })));
-  }
 }
 
 // What web-ifc says while it reads: kind of message -> entities.
@@ -314,13 +253,35 @@ function whatWasSaid() {
   });
 }
 
+// web-ifc passes over keywords in small letters and takes units with an offset, which of lengths is none, for metres.
+function asWebIfcReads(bytes) {
+  const offset = 'WITHOFFSET';
+  for (let at = bytes.indexOf(offset); at >= 0; at = bytes.indexOf(offset, at)) bytes.fill(' ', at, at + offset.length);
+  if (!['=Ifc', '= Ifc', '=ifc', '= ifc'].some((word) => bytes.includes(word))) return new Uint8Array(bytes);
+  const [quote, slash, star, a, z] = Buffer.from("'/*az");
+  let within = 0;  // a text or a comment
+  for (let i = 0; i < bytes.length; ++i) {
+    const byte = bytes[i];
+    if (within === quote) {
+      if (byte === quote) within = 0;
+    } else if (within === star) {
+      if (byte === slash && bytes[i - 1] === star) within = 0;
+    } else if (byte === quote || (byte === star && bytes[i - 1] === slash)) {
+      within = byte;
+    } else if (byte >= a && byte <= z) {
+      bytes[i] = byte - 32;
+    }
+  }
+  return new Uint8Array(bytes);
+}
+
 async function main() {
   console.log = console.warn = hear;
   const api = new IfcAPI();
   api.SetWasmPath(folder + path.sep, true);
   await api.Init();
   api.SetLogLevel(3);
-  const model = api.OpenModel(new Uint8Array(fs.readFileSync(file)));
+  const model = api.OpenModel(asWebIfcReads(fs.readFileSync(file)));
   if (model < 0) throw new Error('web-ifc knows no schema of it');
   const reader = new Reader(api, model);
   reader.readStyles();
@@ -331,13 +292,14 @@ async function main() {
   reader.nameOpenSolids();
   reader.compareQuantities();
   reader.readMapConversion();
+  const has_unit = reader.hasLengthUnit();
   fs.writeFileSync(out + '.bin', Buffer.from(new Float64Array(reader.vertices).buffer));
   fs.appendFileSync(out + '.bin', Buffer.from(new Uint32Array(reader.triangles).buffer));
   const {surfaces, spheres, entities, skipped, map} = reader;
   const warnings = [...reader.warnings, ...whatWasSaid()];
   const counts = {vertices: reader.vertices.length / 3, triangles: reader.triangles.length / 4};
   fs.writeFileSync(out + '.json', JSON.stringify(
-    {schema: api.GetModelSchema(model), has_unit: reader.hasLengthUnit(), ...counts, surfaces, spheres, entities, skipped, warnings, map}));
+    {schema: api.GetModelSchema(model), has_unit, ...counts, surfaces, spheres, entities, skipped, warnings, map}));
 }
 
 main().catch((error) => {

@@ -34,6 +34,26 @@ class Names extends Measures {
       .concat(line.MaterialLayers || [], line.MaterialProfiles || [], line.MaterialConstituents || [], line.Materials || []);
     return [...new Set(within.map((item) => this.materialName(item, depth + 1)).filter(Boolean))].join(' + ');
   }
+  // Each image of a style, [kind, reason] -> count: web-ifc's triangles have no place for it.
+  texturesByName() {
+    const styleOf = new Map();
+    for (const style of this.lines('IfcSurfaceStyle')) {
+      for (const part of style.Styles || []) {
+        for (const texture of (part && part.value && this.line(part.value).Textures) || []) styleOf.set(texture.value, valueOf(style.Name) || '');
+      }
+    }
+    const found = new Map();
+    for (const kind of ['IfcImageTexture', 'IfcBlobTexture', 'IfcPixelTexture']) {
+      for (const id of this.ids(kind)) {
+        const {URLReference, UrlReference} = this.line(id);
+        const image = kind === 'IfcImageTexture' ? String(valueOf(URLReference || UrlReference)) : 'an image within the file';
+        const style = styleOf.has(id) ? ' of style "' + styleOf.get(id) + '"' : '';
+        const what = JSON.stringify([kind, image + style + ': its colour alone is shown, give it the image in materials.json']);
+        found.set(what, (found.get(what) || 0) + 1);
+      }
+    }
+    return found;
+  }
 
   // Element -> "storey", "storey/layer" or "layer".
   readPlaces() {

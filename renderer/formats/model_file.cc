@@ -61,7 +61,7 @@ std::string Renamed(std::string text, const std::string& from, const std::string
   return text;
 }
 
-// DXF and IFC are read piece by piece and name no files: a copy in UTF-8 does.
+// DXF and IFC are read piece by piece: a copy in UTF-8 is.
 Model ReadCopy(const std::filesystem::path& path, const std::string& text,
                const std::function<Model(const std::filesystem::path&)>& read) {
   const TemporaryFolder folder;
@@ -83,8 +83,10 @@ Model ReadCopy(const std::filesystem::path& path, const std::string& text,
 
 Model ReadDxfFile(const std::filesystem::path& path, const DxfOptions& options) {
   if (!IsUtf16File(path)) return ReadDxf(path, options);
+  DxfOptions of_copy = options;
+  of_copy.stands_for = path;
   return ReadCopy(path, DecodedText(ReadWhole(path)),
-                  [&](const auto& file) { return ReadDxf(file, options); });
+                  [&](const auto& file) { return ReadDxf(file, of_copy); });
 }
 
 // Old exporters write names in Windows-1252, where IFC has ASCII and its own codes.

@@ -88,6 +88,32 @@ bool IsGltf(const fs::path& path, std::string_view head) {
          (head.size() + 3 > kHeadSize && LowerEnding(path) == ".gltf");
 }
 
+bool IsStep(std::string_view text) {
+  if (text.starts_with("ISO-10303-21")) return true;
+  return text.starts_with("/*") && text.find("ISO-10303-21;") != text.npos;
+}
+
+// Of a STEP file's head: products of mechanical CAD.
+bool IsOfOtherSchema(std::string_view text) {
+  const size_t at = text.find("FILE_SCHEMA");
+  if (at == text.npos) return false;
+  const std::string_view schema = text.substr(at, text.find(';', at) - at);
+  return schema.find("IFC") == schema.npos && schema.find("ifc") == schema.npos &&
+         schema.find('\'') != schema.npos;
+}
+
+bool IsCityJson(std::string_view head) {
+  const size_t at = head.find("\"CityJSON\"");
+  return head.starts_with('{') && at != head.npos && head.rfind("\"type\"", at) != head.npos;
+}
+
+// By what stands in it, where its ending does not tell.
+std::string AdviceOnHead(std::string_view head, const std::string& ending) {
+  if (IsCityJson(head)) return AdviceOnFormat("", ".cityjson");
+  if (IsStep(head)) return AdviceOnFormat("", ".step");
+  return AdviceOnFormat(head, ending);
+}
+
 }  // namespace
 
 std::optional<ModelFormat> DetectModelFormat(const fs::path& path) {
@@ -96,8 +122,7 @@ std::optional<ModelFormat> DetectModelFormat(const fs::path& path) {
   const std::string_view text =
       Trimmed(head.substr(std::min(head.find_first_not_of(" \t\r\n"), head.size())));
   if (head.starts_with("glTF")) return ModelFormat::kGltf;
-  const bool is_step = text.starts_with("/*") && text.find("ISO-10303-21;") != text.npos;
-  if (is_step || text.starts_with("ISO-10303-21")) return ModelFormat::kIfc;
+  if (IsStep(text)) return IsOfOtherSchema(text) ? std::nullopt : std::optional(ModelFormat::kIfc);
   if (text.starts_with("{") && IsObjectsFile(path, head)) return ModelFormat::kObjects;
   if (text.starts_with("{") && IsGltf(path, head)) return ModelFormat::kGltf;
   if (text.starts_with("<") && head.find("<COLLADA") != head.npos) return ModelFormat::kCollada;
@@ -117,14 +142,14 @@ bool IsNamedLikeAModel(const fs::path& path) {
 }
 
 std::string AdviceOnUnread(const fs::path& path) {
-  return AdviceOnFormat(HeadOf(path), LowerEnding(path));
+  return AdviceOnHead(HeadOf(path), LowerEnding(path));
 }
 
 ModelFormat RequireModelFormat(const fs::path& path) {
   if (const auto format = DetectModelFormat(path)) return *format;
   const std::string head = HeadOf(path);
   if (head.empty()) throw InputError(path, "is empty");
-  const std::string advice = AdviceOnFormat(head, LowerEnding(path));
+  const std::string advice = AdviceOnHead(head, LowerEnding(path));
   if (advice.empty()) {  // for their readers' messages
     if (LowerEnding(path) == ".dxf") return ModelFormat::kDxf;
     if (LowerEnding(path) == ".stl") return ModelFormat::kStl;

@@ -7,6 +7,7 @@
 
 #include "calibration/files/error.h"
 #include "calibration/files/json_file.h"
+#include "renderer/dxf/dxf_drawing.h"
 #include "renderer/formats/model_format.h"
 #include "renderer/mesh/model.h"
 
@@ -50,6 +51,39 @@ std::string ModelIn(const fs::path& folder) {
     if (first.empty() || name < first) first = name;
   }
   return first;
+}
+
+// Nothing of one that cannot be read: its reader refuses it.
+std::vector<fs::path> ReferencesOf(const fs::path& path) {
+  try {
+    return ExternalDrawingsOf(path);
+  } catch (const InputError&) {
+    return {};
+  }
+}
+
+// A drawing that another one refers to stands where that one puts it, once.
+void DropExternalDrawings(ModelList* list) {
+  std::vector<fs::path> drawings;
+  for (const fs::path& path : list->files) {
+    if (DetectModelFormat(path) == ModelFormat::kDxf) drawings.push_back(path);
+  }
+  if (drawings.size() < 2) return;
+  std::set<fs::path> dropped;
+  for (const fs::path& drawing : drawings) {
+    if (dropped.contains(fs::absolute(drawing).lexically_normal())) continue;  // of two that do
+    for (const fs::path& reference : ReferencesOf(drawing)) {
+      const auto is_it = [&](const fs::path& path) {
+        return path != drawing && fs::absolute(path).lexically_normal() == reference;
+      };
+      if (std::erase_if(list->files, is_it) == 0) continue;
+      dropped.insert(reference);
+      list->warnings.push_back(
+          InputError(reference, "read where " + drawing.filename().string() +
+                                    " refers to it (XREF), not as a model of its own")
+              .what());
+    }
+  }
 }
 
 // Files that are read by other readers, or are for people.
@@ -121,6 +155,7 @@ ModelList ListModels(const SitePaths& site) {
                                   .what());
     }
   }
+  DropExternalDrawings(&list);
   if (list.files.empty()) {
     std::string found;
     for (const std::string& warning : list.warnings) found += "\n  " + warning;

@@ -13,9 +13,9 @@
 #include "calibration/files/wording.h"
 #include "renderer/foreign/file_reference.h"
 #include "renderer/foreign/mesh_builder.h"
+#include "renderer/foreign/unit_comment.h"
 #include "renderer/formats/obj_material.h"
 #include "renderer/formats/obj_words.h"
-#include "renderer/formats/unit_comment.h"
 #include "renderer/mesh/face_triangles.h"
 
 namespace insitu {
@@ -44,7 +44,8 @@ class ObjReader {
 
  private:
   void ReadLine(std::string_view keyword, ObjWords& words) {
-    if (keyword == "v" || keyword.starts_with("vt") || keyword == "vn" || keyword == "f") {
+    if (keyword == "v" || keyword.starts_with("vt") || keyword == "vn" || keyword == "f" ||
+        keyword == "fo") {
       words.CutComment();
     }
     if (keyword == "v") {
@@ -55,7 +56,7 @@ class ObjReader {
       uvs_.emplace_back(static_cast<float>(u.value_or(0)), static_cast<float>(v.value_or(0)));
     } else if (keyword == "vn") {
       AddNormal(words);
-    } else if (keyword == "f") {
+    } else if (keyword == "f" || keyword == "fo") {  // fo: of old programs
       AddFace(words);
     } else if (keyword == "o" || keyword == "g" || keyword == "usemtl") {
       (keyword == "o" ? object_ : keyword == "g" ? group_ : material_) = words.Name();
@@ -103,11 +104,7 @@ class ObjReader {
     const std::optional<UnitComment> comment = ReadUnitComment(line);
     if (!comment || model_.metres_per_unit) return;
     model_.metres_per_unit = comment->metres;
-    model_.warnings.push_back(
-        InputError(path_,
-                   "its comment " + Quoted(comment->text) +
-                       (comment->metres ? " is taken as its unit" : " names no unit that is known"))
-            .what());
+    model_.warnings.push_back(InputError(path_, UnitNote(*comment)).what());
   }
 
   void Skip(const std::string& keyword) {

@@ -18,6 +18,7 @@
 #include "calibration/files/wording.h"
 #include "renderer/dxf/dxf_name.h"
 #include "renderer/foreign/cut_short.h"
+#include "renderer/foreign/single_precision.h"
 #include "renderer/foreign/text_lines.h"
 #include "renderer/mesh/face_triangles.h"
 
@@ -61,6 +62,7 @@ void ReadBinaryStl(const fs::path& path, Model* model) {
     ++model->skipped[{"bytes behind the last facet", "not looked at"}];
   }
   bool colored = bytes.find("COLOR=") < kStlHead;
+  double largest = 0;
   for (size_t f = 0; f < facets; ++f) {
     const char* facet = bytes.data() + start + f * kStlFacet;
     float numbers[12];  // normal, three corners
@@ -75,7 +77,12 @@ void ReadBinaryStl(const fs::path& path, Model* model) {
       throw InputError(path, "facet " + std::to_string(f + 1) + " has a corner beyond 1e12");
     }
     AddStlFacet(corners, 0, model);
+    for (const Vector3d& corner : corners) {
+      if (corner.allFinite()) largest = std::max(largest, corner.cwiseAbs().maxCoeff());
+    }
   }
+  const std::string note = SinglePrecisionNote(path, largest);
+  if (!note.empty()) model->warnings.push_back(note);
   if (colored) ++model->skipped[{"colours of facets", "STL defines none: not shown"}];
 }
 
@@ -89,7 +96,7 @@ class StlTextReader {
       ++number_;
       std::istringstream words(line);
       std::string word;
-      if (words >> word) ReadLine(NameKey(word), &words);
+      while (words >> word) ReadStatement(NameKey(word), &words);
     }
     NameSolids();
     if (in_facet_) throw InputError(path_, number_, "the file ends in a facet: it is cut short");
@@ -100,10 +107,17 @@ class StlTextReader {
   }
 
  private:
-  void ReadLine(const std::string& word, std::istringstream* words) {
+  // Statements may share a line.
+  void ReadStatement(std::string word, std::istringstream* words) {
+    if (word == "END") word += NextKey(words);  // "end facet"
     if (word == "FACET") {
       in_facet_ = true;
       corners_ = 0;
+      if (NextKey(words) == "NORMAL") {
+        for (int i = 0; i < 3; ++i) NextKey(words);
+      }
+    } else if (word == "OUTER") {
+      NextKey(words);
     } else if (word == "VERTEX") {
       ReadCorner(words);
     } else if (word == "ENDFACET") {
@@ -115,17 +129,36 @@ class StlTextReader {
       in_facet_ = false;
     } else if (word == "ENDSOLID" || word == "END") {
       ended_ = true;
+      TakeName(words);
     } else if (word == "SOLID") {
       ended_ = false;
       BeginSolid(words);
-    } else if (word != "OUTER" && word != "ENDLOOP") {
+    } else if (word != "ENDLOOP") {
       throw Error(Quoted(word) + ", expected a statement of STL");
     }
   }
+  static std::string NextKey(std::istringstream* words) {
+    std::string word;
+    *words >> word;
+    return NameKey(word);
+  }
+  // Up to the line's end, or the facet or solid that shares it.
+  static std::string TakeName(std::istringstream* words) {
+    std::string name, rest;
+    for (std::string word; *words >> word;) {
+      const std::string key = NameKey(word);
+      if (key == "FACET" || key == "SOLID") {
+        std::getline(*words, rest);
+        words->clear();
+        words->str(word + rest);
+        break;
+      }
+      name += (name.empty() ? "" : " ") + word;
+    }
+    return name;
+  }
   void BeginSolid(std::istringstream* words) {
-    std::string name;
-    std::getline(*words >> std::ws, name);
-    name.erase(name.find_last_not_of(" \t\r") + 1);
+    const std::string name = TakeName(words);
     const auto found = std::ranges::find(solids_, name);
     solid_ = static_cast<int>(found - solids_.begin());
     if (found == solids_.end()) solids_.push_back(name);

@@ -10,6 +10,7 @@
 #include "calibration/files/error.h"
 #include "calibration/files/wording.h"
 #include "renderer/foreign/mesh_builder.h"
+#include "renderer/foreign/single_precision.h"
 #include "renderer/gltf/gltf_extensions.h"
 #include "renderer/gltf/gltf_json.h"
 #include "renderer/gltf/gltf_material.h"
@@ -169,15 +170,8 @@ class GltfReader {
 
   // Positions are stored in single precision, whatever we do.
   void WarnOfPrecision() {
-    const double step = largest_local_ * std::numeric_limits<float>::epsilon();
-    if (step < 1e-3) return;
-    model_.warnings.push_back(
-        InputError(
-            file_.path(),
-            Formatted("holds coordinates up to %.0f m in single precision, to %.3f m: export "
-                      "about a local origin and place it with placement.json",
-                      largest_local_, step))
-            .what());
+    const std::string note = SinglePrecisionNote(file_.path(), largest_local_);
+    if (!note.empty()) model_.warnings.push_back(note);
   }
 
   GltfFile& file_;

@@ -3,7 +3,10 @@
 
 #include <Eigen/Geometry>
 #include <cstdint>
+#include <iterator>
+#include <map>
 #include <numbers>
+#include <set>
 #include <unordered_map>
 #include <vector>
 
@@ -13,23 +16,54 @@ namespace insitu {
 namespace {
 
 using Eigen::Vector3d;
+// Smaller vertex first -> passes one way less the other.
+using EdgeCounts = std::unordered_map<uint64_t, int>;
 
 // Sums over the faces of one layer, about its first vertex: far coordinates lose nothing.
 struct MeasureSums {
   std::optional<Vector3d> origin;
   double area = 0, volume = 0;
   double sphere_area = 0, sphere_volume = 0;
-  std::unordered_map<uint64_t, int> edges;  // smaller vertex first -> passes one way less the other
+  EdgeCounts edges;
 };
 
-void AddEdge(int from, int to, MeasureSums* sums) {
+void AddEdge(int from, int to, int passes, EdgeCounts* edges) {
+  if (from == to) return;
   const bool upwards = from < to;
   const auto low = static_cast<uint64_t>(upwards ? from : to);
   const auto high = static_cast<uint64_t>(upwards ? to : from);
-  const uint64_t key = low << 32 | high;
-  const auto edge = sums->edges.try_emplace(key, 0).first;
-  edge->second += upwards ? 1 : -1;
-  if (edge->second == 0) sums->edges.erase(edge);
+  const auto edge = edges->try_emplace(low << 32 | high, 0).first;
+  edge->second += upwards ? passes : -passes;
+  if (edge->second == 0) edges->erase(edge);
+}
+
+int LowOf(uint64_t edge) { return static_cast<int>(edge >> 32); }
+int HighOf(uint64_t edge) { return static_cast<int>(edge & 0xFFFFFFFF); }
+
+// Cut at the corners of others that lie on them: a side that has three neighbours, as some kernels
+// leave it, has no gap. Of so many open edges that this would take long, as they are.
+EdgeCounts CutAtCorners(const EdgeCounts& edges, const std::vector<Vector3d>& vertices) {
+  constexpr size_t kMost = 2000;
+  if (edges.empty() || edges.size() > kMost) return edges;
+  std::set<int> corners;
+  for (const auto& [edge, passes] : edges) corners.insert({LowOf(edge), HighOf(edge)});
+  EdgeCounts pieces;
+  for (const auto& [edge, passes] : edges) {
+    const Vector3d& from = vertices[LowOf(edge)];
+    const Vector3d way = vertices[HighOf(edge)] - from;
+    std::map<double, int> stops;
+    for (const int corner : corners) {
+      const double along = (vertices[corner] - from).dot(way) / way.squaredNorm();
+      const double off = (vertices[corner] - from - along * way).norm();
+      if (along > 0 && along < 1 && off <= kJoinTolerance) stops[along] = corner;
+    }
+    stops[0] = LowOf(edge);
+    stops[1] = HighOf(edge);
+    for (auto stop = stops.begin(), next = std::next(stop); next != stops.end(); ++stop, ++next) {
+      AddEdge(stop->second, next->second, passes, &pieces);
+    }
+  }
+  return pieces;
 }
 
 // `first` tells which vertices are one.
@@ -43,7 +77,7 @@ void AddTriangle(const ModelMesh& mesh, const Eigen::Vector3i& triangle,
   sums->volume += a.dot(b.cross(c)) / 6;
   for (int i = 0; i < 3; ++i) {
     const int from = first[triangle[i]], to = first[triangle[(i + 1) % 3]];
-    if (from != to) AddEdge(from, to, sums);
+    AddEdge(from, to, 1, &sums->edges);
   }
 }
 
@@ -69,7 +103,8 @@ std::map<std::string, ElementMeasures> MeasuresByLayer(const ModelMesh& mesh) {
     if (!sum.origin && sum.sphere_area == 0) continue;
     ElementMeasures& element = elements[layer];
     element.area = sum.area + sum.sphere_area;
-    if (sum.edges.empty()) element.volume = sum.volume + sum.sphere_volume;
+    element.open_edges = static_cast<int>(CutAtCorners(sum.edges, mesh.vertices).size());
+    if (element.open_edges == 0) element.volume = sum.volume + sum.sphere_volume;
   }
   return elements;
 }
@@ -79,6 +114,7 @@ ElementMeasures Sum(const std::map<std::string, ElementMeasures>& elements) {
   all.volume = 0;
   for (const auto& [name, element] : elements) {
     all.area += element.area;
+    all.open_edges += element.open_edges;
     if (!element.volume) all.volume.reset();
     if (all.volume) *all.volume += *element.volume;
   }

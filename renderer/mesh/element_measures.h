@@ -12,7 +12,8 @@ namespace insitu {
 
 struct ElementMeasures {
   double area = 0;               // [m2], of all faces, both sides of a wall counted
-  std::optional<double> volume;  // [m3]; nullopt: open, some edge has no face on its other side
+  std::optional<double> volume;  // [m3]; nullopt: open
+  int open_edges = 0;            // without a face on their other side, or with one too many
 };
 
 // By layer. Faces must be mended (MendSolids); their vertices are one within kJoinTolerance.

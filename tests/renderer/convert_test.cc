@@ -117,6 +117,27 @@ TEST_F(Convert, ObjectsTypedByHandAreAModelOfTheirOwn) {
   EXPECT_NEAR(ReadJson(report)["elements"]["ball"]["area_m2"].asDouble(), std::numbers::pi, 1e-12);
 }
 
+TEST_F(Convert, ASphereShowsTheMeanOfItsTexture) {
+  Write("objects.json", kObjects);
+  WritePng(folder_.path() / "building/brick.png", Raster(2, 2), Encoding::kSrgb8);
+  Write("materials.json", R"({"materials": {"STEEL": {"texture": "brick.png"}}})");
+  EXPECT_THAT(Converted().warnings,
+              Contains(HasSubstr("1 spheres of \"STEEL\" show the mean colour of its texture")));
+}
+
+// Once, where the other puts it, whichever is read first.
+TEST_F(Convert, ADrawingThatAnotherRefersToIsNoModelOfItsOwn) {
+  Write("grid.dxf", DrawingText(UnitSquare("WALL")));
+  Write("house.dxf", DrawingText("0 INSERT\n 2 grid\n 10 50\n 20 0\n",
+                                 "0 BLOCK\n 2 grid\n 70 4\n 1 C:\\cad\\grid.dwg\n 0 ENDBLK\n"));
+  const Conversion conversion = Converted();
+  ASSERT_EQ(conversion.models.size(), 1u);
+  EXPECT_EQ(conversion.box.min(), Vector3d(50, 0, 0));
+  EXPECT_EQ(conversion.triangles_of_layer.at("grid|WALL"), 2);
+  EXPECT_THAT(conversion.warnings,
+              Contains(HasSubstr("grid.dxf: read where house.dxf refers to it (XREF)")));
+}
+
 // Three storeys of slabs, y up.
 TEST_F(Convert, FloorsAlongYAreNoticed) {
   std::string obj;

@@ -185,6 +185,18 @@ TEST(AcisBody, ASphereCutByAPlane) {
   }
 }
 
+// Two loops about the drill's axis, which its poles are not on.
+TEST(AcisBody, ADrilledSphere) {
+  SatText text(700);
+  const double half = std::sqrt(3);
+  const int top = text.Circle({0, 0, half}, {0, 0, 1}, {1, 0, 0});
+  const int bottom = text.Circle({0, 0, -half}, {0, 0, 1}, {1, 0, 0});
+  text.Face(text.Add("sphere-surface", "0 0 0 2 1 0 0 0 0 1 forward_v I I I I"), false,
+            {{{bottom, false}}, {{top, true}}});
+  text.Face(text.Cone({0, 0, 0}, {0, 0, 1}, {1, 0, 0}), true, {{{bottom, true}}, {{top, false}}});
+  ExpectSolid(Faceted(text.Text()), 4 * kPi * half, 1e-3);
+}
+
 TEST(AcisBody, ATorusAndAQuarterOfOne) {
   SatText whole(700);
   const std::string torus = "0 0 0 0 0 1 2 0.5 1 0 0 forward_v I I I I";
@@ -214,10 +226,19 @@ TEST(AcisBody, WhatIsNotReadIsCountedByReason) {
   const int wave = text.Edge(start, end, text.Add("intcurve-curve", "forward { surfint } I I"));
   const int back = text.Edge(end, start, text.Line({1, 0, 0}, {0, 0, 0}));
   text.Face(text.Plane({0, 0, 0}, {0, 0, 1}), false, {{{wave, false}, {back, false}}});
+  // A circle that the edge's ends are not on, and a spline.
+  const std::string spline = "forward { exactcur nubs 1 open 2 0 1 1 1 ";
+  for (const int curve : {text.Add("ellipse-curve", "9 0 0 0 0 1 2 0 0 1 I I"),
+                          text.Add("intcurve-curve", spline + "0 5 0 1 5 0 0 } I I")}) {
+    const int off = text.Edge(start, end, curve);
+    text.Face(text.Plane({0, 0, 0}, {0, 0, 1}), false, {{{off, false}, {back, false}}});
+  }
   const AcisShape shape = Faceted(text.Text());
   EXPECT_TRUE(shape.triangles.empty());
-  EXPECT_EQ(shape.unread, (std::map<std::string, int>{{"bounded by a intcurve-curve", 1},
-                                                      {"on a spline-surface", 1}}));
+  EXPECT_EQ(shape.unread,
+            (std::map<std::string, int>{{"bounded by a intcurve-curve", 1},
+                                        {"on a spline-surface", 1},
+                                        {"with an edge whose ends are off its curve", 2}}));
 }
 
 TEST(AcisBody, BinaryFilesHoldTheSame) {

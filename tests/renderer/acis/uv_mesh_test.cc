@@ -41,7 +41,18 @@ TEST(UvMesh, KeepsTheRimsAndStaysNarrow) {
   }
 }
 
-TEST(UvMesh, TakesPointsWithinButNoneOnItsEdges) {
+TEST(UvMesh, TakesPointsOnEdgesBetweenTriangles) {
+  UvMesh mesh({{0, 0}, {4, 0}, {4, 4}, {0, 4}}, {0, 1, 2, 3});
+  for (const Eigen::Vector2d& point :
+       {Eigen::Vector2d(2, 2), {1, 1}, {3, 3}, {2, 1}, {2, 3}, {1, 2}, {3, 2}}) {
+    mesh.Insert(point);
+  }
+  EXPECT_EQ(mesh.points().size(), 11u);
+  EXPECT_EQ(mesh.triangles().size(), 16u);
+  EXPECT_NEAR(AreaOf(mesh), 16, 1e-9);
+}
+
+TEST(UvMesh, TakesPointsWithinButNoneOnItsRim) {
   UvMesh mesh({{0, 0}, {4, 0}, {4, 4}, {0, 4}}, {0, 1, 2, 3});
   for (double x = 0.37; x < 4; x += 0.53) {
     for (double y = 0.29; y < 4; y += 0.61) mesh.Insert({x, y});

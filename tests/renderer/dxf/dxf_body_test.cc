@@ -2,6 +2,7 @@
 // ACIS bodies in drawings.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <numbers>
 #include <sstream>
 #include <string>
@@ -18,14 +19,15 @@ namespace {
 using Eigen::Vector3d;
 
 // As AutoCAD writes it, a line a group.
-std::string SolidEntity(const std::string& sat, const std::string& handle = "9C") {
+std::string SolidEntity(const std::string& sat, const std::string& handle = "9C",
+                        size_t length = 255) {
   std::string entity = "0 3DSOLID\n5 " + handle + "\n100 AcDbEntity\n8 ROOF\n70 1\n";
   std::istringstream lines(sat);
   for (std::string line; std::getline(lines, line);) {
     std::string code = "1 ";
     for (line = DecodedAcisText(line); !line.empty(); code = "3 ") {
-      entity += code + line.substr(0, 255) + "\n";
-      line.erase(0, 255);
+      entity += code + line.substr(0, length) + "\n";
+      line.erase(0, std::min(length, line.size()));
     }
   }
   return entity;
@@ -42,6 +44,15 @@ TEST(DxfBody, SolidsOfAcisBecomeFacesAndSpheres) {
   ASSERT_EQ(model.mesh.spheres.size(), 1u);
   EXPECT_EQ(model.mesh.spheres[0].center, Vector3d(5, 0, 0));
   EXPECT_EQ(model.mesh.spheres[0].radius, 2);
+}
+
+// Wherever a line of text is cut, before or behind a blank too.
+TEST(DxfBody, LinesOfTextGoOn) {
+  for (size_t length = 15; length < 33; ++length) {
+    const Model model = ReadEntities(SolidEntity(CubeText(700), "9C", length));
+    EXPECT_TRUE(model.skipped.empty()) << length;
+    EXPECT_NEAR(VolumeOf(model.mesh), 1, 1e-12) << length;
+  }
 }
 
 TEST(DxfBody, SolidsFollowTheirInserts) {

@@ -324,6 +324,15 @@ TEST(Dxf, LayersNotToBePlottedAreLeftOut) {
                              {{"3DFACE", "layer \"HELP\" is not to be plotted"}, 1}}));
 }
 
+TEST(Dxf, ALayersColorThatIsNoneCostsOnlyItself) {
+  const Model model =
+      ReadText(DxfText("0 SECTION\n2 TABLES\n0 LAYER\n2 W\n70 0\n62 red\n0 ENDSEC\n") +
+               DrawingText(UnitSquare("W")));
+  EXPECT_EQ(model.mesh.triangles.size(), 2u);
+  ASSERT_EQ(model.warnings.size(), 1u);
+  EXPECT_NE(model.warnings[0].find("the layer's colour is left out"), std::string::npos);
+}
+
 TEST(Dxf, ColorsComeFromEntityLayerOrInsert) {
   const std::string tables =
       "0 SECTION\n2 TABLES\n0 LAYER\n2 RED\n70 0\n62 1\n0 ENDSEC\n"
@@ -363,7 +372,7 @@ TEST(Dxf, NamesBecomeUtf8) {
 TEST(DxfBlocks, StatesOfDynamicBlocksHaveTheirName) {
   const Model model = ReadText(DxfText(
       "0 SECTION\n2 TABLES\n0 BLOCK_RECORD\n5 2F\n2 Fenster\n"
-      "0 BLOCK_RECORD\n5 32\n2 *U3\n1001 AcDbBlockRepBTag\n1070 1\n1005 2F\n"
+      "0 BLOCK_RECORD\n5 32\n2 *U3\n1001 AcDbBlockRepBTag\n1070 1\n1005 02f\n"
       "0 BLOCK_RECORD\n5 33\n2 *U4\n1001 OTHER\n1005 2F\n0 ENDSEC\n"
       "0 SECTION\n2 BLOCKS\n0 BLOCK\n2 *U3\n" +
       UnitSquare("W") + "0 ENDBLK\n0 BLOCK\n2 *U4\n" + UnitSquare("W", "1") +

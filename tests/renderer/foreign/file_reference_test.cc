@@ -13,15 +13,20 @@ TEST(FileReference, IsFoundAsOtherMachinesNameIt) {
   const ScratchFolder folder;
   const auto model = folder.Write("house.obj", "");
   const auto image = std::filesystem::absolute(folder.Write("maps/brick wall.png", ""));
-  for (const char* name : {"maps/brick wall.png", "maps\\brick wall.png", "\"MAPS/Brick Wall.PNG\"",
-                           "C:\\Anna\\maps\\brick wall.png", "\\\\server\\maps\\brick wall.png",
-                           "file:///C:/Anna/maps/brick%20wall.png", "maps/brick%20wall.png",
-                           "D:\\other\\brick wall.png", "brick%20wall.png"}) {
+  for (const char* name :
+       {"maps/brick wall.png", "maps\\brick wall.png", "\"MAPS/Brick Wall.PNG\"",
+        "C:\\Anna\\maps\\brick wall.png", "\\\\server\\maps\\brick wall.png",
+        "file:///C:/Anna/maps/brick%20wall.png", "maps/brick%20wall.png",
+        "D:\\other\\brick wall.png", "brick%20wall.png", "maps/brick wall.png?v=3",
+        "https://host/a/maps/brick%20wall.png?w=1/2#top", "brick wall.png#1"}) {
     EXPECT_EQ(FindReference(model, name), image.lexically_normal()) << name;
   }
   const auto umlaut = std::filesystem::absolute(folder.Write("maps/Gr\xC3\xBCn.png", ""));
   EXPECT_EQ(FindReference(model, "maps/GR\xC3\x9CN.png"), umlaut.lexically_normal());
   EXPECT_EQ(FindReference(model, "maps/Gru\xCC\x88n.png"), umlaut.lexically_normal());
+  const auto marked = std::filesystem::absolute(folder.Write("maps/what?.png", ""));
+  EXPECT_EQ(FindReference(model, "maps/what?.png"), marked.lexically_normal());
+  EXPECT_EQ(FindReference(model, "?v=3"), std::nullopt);
   EXPECT_EQ(FindReference(model, "other.png"), std::nullopt);
   EXPECT_EQ(FindReference(model, ""), std::nullopt);
 }

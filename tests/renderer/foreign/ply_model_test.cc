@@ -57,6 +57,19 @@ TEST_F(PlyModel, AnyOrderOfElementsAndAnyLines) {
   EXPECT_THAT(model.mesh.vertices, Contains(Vector3d(2600000.123, 0, 0)));
 }
 
+TEST_F(PlyModel, CommentsNameTheUnit) {
+  const std::string elements =
+      std::string("element vertex 3\n") + kXyz + "element face 1\n" + kList;
+  const auto read = [&](const std::string& comment) {
+    return Read(Text(comment + elements, "0 0 0 1000 0 0 0 2000 0 3 0 1 2"));
+  };
+  const Model model = read("comment made by hand\ncomment\ncomment units: mm\n");
+  EXPECT_NEAR(AreaOf(model.mesh), 1, 1e-12);
+  EXPECT_EQ(model.metres_per_unit, 0.001);
+  EXPECT_THAT(model.warnings, Contains(testing::HasSubstr("\"units: mm\" is taken as its unit")));
+  EXPECT_EQ(read("").metres_per_unit, std::nullopt);
+}
+
 TEST_F(PlyModel, StripsAreWoundAlike) {
   const Model model = Read(Text(std::string("element vertex 4\n") + kXyz +
                                     "element tristrips 1\nproperty list int int vertex_indices\n",

@@ -157,13 +157,45 @@ TEST(IfcModel, StoreysLayersAndMaterialsNameElements) {
               "#53=IFCMATERIAL('Beton');\n#54=IFCMATERIALLAYER(#53,0.2,$);\n"
               "#55=IFCMATERIALLAYERSET((#54),$);\n#56=IFCMATERIALLAYERSETUSAGE(#55,.AXIS2.,."
               "POSITIVE.,0.);\n"
-              "#57=IFCRELASSOCIATESMATERIAL('m',$,$,$,(#18),#56);\n#58=IFCIMAGETEXTURE(.T.,.T.,."
-              "TEXTURE.,$,'a.png');\n");
+              "#57=IFCRELASSOCIATESMATERIAL('m',$,$,$,(#18),#56);\n");
   const Model model = ReadIfc(folder.Write("a.ifc", text), 60);
   ASSERT_EQ(model.mesh.surfaces.size(), 1u);
   EXPECT_EQ(model.mesh.surfaces[0].block, "Erdgeschoss/A-WALL");
   EXPECT_EQ(model.mesh.surfaces[0].material, "Beton");
-  EXPECT_EQ(model.skipped.at({"IfcImageTexture", "an image: list it in materials.json"}), 1);
+}
+
+// web-ifc has triangles without a place on images: each is named with its style.
+TEST(IfcModel, ImagesOfStylesAreNamed) {
+  if (!WebIfcFolder()) GTEST_SKIP() << "web-ifc is not there: scripts/setup fetches it";
+  const ScratchFolder folder;
+  const auto skipped = [&](const std::string& schema, const std::string& image) {
+    std::string text = kBox;
+    if (schema == "IFC4") {
+      text.replace(text.find("IFC2X3"), 6, schema);
+      text.replace(text.find("#17,$);"), 7, "#17,$,$);");
+    }
+    text.insert(
+        text.rfind("ENDSEC;"),
+        "#58=" + image +
+            ";\n#59=IFCSURFACESTYLEWITHTEXTURES((#58));\n"
+            "#60=IFCSURFACESTYLE('Ziegel',.BOTH.,(#59));\n#61=IFCTEXTURECOORDINATEGENERATOR(" +
+            (schema == "IFC4" ? "(#58)," : "") + "'COORD',());\n");
+    return ReadIfc(folder.Write("a.ifc", text), 60).skipped;
+  };
+  const std::string told =
+      " of style \"Ziegel\": its colour alone is shown, give it the image in "
+      "materials.json";
+  const std::pair<std::string, std::string> place = {"IfcTextureCoordinateGenerator",
+                                                     "where an image lies on faces: not read"};
+  const auto old = skipped("IFC2X3", "IFCIMAGETEXTURE(.T.,.T.,.TEXTURE.,$,'brick.png')");
+  EXPECT_EQ(old.at({"IfcImageTexture", "brick.png" + told}), 1);
+  EXPECT_EQ(old.at(place), 1);
+  const auto with_address =
+      skipped("IFC4", "IFCIMAGETEXTURE(.T.,.T.,'TEXTURE',$,$,'maps/brick.png')");
+  EXPECT_EQ(with_address.at({"IfcImageTexture", "maps/brick.png" + told}), 1);
+  EXPECT_EQ(with_address.at(place), 1);
+  const auto within = skipped("IFC4", "IFCBLOBTEXTURE(.T.,.T.,'TEXTURE',$,$,'PNG',\"0FF\")");
+  EXPECT_EQ(within.at({"IfcBlobTexture", "an image within the file" + told}), 1);
 }
 
 // In IFC4, metres of a map and a model in feet.
@@ -184,6 +216,49 @@ TEST(IfcModel, MapConversionIsInMetres) {
       (*model.map_from_model * Eigen::Vector3d(1, 0, 0) - model.map_from_model->translation).y(), 1,
       1e-9);
   EXPECT_THAT(model.warnings, testing::Contains(HasSubstr("\"map_conversion\": true")));
+}
+
+TEST(IfcModel, RigidOperationsAndSitesStatePlaces) {
+  if (!WebIfcFolder()) GTEST_SKIP() << "web-ifc is not there: scripts/setup fetches it";
+  const ScratchFolder folder;
+  std::string text = kBox;
+  text.insert(text.rfind("ENDSEC;"),
+              "#50=IFCSITE('s',$,'Site',$,$,#10,$,$,.ELEMENT.,(47,22,30),(-8,-30,0),4.,$,$);\n");
+  EXPECT_THAT(ReadIfc(folder.Write("a.ifc", text), 60).warnings,
+              testing::Contains(HasSubstr("latitude 47.375000, longitude -8.500000")));
+  text.replace(text.find("IFC2X3"), 6, "IFC4X3");
+  text.replace(text.find("#17,$);"), 7, "#17,$,$);");
+  text.insert(text.rfind("ENDSEC;"),
+              "#60=IFCPROJECTEDCRS('EPSG:2056',$,$,$,$,$,#5);\n#61=IFCRIGIDOPERATION(#3,#60,"
+              "IFCLENGTHMEASURE(2600000.125),IFCLENGTHMEASURE(1200000.25),430.);\n");
+  const Model model = ReadIfc(folder.Write("a.ifc", text), 60);
+  ASSERT_TRUE(model.map_from_model);
+  EXPECT_EQ(model.map_from_model->translation, Eigen::Vector3d(2600000.125, 1200000.25, 430));
+}
+
+// What web-ifc alone takes for metres, or for nothing.
+TEST(IfcModel, UnitsWithAnOffsetAndSmallLettersAreRead) {
+  if (!WebIfcFolder()) GTEST_SKIP() << "web-ifc is not there: scripts/setup fetches it";
+  const ScratchFolder folder;
+  const double area = 216 * 0.3048 * 0.3048;
+  std::string text = kBox;
+  text.replace(text.find("IFCCONVERSIONBASEDUNIT(#4,.LENGTHUNIT.,'FOOT',#6)"), 49,
+               "IFCCONVERSIONBASEDUNITWITHOFFSET(#4,.LENGTHUNIT.,'FOOT',#6,0.)");
+  EXPECT_NEAR(AreaOf(ReadIfc(folder.Write("a.ifc", text), 60).mesh), area, 1e-5);
+  text = kBox;
+  text.replace(text.find("IFCWALL("), 8, "IfcWall /* it's */ (");
+  text.replace(text.find("IFCRECTANGLEPROFILEDEF"), 22, "ifcRectangleProfileDef");
+  const Model small = ReadIfc(folder.Write("a.ifc", text), 60);
+  EXPECT_NEAR(AreaOf(small.mesh), area, 1e-5);
+  EXPECT_EQ(small.mesh.surfaces.at(0).layer,
+            "IfcWall_Au\xC3\x9F"
+            "enwand");
+  text = kBox;
+  text.replace(text.find("IFCCONVERSIONBASEDUNIT(#4,.LENGTHUNIT.,'FOOT',#6)"), 49,
+               "IFCCONTEXTDEPENDENTUNIT(#4,.LENGTHUNIT.,'brick')");
+  const Model other = ReadIfc(folder.Write("a.ifc", text), 60);
+  EXPECT_EQ(other.metres_per_unit, std::nullopt);
+  EXPECT_THAT(other.warnings, testing::Contains(HasSubstr("called \"brick\" and not defined")));
 }
 
 // Faces of a solid that lack one, and what web-ifc itself complains of.

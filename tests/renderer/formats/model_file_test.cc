@@ -5,6 +5,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "calibration/files/error.h"
 #include "tests/calibration/files/scratch_folder.h"
 #include "tests/calibration/files/wrong_field.h"
@@ -100,6 +102,29 @@ TEST_F(ModelFile, FilesThatWereCut) {
               HasSubstr("a.glb: is 12 bytes long, expected 256"));
   EXPECT_THAT(Complaint("a.gltf", gltf.substr(0, 400)), HasSubstr("a.gltf:6: "));
   EXPECT_THAT(Complaint("a.dae", collada.substr(0, 700)), HasSubstr("a.dae:"));
+}
+
+TEST_F(ModelFile, StlStatementsMayBeTornOrShareALine) {
+  std::string torn = kStl;
+  for (const char* word : {"endfacet", "endloop", "endsolid"}) {
+    torn.replace(torn.find(word), 3, "end ");
+  }
+  EXPECT_NEAR(AreaOf(Read("a.stl", torn).mesh), 0.5, 1e-7);
+  std::string line = kStl;
+  std::ranges::replace(line, '\n', ' ');
+  const Model model = Read("a.stl", line + line.replace(0, 5, "solid roof of"));
+  EXPECT_NEAR(AreaOf(model.mesh), 1, 1e-7);
+  EXPECT_TRUE(model.warnings.empty());
+}
+
+TEST_F(ModelFile, SinglePrecisionFarAwayIsToldOf) {
+  std::string binary = std::string(80, ' ') + std::string("\1\0\0\0", 4);
+  for (const float x :
+       {0.f, 0.f, 0.f, 2600000.f, 0.f, 0.f, 2600001.f, 0.f, 0.f, 2600000.f, 1.f, 0.f}) {
+    binary.append(reinterpret_cast<const char*>(&x), sizeof(x));
+  }
+  EXPECT_THAT(Read("a.stl", binary + std::string(2, '\0')).warnings,
+              Contains(HasSubstr("up to 2600001 m in single precision, to 0.310 m")));
 }
 
 // What other programs write and is no fault of the geometry.

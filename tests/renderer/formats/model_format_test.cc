@@ -60,6 +60,11 @@ TEST(ModelFormat, WhatIsNotReadIsNamed) {
   EXPECT_THAT(complaint("a", std::string("MM\0*....", 8)), HasSubstr("is no model that is read"));
   EXPECT_THAT(complaint("a.ifc", "<!DOCTYPE html>"), HasSubstr("is a web page"));
   EXPECT_THAT(complaint("a.obj", ""), HasSubstr("is empty"));
+  const std::string step = "ISO-10303-21;\nHEADER;\nFILE_SCHEMA(('AUTOMOTIVE_DESIGN'));\n";
+  EXPECT_THAT(complaint("a.ifc", step), HasSubstr("is a STEP model"));
+  EXPECT_EQ(DetectModelFormat(folder.Write("b.step", step)), std::nullopt);
+  EXPECT_THAT(complaint("a.json", R"({"type":"CityJSON","version":"1.1"})"),
+              HasSubstr("is a CityJSON model"));
   EXPECT_EQ(complaint("a.dxf", "hello"), "");  // its reader says what is wrong
 }
 

@@ -122,6 +122,10 @@ TEST_F(ObjModel, AnyEncodingAndLineEnd) {
   EXPECT_EQ(model.mesh.surfaces[0].rgb, Vector3d(0, 1, 0));
 }
 
+TEST_F(ObjModel, FacesOfOldPrograms) {
+  EXPECT_EQ(Read("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nfo 1 2 3\n").mesh.triangles.size(), 1u);
+}
+
 TEST_F(ObjModel, CommentsNameTheUnit) {
   const auto unit = [this](const std::string& comment) {
     return Read("a.obj", comment + "\nv 0 0 0\nv 1000 0 0\nv 0 1000 0\nf 1 2 3\n");
@@ -131,6 +135,8 @@ TEST_F(ObjModel, CommentsNameTheUnit) {
   EXPECT_EQ(millimetres.mesh.vertices[1], Vector3d(1, 0, 0));
   EXPECT_EQ(millimetres.warnings.size(), 1u);
   EXPECT_EQ(unit("#units: Inches").metres_per_unit, 0.0254);
+  EXPECT_EQ(unit("# units mm").metres_per_unit, 0.001);
+  EXPECT_EQ(unit("# unit cube").warnings.size(), 0u);
   EXPECT_EQ(unit("# File units = furlongs").metres_per_unit, std::nullopt);
   EXPECT_EQ(unit("# File units = furlongs").warnings.size(), 1u);
   EXPECT_EQ(unit("# my house").warnings.size(), 0u);

@@ -43,6 +43,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
       .write(reinterpret_cast<const char*>(data), static_cast<std::streamsize>(size));
   insitu::ImportOptions options;
   options.dxf.most_pieces = 500000;  // sanitized code takes ten times as long
+  options.dxf.chord_tolerance = 0.05;
   options.seconds = 5;
   try {
     insitu::Model model = insitu::ReadModel(insitu::FuzzedFile(), options);

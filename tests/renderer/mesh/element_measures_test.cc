@@ -41,11 +41,25 @@ TEST(ElementMeasures, CornersThatRoundingPartedAreOne) {
   EXPECT_NEAR(MeasuresByLayer(mesh).at("tetra").volume.value(), 1.0 / 6, 1e-6);
 }
 
+// One side's neighbours are two, as kernels leave it that drop corners on a line.
+TEST(ElementMeasures, ASideWithSeveralNeighboursIsClosed) {
+  ModelMesh mesh = Tetrahedron();
+  mesh.vertices.emplace_back((mesh.vertices[0] + mesh.vertices[1]) / 2);
+  mesh.triangles[1] = {0, 4, 3};
+  mesh.triangles.emplace_back(4, 1, 3);
+  mesh.surface_of_triangle.push_back(0);
+  EXPECT_NEAR(MeasuresByLayer(mesh).at("tetra").volume.value(), 1.0 / 6, 1e-9);
+  mesh.vertices[4].y() += 1e-3;
+  EXPECT_EQ(MeasuresByLayer(mesh).at("tetra").volume, std::nullopt);
+  EXPECT_EQ(MeasuresByLayer(mesh).at("tetra").open_edges, 3);
+}
+
 TEST(ElementMeasures, OpenOnesHaveNone) {
   ModelMesh mesh = Tetrahedron();
   mesh.triangles.pop_back();
   mesh.surface_of_triangle.pop_back();
   EXPECT_EQ(MeasuresByLayer(mesh).at("tetra").volume, std::nullopt);
+  EXPECT_EQ(MeasuresByLayer(mesh).at("tetra").open_edges, 3);
   EXPECT_EQ(Sum(MeasuresByLayer(mesh)).volume, std::nullopt);
 }
 

@@ -13,8 +13,11 @@ struct UnitComment {
   std::optional<double> metres;  // nullopt: a unit that we do not know
 };
 
-// "# File units = millimeters" as SketchUp writes it, "# units: inches" and the like. nullopt: the
-// line is no comment on units.
+// "# File units = millimeters" as SketchUp writes it, "# units: inches", "#units mm" and the like.
+// nullopt: the line is no comment on units.
 std::optional<UnitComment> ReadUnitComment(std::string_view line);
+
+// "its comment ... is taken as its unit", or names none that is known.
+std::string UnitNote(const UnitComment& comment);
 
 }  // namespace insitu

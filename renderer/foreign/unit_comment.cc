@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "renderer/formats/unit_comment.h"
+#include "renderer/foreign/unit_comment.h"
 
 #include <algorithm>
 #include <map>
 
+#include "calibration/files/wording.h"
 #include "renderer/mesh/model.h"
 
 namespace insitu {
@@ -38,13 +39,21 @@ std::optional<UnitComment> ReadUnitComment(std::string_view line) {
   const std::string_view text = WithoutBlanks(line);
   if (text.empty() || text.size() > kLongest) return std::nullopt;
   const size_t equals = text.find_first_of("=:");
-  if (equals == text.npos) return std::nullopt;
-  const std::string key = NameKey(std::string(WithoutBlanks(text.substr(0, equals))));
+  const size_t end = equals == text.npos ? text.find_last_of(" \t") : equals;
+  if (end == text.npos) return std::nullopt;
+  const std::string key = NameKey(std::string(WithoutBlanks(text.substr(0, end))));
   if (key != "FILE UNITS" && key != "FILE UNIT" && key != "UNITS" && key != "UNIT") {
     return std::nullopt;
   }
-  const std::string unit = NameKey(std::string(WithoutBlanks(text.substr(equals + 1))));
-  return UnitComment{std::string(text), MetresPerUnitNamed(unit)};
+  const std::string unit = NameKey(std::string(WithoutBlanks(text.substr(end + 1))));
+  const auto metres = MetresPerUnitNamed(unit);
+  if (equals == text.npos && !metres) return std::nullopt;  // "unit cube"
+  return UnitComment{std::string(text), metres};
+}
+
+std::string UnitNote(const UnitComment& comment) {
+  return "its comment " + Quoted(comment.text) +
+         (comment.metres ? " is taken as its unit" : " names no unit that is known");
 }
 
 }  // namespace insitu
