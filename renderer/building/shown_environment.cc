@@ -89,9 +89,6 @@ std::vector<std::string> NotShown(const ArtificialEnvironment& environment) {
   std::vector<std::string> lines;
   for (const SurfaceMaterial& material : environment.materials) {
     const std::string name = "material \"" + material.name + "\": ";
-    if (material.glass && material.specular && material.specular->roughness.slope > 0) {
-      lines.push_back(name + "its rough glass is shown as smooth glass");
-    }
     if (material.glass && material.bumps)
       lines.push_back(name + "its glass is shown without bumps");
     if (HasFaceWithoutTexture(environment, material)) {

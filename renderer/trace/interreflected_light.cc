@@ -7,7 +7,6 @@
 #include <span>
 
 #include "calibration/files/error.h"
-#include "radiometry/light/fresnel.h"
 #include "renderer/trace/light_split.h"
 #include "renderer/trace/through_glass.h"
 
@@ -146,9 +145,8 @@ Spectrum MeanTransmittance(const MontageScene& scene, int material) {
   Spectrum sum = Spectrum::Zero();
   for (int i = 0; i < kSteps; ++i) {
     const double cosine = std::sqrt((i + 0.5) / kSteps);
-    sum += glass.is_solid
-               ? Spectrum::Constant(1 - FresnelReflectance(cosine, glass.index)).eval()
-               : ThinSheet(cosine, glass.index, glass.absorption, glass.thickness).transmittance;
+    sum += glass.is_solid ? Spectrum::Constant(FaceTransmittance(glass, cosine)).eval()
+                          : PaneOptics(glass, cosine).transmittance;
   }
   sum *= glass.weight / kSteps;
   if (glass.is_solid) sum *= (-glass.absorption * (MeanWay(scene, material) / 2)).exp();

@@ -11,6 +11,7 @@
 #include "calibration/photo/raster.h"
 #include "radiometry/light/bumps.h"
 #include "radiometry/light/photographed_color.h"
+#include "radiometry/light/rough_glass.h"
 #include "radiometry/natural_environment.h"
 #include "reconstruction/geometry/ray_scene.h"
 #include "renderer/building/artificial_environment.h"
@@ -29,6 +30,8 @@ struct SpectralGlass {
   double index = 1.5;
   double thickness = 0;                    // of a pane [m]
   Spectrum absorption = Spectrum::Zero();  // [1/m]
+  // Both faces of a rough pane; of a rough body its one interface from both sides. null: smooth.
+  std::shared_ptr<const RoughSheet> rough = {};
 };
 
 struct SpectralMaterial {

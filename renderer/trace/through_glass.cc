@@ -23,6 +23,16 @@ double WayFactor(double cosine, double index) { return cosine / RefractedCosine(
 
 }  // namespace
 
+SheetOptics PaneOptics(const SpectralGlass& glass, double cosine) {
+  if (glass.rough) return glass.rough->Optics(cosine);
+  return ThinSheet(cosine, glass.index, glass.absorption, glass.thickness);
+}
+
+double FaceTransmittance(const SpectralGlass& glass, double cosine) {
+  if (glass.rough) return glass.rough->from_outside().Transmittance(cosine);
+  return 1 - FresnelReflectance(cosine, glass.index);
+}
+
 Spectrum TransmittanceAlong(const MontageScene& scene, const Ray& ray) {
   const PhaseScope phase(Phase::kEmbree);
   if (scene.OpaqueRays().IsOccluded(ray)) return Spectrum::Zero();
@@ -40,10 +50,9 @@ Spectrum TransmittanceAlong(const MontageScene& scene, const Ray& ray) {
                                                               : scene.artificial_normals[triangle]);
     const double cosine = std::min(1.0, std::abs(along));
     if (!glass.is_solid) {
-      share *= glass.weight *
-               ThinSheet(cosine, glass.index, glass.absorption, glass.thickness).transmittance;
+      share *= glass.weight * PaneOptics(glass, cosine).transmittance;
     } else {
-      share *= glass.weight * (1 - FresnelReflectance(cosine, glass.index));
+      share *= glass.weight * FaceTransmittance(glass, cosine);
       const double longer = WayFactor(cosine, glass.index);
       if (along > 0) {
         const double way = (hit->distance - inside.entry) * std::min(inside.longer, longer);

@@ -20,12 +20,6 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 
-// What goes on by a mirror or a pane that hands on so much.
-LightDirections Part(LightDirections light, const MontageScene& scene, const Spectrum& share) {
-  light.share *= std::min(1.0, share.head(scene.natural.spectra.bins().count).mean());
-  return light;
-}
-
 double CosineTo(const SurfacePoint& surface, const Eigen::Vector3d& to_viewer) {
   return std::min(1.0, surface.normal.dot(to_viewer));
 }
@@ -297,25 +291,21 @@ Spectrum FaceColor(const MontageScene& scene, const SceneHit& hit, const Ray& ra
     return BuildingColor(scene, bumped.surface, bumped.material, -ray.direction, light, depth,
                          LightAround(scene, hit));
   }
-  // A pane mirrors it, at two faces; a body lets most of it through.
-  const Spectrum mirrors = 2 * MirrorReflectance(material, CosineTo(hit.surface, -ray.direction));
-  const LightDirections further = material.glass->is_solid ? light : Part(light, scene, mirrors);
-  const auto trace = [&](const Ray& out) {
-    return TraceSecondary(scene, out, further, World::kWithBuilding, depth + 1);
-  };
-  const Spectrum glass = GlassColor(scene, hit, ray, light, depth, straight_on, trace);
+  const Spectrum glass = GlassColor(scene, hit, ray, light, depth, straight_on);
   if (material.glass->weight >= 1) return glass;
-  SpectralMaterial ground = material;  // what does not go through
+  SpectralMaterial ground = material;  // what is neither mirrored nor goes through
   ground.specular.reset();
+  const Spectrum share = (1 - material.glass->weight) *
+                         (1 - GlassReflectance(material, CosineTo(hit.surface, -ray.direction)));
   const Spectrum matte = BuildingColor(scene, hit.surface, ground, -ray.direction, light, depth,
                                        LightAround(scene, hit));
   if (light.parts && depth == 0) {
     for (const LightPart part :
          {kBuildingSun, kBuildingSky, kBuildingSurroundings, kBuildingLamps}) {
-      light.parts->light[part] *= 1 - material.glass->weight;
+      light.parts->light[part] *= share;
     }
   }
-  return glass + (1 - material.glass->weight) * matte;
+  return glass + share * matte;
 }
 
 // Case B above the horizon: the horizon's colour, or what the photographs show of the sky there.
