@@ -182,6 +182,7 @@ int Converter::Unlisted(const SurfaceNames& names) {
   const bool has_color = !names.material.empty() && (names.rgb || !names.texture.empty());
   std::string key = label + '\0' + std::to_string(names.opacity) + TextureOf(names);
   if (names.rgb) key.append(reinterpret_cast<const char*>(names.rgb->data()), 3 * sizeof(double));
+  key.append(reinterpret_cast<const char*>(names.translucent_rgb.data()), 3 * sizeof(double));
   const auto [known, is_new] =
       index_of_unlisted_.try_emplace(key, static_cast<int>(materials.size()));
   if (!is_new) return known->second;
@@ -192,6 +193,8 @@ int Converter::Unlisted(const SurfaceNames& names) {
     material.texture = TextureOf(names);
     material.diffuse_rgb = names.rgb.value_or(Vector3d(Vector3d::Ones()));
     if (!material.texture.empty()) TakeMeanColor(names, &material);
+    material.diffuse_weight = names.diffuse_weight;
+    material.translucent_rgb = names.translucent_rgb;
     if (names.opacity < 1) {
       material.glass = Glass{.weight = 1 - names.opacity,
                              .is_solid = names.is_solid,

@@ -110,6 +110,10 @@ Json::Value MaterialJson(const SurfaceMaterial& material) {
   }
   if (material.glass) json["glass"] = GlassJson(*material.glass);
   if (material.bumps) json["bumps"] = BumpsJson(*material.bumps);
+  if (!material.translucent_rgb.isZero(0)) {
+    json["translucent_rgb"] = ToJson(material.translucent_rgb);
+  }
+  if (!material.translucent.empty()) json["translucent"] = TableJson(material.translucent);
   return json;
 }
 
@@ -131,6 +135,8 @@ SurfaceMaterial MaterialOf(const JsonNode& node) {
   }
   if (const auto glass = node.Find("glass")) material.glass = GlassOf(*glass);
   if (const auto bumps = node.Find("bumps")) material.bumps = BumpsOf(*bumps);
+  if (const auto value = node.Find("translucent_rgb")) material.translucent_rgb = value->Vector3();
+  if (const auto table = node.Find("translucent")) material.translucent = TableOf(*table);
   return material;
 }
 

@@ -46,6 +46,10 @@ struct SurfaceMaterial {
   std::optional<Metal> metal = {};                         // goes before specular_rgb
   std::optional<Glass> glass = {};                         // nullopt: opaque
   std::optional<Bumps> bumps = {};                         // nullopt: flat
+  // Share of the light of its other side that it sends on in all directions, linear Rec. 709, and
+  // by wavelength, which goes before it unless empty; with the diffuse part at most 1.
+  Eigen::Vector3d translucent_rgb = Eigen::Vector3d::Zero();
+  SpectralTable translucent = {};
 };
 
 // Shines alike in all directions unless it has a distribution. Area lights are several of these.

@@ -87,6 +87,8 @@ void Send(const SurfaceNames& names, Sender* out) {
   out->Plain(names.is_solid);
   out->Plain(names.index);
   out->Plain(names.absorption_rgb);
+  out->Plain(names.diffuse_weight);
+  out->Plain(names.translucent_rgb);
   out->Text(names.texture);
   out->Text(names.texture_place);
 }
@@ -103,6 +105,8 @@ SurfaceNames ReceiveNames(Receiver* in) {
   names.is_solid = in->Plain<bool>();
   names.index = in->Plain<double>();
   names.absorption_rgb = in->Plain<Eigen::Vector3d>();
+  names.diffuse_weight = in->Plain<double>();
+  names.translucent_rgb = in->Plain<Eigen::Vector3d>();
   names.texture = in->Text();
   names.texture_place = in->Text();
   return names;

@@ -33,6 +33,7 @@ class GltfMaterialReader {
       ReadColor(metal, "baseColorFactor", "baseColorTexture");
     }
     ReadGlass();
+    ReadTranslucence();
     CountWhatIsNotShown(gloss, metal);
     return material_;
   }
@@ -112,6 +113,22 @@ class GltfMaterialReader {
         -ColorIn(volume, "attenuationColor", Vector3d::Ones()).cwiseMax(kDarkest).array().log() /
         distance;
     material_.names.absorption_rgb = material_.names.absorption_rgb.cwiseMax(0);
+  }
+
+  // A share of the diffuse part goes to the other side.
+  void ReadTranslucence() {
+    const Json::Value& diffuse = ExtensionOf(json_, "KHR_materials_diffuse_transmission");
+    const double share = std::clamp(NumberOf(diffuse, "diffuseTransmissionFactor", 0), 0.0, 1.0);
+    if (share == 0) return;
+    for (const char* map : {"diffuseTransmissionTexture", "diffuseTransmissionColorTexture"}) {
+      if (MemberOf(diffuse, map).isObject()) Skip(map, "not shown");
+    }
+    if (material_.names.opacity < 1) {
+      return Skip("KHR_materials_diffuse_transmission", "of glass: not shown");
+    }
+    material_.names.diffuse_weight = 1 - share;
+    material_.names.translucent_rgb =
+        share * ColorIn(diffuse, "diffuseTransmissionColorFactor", Vector3d::Ones());
   }
 
   void CountWhatIsNotShown(const Json::Value& gloss, const Json::Value& metal) {

@@ -28,7 +28,9 @@ struct SurfaceNames {
   std::string texture_place;           // where it is named, "file:line", for messages
   bool is_solid = false;               // its faces bound a body of glass, not panes
   double index = 1.5;                  // of refraction, > 1
-  Eigen::Vector3d absorption_rgb = Eigen::Vector3d::Zero();  // of such a body, >= 0 [1/m]
+  Eigen::Vector3d absorption_rgb = Eigen::Vector3d::Zero();   // of such a body, >= 0 [1/m]
+  double diffuse_weight = 1;                                  // of its colour, 0..1
+  Eigen::Vector3d translucent_rgb = Eigen::Vector3d::Zero();  // leaves its other side, matte, 0..1
 
   bool operator==(const SurfaceNames&) const = default;
 };

@@ -30,6 +30,14 @@ std::vector<Spectrum> DiffuseBrdfs(const MontageScene& scene) {
   return brdfs;
 }
 
+std::vector<Spectrum> TranslucencesOf(const MontageScene& scene) {
+  std::vector<Spectrum> translucences;
+  for (const SpectralMaterial& material : scene.artificial_materials) {
+    translucences.push_back(material.translucence);
+  }
+  return translucences;
+}
+
 // About the building; without one, about the site.
 Eigen::AlignedBox3d FocusOf(const MontageScene& scene) {
   Eigen::AlignedBox3d box;
@@ -168,13 +176,20 @@ std::optional<ClearFaces> ClearFacesOf(const MontageScene& scene, const std::vec
 }
 
 PlannedFaces PlannedOf(const MontageScene& scene, const OpaqueFaces& opaque,
-                       const std::vector<Spectrum>& brdfs, const ClearFaces* clear) {
+                       const std::vector<Spectrum>& brdfs,
+                       const std::vector<Spectrum>& translucences, const ClearFaces* clear) {
   if (!clear) {
-    return {scene.artificial_mesh, scene.artificial_rays, scene.artificial_normals,
-            scene.material_of_triangle, brdfs};
+    return {scene.artificial_mesh,
+            scene.artificial_rays,
+            scene.artificial_normals,
+            scene.material_of_triangle,
+            brdfs,
+            nullptr,
+            &translucences};
   }
   const FaceSubset& faces = scene.split_faces->opaque;
-  return {faces.mesh, faces.rays, opaque.normals, opaque.material_of_triangle, brdfs, clear};
+  return {faces.mesh, faces.rays, opaque.normals, opaque.material_of_triangle,
+          brdfs,      clear,      &translucences};
 }
 
 InterreflectionOptions OptionsOf(std::optional<int> bounces, int coarseness) {
@@ -206,12 +221,14 @@ std::span<const KeptPoint> PointsOf(const KeptLight* kept,
 InterreflectedLight::InterreflectedLight(const MontageScene& scene, std::optional<int> bounces,
                                          const KeptLight* kept, int coarseness)
     : artificial_brdfs(DiffuseBrdfs(scene)),
+      translucences(TranslucencesOf(scene)),
       opaque(OpaqueFacesOf(scene)),
       kind_of_pane(KindsOfPanes(scene)),
       clear(ClearFacesOf(scene, kind_of_pane)),
-      transport{scene.Photographed(), scene.natural_mesh,
-                PlannedOf(scene, opaque, artificial_brdfs, clear ? &*clear : nullptr),
-                LampsOf(scene)},
+      transport{
+          scene.Photographed(), scene.natural_mesh,
+          PlannedOf(scene, opaque, artificial_brdfs, translucences, clear ? &*clear : nullptr),
+          LampsOf(scene)},
       interreflection(
           SolvedAmong(transport, scene, OptionsOf(bounces, coarseness), kept, coarseness)),
       on_site(interreflection, scene.natural_mesh, NaturalNormals(scene),

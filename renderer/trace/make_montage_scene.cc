@@ -233,6 +233,10 @@ SpectralMaterial SpectralMaterialOf(const SpectralBasis& spectra, const SurfaceM
                            .brdf = albedo / std::numbers::pi,
                            .specular = material.specular,
                            .mirror_color = spectra.ReflectanceFromRgb(material.specular_rgb)};
+  const Spectrum through = material.translucent.empty()
+                               ? spectra.ReflectanceFromRgb(material.translucent_rgb)
+                               : Sampled(material.translucent, spectra.bins());
+  surface.translucence = through / std::numbers::pi;
   if (material.metal) {
     surface.metal = SpectralMetal{Sampled(material.metal->index, spectra.bins()),
                                   Sampled(material.metal->extinction, spectra.bins())};

@@ -37,11 +37,14 @@ struct SpectralGlass {
 struct SpectralMaterial {
   double diffuse_weight = 1;
   Spectrum brdf = Spectrum::Zero();  // rho [1/sr]; zero for natural surfaces: it is in the photo
+  Spectrum translucence = Spectrum::Zero();  // the same for light of the other side [1/sr]
   std::optional<Specular> specular = {};
   Spectrum mirror_color = Spectrum::Ones();     // of a bare mirror
   std::optional<SpectralMetal> metal = {};      // goes before it
   std::optional<SpectralGlass> glass = {};      // nullopt: opaque
   std::shared_ptr<const BumpField> bumps = {};  // null: flat
+
+  bool IsTranslucent() const { return (translucence > 0).any(); }
 };
 
 struct LampSpectrum {
