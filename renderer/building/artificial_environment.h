@@ -13,6 +13,7 @@
 #include "radiometry/light/material.h"
 #include "radiometry/spectrum/spectral_table.h"
 #include "renderer/building/light_distribution.h"
+#include "renderer/mesh/surface_map.h"
 
 namespace insitu {
 
@@ -50,6 +51,7 @@ struct SurfaceMaterial {
   // by wavelength, which goes before it unless empty; with the diffuse part at most 1.
   Eigen::Vector3d translucent_rgb = Eigen::Vector3d::Zero();
   SpectralTable translucent = {};
+  std::vector<SurfaceMap> maps = {};  // files relative to building/, at the texture's places
 };
 
 // Shines alike in all directions unless it has a distribution. Area lights are several of these.

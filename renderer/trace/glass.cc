@@ -101,11 +101,12 @@ class BodyPath {
 // A face of rough glass as a viewer's ray meets it.
 class RoughGlassFace {
  public:
-  RoughGlassFace(const MontageScene& scene, const SceneHit& hit, const Ray& ray,
-                 const LightDirections& light, int depth)
+  RoughGlassFace(const MontageScene& scene, const SceneHit& hit, const SpectralMaterial& material,
+                 const Ray& ray, const LightDirections& light, int depth)
       : scene_(scene),
         material_(scene.material_of_triangle[hit.index]),
-        glass_(*scene.MaterialOfTriangle(hit.index).glass),
+        mirrors_(material.specular ? material.specular->weight : 0),
+        glass_(*material.glass),
         surface_(hit.surface),
         frame_(FrameAbout(hit.surface.normal)),
         view_(frame_.transpose() * -ray.direction),
@@ -113,18 +114,16 @@ class RoughGlassFace {
         depth_(depth) {}
 
   Spectrum Color() const {
-    const auto& specular = scene_.artificial_materials[material_].specular;
-    const double mirrors = specular ? specular->weight : 0;
     const int facets = depth_ == 0 ? kFacetsPerRay : 1;
     RayParts* const parts = depth_ == 0 ? light_.parts : nullptr;
     std::optional<RayParts> of_facets;
     if (parts) of_facets.emplace();
     Spectrum radiance = Spectrum::Zero();
     for (int i = 0; i < facets; ++i) {
-      radiance += OfFacet(i, facets, mirrors, of_facets ? &*of_facets : nullptr);
+      radiance += OfFacet(i, facets, of_facets ? &*of_facets : nullptr);
     }
     radiance /= facets;
-    const Spectrum lights = mirrors * MirroredLights();
+    const Spectrum lights = mirrors_ * MirroredLights();
     if (parts) {
       parts->light[kBuildingTransmission] += of_facets->light[kBuildingTransmission] / facets;
       parts->light[kBuildingReflection] += of_facets->light[kBuildingReflection] / facets + lights;
@@ -136,7 +135,7 @@ class RoughGlassFace {
   const RoughInterface& Outside() const { return glass_.rough->from_outside(); }
   const RoughInterface& Inside() const { return glass_.rough->from_inside(); }
 
-  Spectrum OfFacet(int i, int facets, double mirrors, RayParts* parts) const {
+  Spectrum OfFacet(int i, int facets, RayParts* parts) const {
     LightDirections further = light_;
     further.sees_lights = false;
     further.share = light_.share / facets;
@@ -152,7 +151,7 @@ class RoughGlassFace {
       return glass_.is_solid ? ThroughBody(frame_ * facet.refracted, &numbers, trace)
                              : ThroughPane(facet.refracted, &numbers, trace);
     };
-    return Both(Spectrum::Constant(mirrors * facet.mirrors),
+    return Both(Spectrum::Constant(mirrors_ * facet.mirrors),
                 Spectrum::Constant(glass_.weight * facet.lets_through), mirrored, behind, depth_,
                 PathChoice(further, depth_), parts);
   }
@@ -222,6 +221,7 @@ class RoughGlassFace {
 
   const MontageScene& scene_;
   int material_;
+  double mirrors_;  // its specular weight
   const SpectralGlass& glass_;
   SurfacePoint surface_;
   Eigen::Matrix3d frame_;
@@ -244,14 +244,13 @@ LightDirections Part(LightDirections light, const MontageScene& scene, const Spe
   return light;
 }
 
-Spectrum GlassColor(const MontageScene& scene, const SceneHit& hit, const Ray& ray,
-                    const LightDirections& light, int depth,
-                    const std::function<Spectrum()>& straight_on) {
+Spectrum GlassColor(const MontageScene& scene, const SceneHit& hit,
+                    const SpectralMaterial& material, const Ray& ray, const LightDirections& light,
+                    int depth, const std::function<Spectrum()>& straight_on) {
   const int index = scene.material_of_triangle[hit.index];
-  const SpectralMaterial& material = scene.artificial_materials[index];
   const SpectralGlass& glass = *material.glass;
   if (glass.rough && !scene.as_printed) {
-    return RoughGlassFace(scene, hit, ray, light, depth).Color();
+    return RoughGlassFace(scene, hit, material, ray, light, depth).Color();
   }
   const double cosine = std::min(1.0, -ray.direction.dot(hit.surface.normal));
   const double mirrors = material.specular ? material.specular->weight : 0;

@@ -25,7 +25,7 @@ constexpr double kPiecesOfSurface = 5400;  // about as many as a cube has by kPi
 std::vector<Spectrum> DiffuseBrdfs(const MontageScene& scene) {
   std::vector<Spectrum> brdfs;
   for (const SpectralMaterial& material : scene.artificial_materials) {
-    brdfs.push_back(material.diffuse_weight * material.brdf);
+    brdfs.push_back((1 - material.metal_share) * material.diffuse_weight * material.brdf);
   }
   return brdfs;
 }

@@ -237,6 +237,9 @@ SpectralMaterial SpectralMaterialOf(const SpectralBasis& spectra, const SurfaceM
                                ? spectra.ReflectanceFromRgb(material.translucent_rgb)
                                : Sampled(material.translucent, spectra.bins());
   surface.translucence = through / std::numbers::pi;
+  for (const SurfaceMap& map : material.maps) {
+    if (map.kind == SurfaceMap::Kind::kMetallic) surface.metal_share = map.mean;
+  }
   if (material.metal) {
     surface.metal = SpectralMetal{Sampled(material.metal->index, spectra.bins()),
                                   Sampled(material.metal->extinction, spectra.bins())};

@@ -6,6 +6,7 @@
 
 #include "radiometry/light/fresnel.h"
 #include "renderer/trace/profile.h"
+#include "renderer/trace/surface_textures.h"
 
 namespace insitu {
 namespace {
@@ -49,10 +50,11 @@ Spectrum TransmittanceAlong(const MontageScene& scene, const Ray& ray) {
     const double along = ray.direction.dot(hit->sphere_normal ? *hit->sphere_normal
                                                               : scene.artificial_normals[triangle]);
     const double cosine = std::min(1.0, std::abs(along));
+    const double weight = TransmissionAt(scene, {triangle, hit->uv, along > 0}, ray.direction);
     if (!glass.is_solid) {
-      share *= glass.weight * PaneOptics(glass, cosine).transmittance;
+      share *= weight * PaneOptics(glass, cosine).transmittance;
     } else {
-      share *= glass.weight * FaceTransmittance(glass, cosine);
+      share *= weight * FaceTransmittance(glass, cosine);
       const double longer = WayFactor(cosine, glass.index);
       if (along > 0) {
         const double way = (hit->distance - inside.entry) * std::min(inside.longer, longer);

@@ -18,8 +18,6 @@
 namespace insitu {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
 double CosineTo(const SurfacePoint& surface, const Eigen::Vector3d& to_viewer) {
   return std::min(1.0, surface.normal.dot(to_viewer));
 }
@@ -207,30 +205,18 @@ Spectrum IrradianceOfBuilding(const MontageScene& scene, const SurfacePoint& sur
                  : TotalIrradiance(daylight, DaylightOnBuilding(scene, surface, light)));
 }
 
-// What a face of the building is made of where a ray meets it.
-SpectralMaterial MaterialAt(const MontageScene& scene, const SceneHit& hit,
-                            const Eigen::Vector3d& to_viewer) {
-  SpectralMaterial material = scene.MaterialOfTriangle(hit.index);
-  if (!scene.textures) return material;
-  if (const auto albedo = scene.textures->Albedo(*hit.place, hit.distance, -to_viewer)) {
-    material.brdf = scene.natural.spectra.ReflectanceFromRgb(*albedo) / kPi;
-  }
-  return material;
-}
-
 // The colour of a face of the building. `straight_on` is what is seen through it if it is a pane.
 Spectrum FaceColor(const MontageScene& scene, const SceneHit& hit, const Ray& ray,
                    const LightDirections& light, int depth,
                    const std::function<Spectrum()>& straight_on) {
-  const SpectralMaterial material = MaterialAt(scene, hit, -ray.direction);
+  const auto [surface, material] =
+      BuildingSurfaceAt(scene, hit, -ray.direction, PathChoice(light, depth));
   if (!material.glass) {
-    const BumpedSurface bumped =
-        BumpedAt(scene, hit.surface, material, -ray.direction, hit.distance);
-    return BuildingColor(scene, bumped.surface, bumped.material, -ray.direction, light, depth,
+    return BuildingColor(scene, surface, material, -ray.direction, light, depth,
                          LightAround(scene, hit),
                          material.IsTranslucent() ? LightBehind(scene, hit) : std::nullopt);
   }
-  const Spectrum glass = GlassColor(scene, hit, ray, light, depth, straight_on);
+  const Spectrum glass = GlassColor(scene, hit, material, ray, light, depth, straight_on);
   if (material.glass->weight >= 1) return glass;
   SpectralMaterial ground = material;  // what is neither mirrored nor goes through
   ground.specular.reset();
