@@ -11,6 +11,8 @@
 #include "calibration/program/program.h"
 #include "renderer/building/building_lights.h"
 #include "renderer/building/building_materials.h"
+#include "renderer/building/data_map.h"
+#include "renderer/building/material_maps.h"
 #include "renderer/building/model_notes.h"
 #include "renderer/building/open_glass.h"
 #include "renderer/building/site_check.h"
@@ -48,14 +50,6 @@ std::string LabelOf(const SurfaceNames& names) {
   return names.material.empty() ? names.layer : names.material;
 }
 
-Vector3d MeanColor(const Raster& image) {
-  Vector3d sum = Vector3d::Zero();
-  for (int y = 0; y < image.height; ++y) {
-    for (int x = 0; x < image.width; ++x) sum += image.Rgb(x, y);
-  }
-  return sum / (static_cast<double>(image.width) * image.height);
-}
-
 // A drawing's colours tell layers apart on a screen: white and black become mid grey, no channel
 // exceeds what a surface reflects.
 Vector3d ShownColor(const Vector3d& rgb) {
@@ -87,7 +81,7 @@ class Converter {
   void ResolveMaterials();
   int MaterialOf(const SurfaceNames& names);
   int Unlisted(const SurfaceNames& names);
-  std::string TextureOf(const SurfaceNames& names) const;
+  std::string FromBuilding(const std::string& file) const;
   void TakeMeanColor(const SurfaceNames& names, SurfaceMaterial* material);
   void WarnOfMaterials();
   void WarnOfTexturedSpheres();
@@ -158,10 +152,10 @@ void Converter::Add(const fs::path& path) {
   conversion_.models.push_back(std::move(report));
 }
 
-std::string Converter::TextureOf(const SurfaceNames& names) const {
-  if (names.texture.empty()) return "";
+std::string Converter::FromBuilding(const std::string& file) const {
+  if (file.empty()) return "";
   std::error_code none;
-  return fs::proximate(names.texture, site_.building(), none).string();
+  return fs::proximate(file, site_.building(), none).string();
 }
 
 // An image that cannot be read costs itself alone.
@@ -180,9 +174,12 @@ int Converter::Unlisted(const SurfaceNames& names) {
   auto& materials = conversion_.environment.materials;
   const std::string label = LabelOf(names);
   conversion_.unlisted.try_emplace(label, names.rgb);
-  const bool has_color = !names.material.empty() && (names.rgb || !names.texture.empty());
-  std::string key = label + '\0' + std::to_string(names.opacity) + TextureOf(names);
+  const bool has_color =
+      !names.material.empty() && (names.rgb || !names.texture.empty() || !names.maps.empty());
+  std::string key = label + '\0' + std::to_string(names.opacity) + FromBuilding(names.texture);
+  for (const SurfaceMap& map : names.maps) key += '\0' + map.file;
   if (names.rgb) key.append(reinterpret_cast<const char*>(names.rgb->data()), 3 * sizeof(double));
+  key.append(reinterpret_cast<const char*>(names.translucent_rgb.data()), 3 * sizeof(double));
   const auto [known, is_new] =
       index_of_unlisted_.try_emplace(key, static_cast<int>(materials.size()));
   if (!is_new) return known->second;
@@ -190,15 +187,18 @@ int Converter::Unlisted(const SurfaceNames& names) {
   material.name = label;
   if (!has_color && names.rgb) material.diffuse_rgb = ShownColor(*names.rgb);
   if (has_color) {
-    material.texture = TextureOf(names);
+    material.texture = FromBuilding(names.texture);
     material.diffuse_rgb = names.rgb.value_or(Vector3d(Vector3d::Ones()));
     if (!material.texture.empty()) TakeMeanColor(names, &material);
+    material.diffuse_weight = names.diffuse_weight;
+    material.translucent_rgb = names.translucent_rgb;
     if (names.opacity < 1) {
       material.glass = Glass{.weight = 1 - names.opacity,
                              .is_solid = names.is_solid,
                              .index = names.index,
                              .absorption_rgb = names.absorption_rgb};
     }
+    AddModelMaps(names, site_.building(), &material, &conversion_.warnings);
   }
   (has_color || names.rgb ? own_color_ : grey_).insert(label);
   materials.push_back(material);
@@ -211,7 +211,10 @@ int Converter::MaterialOf(const SurfaceNames& names) {
   auto& materials = conversion_.environment.materials;
   const auto [known, is_new] =
       index_of_material_.try_emplace(listed, static_cast<int>(materials.size()));
-  if (is_new) materials.push_back(listed->surface);
+  if (!is_new) return known->second;
+  materials.push_back(listed->surface);
+  conversion_.warnings.insert(conversion_.warnings.end(), listed->warnings.begin(),
+                              listed->warnings.end());
   return known->second;
 }
 

@@ -57,7 +57,7 @@ std::shared_ptr<const SurfaceTextures> LoadTextures(const SitePaths& site,
                                                     const NaturalEnvironment& natural,
                                                     const ArtificialEnvironment& building) {
   const auto has_texture = [](const SurfaceMaterial& material) {
-    return !material.texture.empty();
+    return !material.texture.empty() || !material.maps.empty();
   };
   if (std::ranges::none_of(building.materials, has_texture)) return nullptr;
   return std::make_shared<const SurfaceTextures>(building, site.building(),

@@ -83,6 +83,14 @@ void InterreflectionOptions::Check() const {
   INSITU_CHECK(point_directions >= 16);
 }
 
+void GatheredParts::Add(double weight, const GatheredParts& parts) {
+  sky += weight * parts.sky;
+  surroundings += weight * parts.surroundings;
+  sky_blocked += weight * parts.sky_blocked;
+  surroundings_blocked += weight * parts.surroundings_blocked;
+  bounced += weight * parts.bounced;
+}
+
 Interreflection::Interreflection(const TransportScene& scene, const Daylight& light,
                                  Patches patches, const InterreflectionOptions& options)
     : scene_(scene),
@@ -145,6 +153,10 @@ Spectrum Interreflection::RadianceAfter(const Meeting& meeting) const {
   Spectrum radiance;
   if (meeting.material >= 0 && meeting.after >= 0) {
     radiance = scene_.planned.brdf_of_material[meeting.material] * irradiance_[meeting.after];
+    if (meeting.behind >= 0) {
+      radiance += (*scene_.planned.translucence_of_material)[meeting.material] *
+                  irradiance_[meeting.behind];
+    }
   } else if (meeting.after < 0) {
     radiance = RadianceBefore(meeting.after);
   } else {

@@ -49,6 +49,8 @@ struct GatheredParts {
   Spectrum surroundings_blocked = Spectrum::Zero();
   // What the planned faces send, and what the other surfaces send more or, in shadow, less.
   Spectrum bounced = Spectrum::Zero();
+
+  void Add(double weight, const GatheredParts& parts);
 };
 
 class Interreflection {

@@ -38,9 +38,14 @@ struct PlannedFaces {
   const std::vector<int>& material_of_triangle;
   const std::vector<Spectrum>& brdf_of_material;  // diffuse [1/sr]
   const ClearFaces* clear = nullptr;              // nullptr: nothing is of glass
+  // What of the irradiance of a face's other side it sends to this one [1/sr]; nullptr: nothing.
+  const std::vector<Spectrum>* translucence_of_material = nullptr;
 
   const Eigen::Vector3d& NormalOf(const RayHit& hit) const {
     return hit.sphere_normal ? *hit.sphere_normal : normals[hit.triangle];
+  }
+  bool IsTranslucent(int material) const {
+    return translucence_of_material && ((*translucence_of_material)[material] > 0).any();
   }
 };
 

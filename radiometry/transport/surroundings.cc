@@ -64,8 +64,12 @@ void Surroundings::MeetPlanned(const Ray& ray, const RayHit& hit, Meeting* meeti
   meeting->is_back = normal.dot(ray.direction) > 0;
   meeting->distance = hit.distance;
   meeting->material = scene_.planned.material_of_triangle[hit.triangle];
-  meeting->after = patches_.OfPlanned(meeting->is_back ? Eigen::Vector3d(-normal) : normal,
-                                      ray.origin + hit.distance * ray.direction);
+  const Eigen::Vector3d towards = meeting->is_back ? Eigen::Vector3d(-normal) : normal;
+  const Eigen::Vector3d place = ray.origin + hit.distance * ray.direction;
+  meeting->after = patches_.OfPlanned(towards, place);
+  if (scene_.planned.IsTranslucent(meeting->material)) {
+    meeting->behind = patches_.OfPlanned(-towards, place);
+  }
 }
 
 std::vector<Meeting> Surroundings::Meet(const SurfacePoint& surface,

@@ -32,6 +32,7 @@ struct Meeting {
 
   int before = kDark, after = kDark;
   int material = -1;    // of the planned face met after; -1: none is met
+  int behind = kDark;   // the piece on its other side, if light comes through to this one
   double distance = 0;  // after [m]; 0: none
   bool is_back = false;
   uint16_t panes = 0;  // the kinds of glass before it, four bits each, counted from 1

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <utility>
 
 #include "calibration/files/json_file.h"
 #include "calibration/files/whole_file.h"
@@ -88,6 +89,45 @@ Glass GlassOf(const JsonNode& node) {
           node.At("thickness").Number(), node.At("absorption_rgb").Vector3()};
 }
 
+constexpr std::pair<const char*, SurfaceMap::Kind> kMapKinds[] = {
+    {"roughness", SurfaceMap::Kind::kRoughness},
+    {"metallic", SurfaceMap::Kind::kMetallic},
+    {"transmission", SurfaceMap::Kind::kTransmission},
+    {"normal", SurfaceMap::Kind::kNormal},
+    {"height", SurfaceMap::Kind::kHeight}};
+
+Json::Value MapJson(const SurfaceMap& map) {
+  Json::Value json;
+  for (const auto& [name, kind] : kMapKinds) {
+    if (kind == map.kind) json["kind"] = name;
+  }
+  json["file"] = map.file;
+  json["channel"] = map.channel;
+  json["factor"] = map.factor;
+  json["is_squared"] = map.is_squared;
+  json["mean"] = map.mean;
+  return json;
+}
+
+SurfaceMap MapOf(const JsonNode& node) {
+  SurfaceMap map;
+  const std::string stated = node.At("kind").Text();
+  bool is_known = false;
+  for (const auto& [name, kind] : kMapKinds) {
+    if (stated != name) continue;
+    map.kind = kind;
+    is_known = true;
+  }
+  if (!is_known) throw node.At("kind").Error("is no kind of map: \"" + stated + "\"");
+  map.file = node.At("file").Text();
+  map.channel = node.At("channel").Integer();
+  if (map.channel < 0 || map.channel > 2) throw node.At("channel").Error("is not 0, 1 or 2");
+  map.factor = node.At("factor").Number();
+  map.is_squared = node.At("is_squared").Boolean();
+  map.mean = node.At("mean").Number();
+  return map;
+}
+
 Json::Value MaterialJson(const SurfaceMaterial& material) {
   Json::Value json;
   json["name"] = material.name;
@@ -110,6 +150,11 @@ Json::Value MaterialJson(const SurfaceMaterial& material) {
   }
   if (material.glass) json["glass"] = GlassJson(*material.glass);
   if (material.bumps) json["bumps"] = BumpsJson(*material.bumps);
+  if (!material.translucent_rgb.isZero(0)) {
+    json["translucent_rgb"] = ToJson(material.translucent_rgb);
+  }
+  for (const SurfaceMap& map : material.maps) json["maps"].append(MapJson(map));
+  if (!material.translucent.empty()) json["translucent"] = TableJson(material.translucent);
   return json;
 }
 
@@ -131,6 +176,11 @@ SurfaceMaterial MaterialOf(const JsonNode& node) {
   }
   if (const auto glass = node.Find("glass")) material.glass = GlassOf(*glass);
   if (const auto bumps = node.Find("bumps")) material.bumps = BumpsOf(*bumps);
+  if (const auto value = node.Find("translucent_rgb")) material.translucent_rgb = value->Vector3();
+  if (const auto maps = node.Find("maps")) {
+    for (const JsonNode& map : maps->Items()) material.maps.push_back(MapOf(map));
+  }
+  if (const auto table = node.Find("translucent")) material.translucent = TableOf(*table);
   return material;
 }
 

@@ -13,6 +13,7 @@
 #include "radiometry/light/material.h"
 #include "radiometry/spectrum/spectral_table.h"
 #include "renderer/building/light_distribution.h"
+#include "renderer/mesh/surface_map.h"
 
 namespace insitu {
 
@@ -46,6 +47,11 @@ struct SurfaceMaterial {
   std::optional<Metal> metal = {};                         // goes before specular_rgb
   std::optional<Glass> glass = {};                         // nullopt: opaque
   std::optional<Bumps> bumps = {};                         // nullopt: flat
+  // Share of the light of its other side that it sends on in all directions, linear Rec. 709, and
+  // by wavelength, which goes before it unless empty; with the diffuse part at most 1.
+  Eigen::Vector3d translucent_rgb = Eigen::Vector3d::Zero();
+  SpectralTable translucent = {};
+  std::vector<SurfaceMap> maps = {};  // files relative to building/, at the texture's places
 };
 
 // Shines alike in all directions unless it has a distribution. Area lights are several of these.

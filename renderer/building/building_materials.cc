@@ -11,6 +11,8 @@
 #include "calibration/files/json_file.h"
 #include "calibration/photo/photograph.h"
 #include "radiometry/spectrum/spectral_table.h"
+#include "renderer/building/data_map.h"
+#include "renderer/building/material_maps.h"
 #include "renderer/building/material_optics.h"
 
 namespace insitu {
@@ -87,16 +89,13 @@ void ReadColor(const JsonNode& material, SurfaceMaterial* surface) {
 
 // The image says the colour; its mean stands for it in light among surfaces. `building` is the
 // folder of materials.json; entries of a library lie elsewhere.
-void ReadTexture(const MaterialKeys& material, const JsonNode& node, const fs::path& building,
-                 SurfaceMaterial* surface) {
+void ReadTexture(const JsonNode& node, const fs::path& building, SurfaceMaterial* surface) {
   const bool is_beside = node.path().parent_path() == building;
   surface->texture = is_beside ? node.Text() : fs::absolute(FileBeside(node)).string();
-  const Raster image = ReadPhotograph(FileBeside(node)).linear;
-  Vector3d sum = Vector3d::Zero();
-  for (int y = 0; y < image.height; ++y) {
-    for (int x = 0; x < image.width; ++x) sum += image.Rgb(x, y);
-  }
-  surface->diffuse_rgb = sum / (static_cast<double>(image.width) * image.height);
+  surface->diffuse_rgb = MeanColor(ReadPhotograph(FileBeside(node)).linear);
+}
+
+void ReadTextureSize(const MaterialKeys& material, SurfaceMaterial* surface) {
   const auto size = material.Find("texture_size_m");
   if (!size) return;
   const std::vector<JsonNode> metres = size->Items();
@@ -146,12 +145,16 @@ BuildingMaterial ReadBuildingMaterial(const std::string& name, const MaterialKey
         "reflectance_file, texture or, of the library, use");
   }
   if (const auto texture = color->Find("texture")) {
-    ReadTexture(keys, *texture, building, &material.surface);
+    ReadTexture(*texture, building, &material.surface);
   } else {
     ReadColor(*color, &material.surface);
   }
   material.surface.diffuse_weight = ShareOr(keys, "diffuse_weight", 1);
   ReadOptics(keys, &material.surface);
+  ReadMaps(keys, building, &material.surface, &material.warnings);
+  if (!material.surface.texture.empty() || !material.surface.maps.empty()) {
+    ReadTextureSize(keys, &material.surface);
+  }
   return material;
 }
 

@@ -19,6 +19,7 @@ struct BuildingMaterial {
   SurfaceMaterial surface;
   bool hidden = false;       // left out of the building
   bool is_proposed = false;  // an entry of the library is proposed for it, and not taken
+  std::vector<std::string> warnings = {};  // of maps that are left out
 };
 
 // Of one entry, which `keys` are; `building` is the folder of materials.json, which textures are
@@ -33,9 +34,10 @@ BuildingMaterial ReadBuildingMaterial(const std::string& name, const MaterialKey
 //   reflectance [[nm, value], ...] or reflectance_file (CSV: wavelength,value);
 // and may say diffuse_weight, texture (an image beside materials.json, which goes before its
 // colour), texture_size_m [width, height] (of one repeat: projected in metres), hidden, and what
-// mirrors and lets light through (material_optics.h). With use NAME it is an entry of section
-// "library" or of the material library, whose keys the material's own go before. "proposed" in the
-// place of "use", as insitu-materials --list writes it, changes nothing yet.
+// mirrors and lets light through (material_optics.h), and other images (material_maps.h). With use
+// NAME it is an entry of section "library" or of the material library, whose keys the material's
+// own go before. "proposed" in the place of "use", as insitu-materials --list writes it, changes
+// nothing yet.
 class BuildingMaterials {
  public:
   // Throws InputError: unreadable, weights or albedo outside 0..1, an unknown kind of specular,

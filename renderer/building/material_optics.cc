@@ -90,6 +90,50 @@ std::optional<Glass> ReadGlass(const MaterialKeys& material, const SurfaceMateri
   return glass;
 }
 
+Eigen::Vector3d ReadShares(const JsonNode& node) {
+  const Eigen::Vector3d shares = node.Vector3();
+  if (shares.minCoeff() < 0 || shares.maxCoeff() > 1) {
+    throw node.Error("is out of range, expected three values from 0 to 1");
+  }
+  return shares;
+}
+
+SpectralTable ReadShareTable(const JsonNode& rows) {
+  SpectralTable table = ReadSpectralTable(rows);
+  for (const Eigen::Vector2d& row : table) {
+    if (row.y() > 1) throw rows.Error("has a value above 1, expected shares from 0 to 1");
+  }
+  RequireVisibleRange(table, rows);
+  return table;
+}
+
+void ReadTranslucence(const MaterialKeys& material, SurfaceMaterial* surface) {
+  constexpr double kRounding = 1e-6;
+  const auto keys = material.WithAnyOf({"translucent_rgb", "translucent_table"});
+  if (!keys) return;
+  const auto rgb = keys->Find("translucent_rgb");
+  const JsonNode node = rgb ? *rgb : keys->At("translucent_table");
+  if (rgb) {
+    surface->translucent_rgb = ReadShares(node);
+  } else {
+    surface->translucent = ReadShareTable(node);
+    surface->translucent_rgb = ColorOfReflectance(surface->translucent);
+  }
+  if (surface->translucent_rgb.maxCoeff() <= 0) return;
+  if (surface->glass) {
+    throw node.Error(
+        "stands beside transmission, expected one of them: light goes straight on or "
+        "in all directions");
+  }
+  const Eigen::Vector3d all =
+      surface->diffuse_weight * surface->diffuse_rgb + surface->translucent_rgb;
+  if (all.maxCoeff() > 1 + kRounding) {
+    throw node.Error(
+        "and the diffuse colour times diffuse_weight are more than 1, expected no "
+        "more light than falls on it");
+  }
+}
+
 }  // namespace
 
 void ReadOptics(const MaterialKeys& material, SurfaceMaterial* surface) {
@@ -97,6 +141,7 @@ void ReadOptics(const MaterialKeys& material, SurfaceMaterial* surface) {
   surface->specular = ReadSpecular(material, true);
   surface->glass = ReadGlass(material, *surface);
   surface->bumps = ReadBumps(material);
+  ReadTranslucence(material, surface);
 }
 
 }  // namespace insitu

@@ -15,10 +15,13 @@ namespace insitu {
 //   thin true (the default): a pane of thickness_m drawn as one face, or
 //   solid true: the faces bound a body, at which light is refracted,
 //   absorption_per_m: [r, g, b] >= 0, or absorption_table: [[nm, per metre], ...],
+//   translucent_rgb [r, g, b] or translucent_table [[nm, share], ...]: share of the light that
+//   falls on one side and leaves the other in all directions (blinds, membranes, leaves), alike
+//   from both sides; with the colour times diffuse_weight at most 1, and not beside transmission,
 //   bumps: see ReadBumps.
-// Sets specular, specular_rgb, metal, glass and bumps. Throws InputError: out of range, an unknown
-// word, an index of 1 or less, both thin and solid, a table that does not rise or covers less than
-// the visible range.
+// Sets specular, specular_rgb, metal, glass, translucent and bumps; `surface` has its colour.
+// Throws InputError: out of range, an unknown word, an index of 1 or less, both thin and solid, a
+// table that does not rise or covers less than the visible range.
 void ReadOptics(const MaterialKeys& material, SurfaceMaterial* surface);
 
 }  // namespace insitu

@@ -2,6 +2,7 @@
 #include "renderer/building/shown_environment.h"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <set>
@@ -74,7 +75,7 @@ namespace {
 // A face that shows nothing of its material's texture.
 bool HasFaceWithoutTexture(const ArtificialEnvironment& environment,
                            const SurfaceMaterial& material) {
-  if (material.texture.empty()) return false;
+  if (material.texture.empty() && material.maps.empty()) return false;
   const auto index = &material - environment.materials.data();
   for (size_t t = 0; t < environment.triangles.size(); ++t) {
     if (environment.material_of_triangle[t] != index) continue;
@@ -89,23 +90,27 @@ std::vector<std::string> NotShown(const ArtificialEnvironment& environment) {
   std::vector<std::string> lines;
   for (const SurfaceMaterial& material : environment.materials) {
     const std::string name = "material \"" + material.name + "\": ";
-    if (material.glass && material.specular && material.specular->roughness.slope > 0) {
-      lines.push_back(name + "its rough glass is shown as smooth glass");
-    }
     if (material.glass && material.bumps)
       lines.push_back(name + "its glass is shown without bumps");
+    const auto is_of_glass = [](const SurfaceMap& map) {
+      return map.kind == SurfaceMap::Kind::kTransmission;
+    };
+    if (material.glass && !std::ranges::all_of(material.maps, is_of_glass)) {
+      lines.push_back(name + "its glass is shown without relief and of the mean roughness");
+    }
     if (HasFaceWithoutTexture(environment, material)) {
       lines.push_back(name +
-                      "faces without texture coordinates show the mean colour of its texture: "
+                      "faces without texture coordinates show the mean of its texture and maps: "
                       "state \"texture_size_m\": [width, height] of a repeat");
     }
   }
   std::set<int> on_spheres;
   for (const EnvironmentSphere& sphere : environment.spheres) on_spheres.insert(sphere.material);
   for (const int material : on_spheres) {
-    if (environment.materials[material].texture.empty()) continue;
-    lines.push_back("material \"" + environment.materials[material].name +
-                    "\": spheres show the mean colour of its texture");
+    const SurfaceMaterial& shown = environment.materials[material];
+    if (shown.texture.empty() && shown.maps.empty()) continue;
+    lines.push_back("material \"" + shown.name +
+                    "\": spheres show the mean of its texture and maps");
   }
   for (const PointLight& light : environment.lights) {
     if (light.candela == 0 || light.intensity_rgb.maxCoeff() > 0) continue;

@@ -25,8 +25,8 @@ ArtificialEnvironment Faceted(ArtificialEnvironment environment, int level);
 std::optional<std::array<Eigen::Vector2d, 3>> TextureCoordinates(
     const ArtificialEnvironment& environment, int triangle);
 
-// What the description holds and this version's renderer does not show, a line each: rough glass,
-// textures of spheres and of faces without a place on them, lamps of unknown strength.
+// What the description holds and this version's renderer does not show, a line each: bumps of
+// glass, textures of spheres and of faces without a place on them, lamps of unknown strength.
 std::vector<std::string> NotShown(const ArtificialEnvironment& environment);
 
 }  // namespace insitu

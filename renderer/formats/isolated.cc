@@ -87,8 +87,18 @@ void Send(const SurfaceNames& names, Sender* out) {
   out->Plain(names.is_solid);
   out->Plain(names.index);
   out->Plain(names.absorption_rgb);
+  out->Plain(names.diffuse_weight);
+  out->Plain(names.translucent_rgb);
   out->Text(names.texture);
   out->Text(names.texture_place);
+  out->Plain(names.maps.size());
+  for (const SurfaceMap& map : names.maps) {
+    out->Plain(map.kind);
+    out->Text(map.file);
+    out->Plain(map.channel);
+    out->Plain(map.factor);
+    out->Plain(map.is_squared);
+  }
 }
 
 SurfaceNames ReceiveNames(Receiver* in) {
@@ -103,8 +113,19 @@ SurfaceNames ReceiveNames(Receiver* in) {
   names.is_solid = in->Plain<bool>();
   names.index = in->Plain<double>();
   names.absorption_rgb = in->Plain<Eigen::Vector3d>();
+  names.diffuse_weight = in->Plain<double>();
+  names.translucent_rgb = in->Plain<Eigen::Vector3d>();
   names.texture = in->Text();
   names.texture_place = in->Text();
+  for (auto left = in->Plain<size_t>(); left > 0 && in->complete(); --left) {
+    SurfaceMap map;
+    map.kind = in->Plain<SurfaceMap::Kind>();
+    map.file = in->Text();
+    map.channel = in->Plain<int>();
+    map.factor = in->Plain<double>();
+    map.is_squared = in->Plain<bool>();
+    names.maps.push_back(map);
+  }
   return names;
 }
 

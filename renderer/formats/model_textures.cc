@@ -33,14 +33,15 @@ std::string WrittenImage(const SitePaths& site, const fs::path& file, const std:
 }
 
 // Empty, with a warning: no such file.
-std::string TextureBeside(const fs::path& file, const SurfaceNames& names, Model* model) {
-  if (const auto path = FindReference(file, names.texture)) {
+std::string TextureBeside(const fs::path& file, const std::string& texture,
+                          const SurfaceNames& names, Model* model) {
+  if (const auto path = FindReference(file, texture)) {
     model->files.push_back(*path);
     return path->string();
   }
   const std::string warning =
-      names.texture_place + ": names the texture " + names.texture +
-      ", which is not there: left out of material \"" + names.material +
+      (names.texture_place.empty() ? file.string() : names.texture_place) + ": names the texture " +
+      texture + ", which is not there: left out of material \"" + names.material +
       "\"; put the image beside the model, or list the material in materials.json";
   if (std::ranges::find(model->warnings, warning) == model->warnings.end()) {
     model->warnings.push_back(warning);
@@ -48,21 +49,27 @@ std::string TextureBeside(const fs::path& file, const SurfaceNames& names, Model
   return "";
 }
 
-}  // namespace
-
-void LocateTextures(const SitePaths& site, const fs::path& file, Model* model) {
-  for (SurfaceNames& names : model->mesh.surfaces) {
-    if (names.texture.empty()) continue;
-    if (!names.texture.starts_with('*')) {
-      names.texture = TextureBeside(file, names, model);
-      continue;
-    }
-    names.texture = WrittenImage(site, file, names.texture, *model);
-    if (!names.texture.empty()) continue;
+// Where the image lies that a surface names; empty, with a warning: nowhere.
+std::string Located(const SitePaths& site, const fs::path& file, const std::string& texture,
+                    const SurfaceNames& names, Model* model) {
+  if (!texture.starts_with('*')) return TextureBeside(file, texture, names, model);
+  const std::string written = WrittenImage(site, file, texture, *model);
+  if (written.empty()) {
     model->warnings.push_back(InputError(file, "the texture inside it of material \"" +
                                                    names.material +
                                                    "\" is neither PNG nor JPEG: left out")
                                   .what());
+  }
+  return written;
+}
+
+}  // namespace
+
+void LocateTextures(const SitePaths& site, const fs::path& file, Model* model) {
+  for (SurfaceNames& names : model->mesh.surfaces) {
+    if (!names.texture.empty()) names.texture = Located(site, file, names.texture, names, model);
+    for (SurfaceMap& map : names.maps) map.file = Located(site, file, map.file, names, model);
+    std::erase_if(names.maps, [](const SurfaceMap& map) { return map.file.empty(); });
   }
 }
 

@@ -69,9 +69,25 @@ class MaterialsReader {
     } else if (keyword == "map_Kd") {
       current_->texture = TextureName(words);
       current_->texture_place = path_.string() + ":" + std::to_string(line);
+    } else if (const auto map = MapOf(keyword, words)) {
+      current_->maps.push_back(*map);
+      if (current_->texture_place.empty()) {
+        current_->texture_place = path_.string() + ":" + std::to_string(line);
+      }
     } else {
       CountNotShown(keyword, words);
     }
+  }
+  // Of programs that write physically based materials into MTL; roughness is its root, as in glTF.
+  static std::optional<SurfaceMap> MapOf(std::string_view keyword, const ObjWords& words) {
+    using Kind = SurfaceMap::Kind;
+    static const std::map<std::string_view, Kind> kKinds = {
+        {"norm", Kind::kNormal}, {"map_Pr", Kind::kRoughness}, {"map_Pm", Kind::kMetallic}};
+    const auto kind = kKinds.find(keyword);
+    if (kind == kKinds.end()) return std::nullopt;
+    return SurfaceMap{.kind = kind->second,
+                      .file = TextureName(words),
+                      .is_squared = kind->second == Kind::kRoughness};
   }
   // What says something that is not shown; Ns and the like only qualify others.
   void CountNotShown(std::string_view keyword, ObjWords words) {
@@ -88,8 +104,13 @@ class MaterialsReader {
                           keyword.starts_with("P") || keyword.starts_with("Tf");
     ++(*skipped_)[{std::string(keyword.substr(0, 20)),
                    is_known || keyword == "bump" || keyword == "norm" || keyword == "disp"
-                       ? "of materials: not shown, see materials.json"
+                       ? IsHeights(keyword) ? "of materials: heights of no stated size, see "
+                                              "height_map of materials.json"
+                                            : "of materials: not shown, see materials.json"
                        : "of materials: not read"}];
+  }
+  static bool IsHeights(std::string_view keyword) {
+    return keyword == "bump" || keyword == "map_Bump" || keyword == "map_bump";
   }
   void ReadOpacity(bool is_dissolve, ObjWords words) {
     const auto first = ObjWords(words).Next();

@@ -301,6 +301,7 @@ class ObjReader {
       names.opacity = found->second.opacity;
       names.texture = found->second.texture;
       names.texture_place = found->second.texture_place;
+      names.maps = found->second.maps;
     }
     return builder_.SurfaceOf(names);
   }

@@ -21,6 +21,7 @@ bool IsRead(const std::string& extension) {
                                               "KHR_materials_pbrSpecularGlossiness",
                                               "KHR_materials_transmission",
                                               "KHR_materials_volume",
+                                              "KHR_materials_diffuse_transmission",
                                               "KHR_materials_ior",
                                               "KHR_materials_emissive_strength",
                                               "KHR_lights_punctual",

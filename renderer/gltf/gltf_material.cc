@@ -33,6 +33,8 @@ class GltfMaterialReader {
       ReadColor(metal, "baseColorFactor", "baseColorTexture");
     }
     ReadGlass();
+    ReadTranslucence();
+    ReadMaps(metal);
     CountWhatIsNotShown(gloss, metal);
     return material_;
   }
@@ -47,12 +49,41 @@ class GltfMaterialReader {
     if (mode == "MASK") {
       material_.names.opacity = alpha >= NumberOf(json_, "alphaCutoff", 0.5) ? 1 : 0;
     }
-    ReadTexture(MemberOf(value, texture));
+    const Json::Value& place = MemberOf(value, texture);
+    if (!IndexOf(place, "index")) return;
+    ReadPlace(place);
+    material_.names.texture = ImageOf(place, "its colour alone is shown");
   }
 
-  void ReadTexture(const Json::Value& place) {
-    const std::optional<int> index = IndexOf(place, "index");
-    if (!index) return;
+  // An image that says something else, at the colour's places.
+  void ReadMap(const Json::Value& value, const char* name, std::vector<SurfaceMap> maps) {
+    const Json::Value& place = MemberOf(value, name);
+    if (!IndexOf(place, "index")) return;
+    if (!has_place_) {
+      ReadPlace(place);
+    } else if (!IsAtPlace(place)) {
+      return Skip(name, "lies otherwise than the colour: left out");
+    }
+    const std::string file = ImageOf(place, "left out");
+    if (file.empty()) return;
+    for (SurfaceMap& map : maps) {
+      map.file = file;
+      material_.names.maps.push_back(map);
+    }
+  }
+
+  bool IsAtPlace(const Json::Value& place) {
+    const GltfMaterial colored = material_;
+    ReadPlace(place);
+    const bool is_alike = material_.texture_set == colored.texture_set &&
+                          material_.image_from_texture.isApprox(colored.image_from_texture);
+    material_ = colored;
+    return is_alike;
+  }
+
+  void ReadPlace(const Json::Value& place) {
+    has_place_ = true;
+    material_.image_from_texture = Eigen::Affine2d::Identity();
     const Json::Value& transform = ExtensionOf(place, "KHR_texture_transform");
     material_.texture_set =
         IndexOf(transform, "texCoord").value_or(IndexOf(place, "texCoord").value_or(0));
@@ -62,38 +93,59 @@ class GltfMaterialReader {
     if (offset) material_.image_from_texture.translate(Eigen::Vector2d(*offset));
     material_.image_from_texture.rotate(Eigen::Rotation2Dd(-turn));
     if (scale) material_.image_from_texture.scale(Eigen::Vector2d(*scale));
-    const Json::Value& texture = file_.Find("textures", *index);
-    if (texture.isNull()) return Skip("texture", "is not there: its colour alone is shown");
+  }
+
+  // As SurfaceNames has it; empty, and counted as skipped: none that is read.
+  std::string ImageOf(const Json::Value& place, const std::string& without) {
+    const Json::Value& texture = file_.Find("textures", *IndexOf(place, "index"));
+    const auto skipped = [&](const std::string& why) {
+      ++model_.skipped[{"texture", why + ": " + without}];
+      return std::string();
+    };
+    if (texture.isNull()) return skipped("is not there");
     auto source = IndexOf(texture, "source");
     if (const auto webp = IndexOf(ExtensionOf(texture, "EXT_texture_webp"), "source")) {
       if (!source) source = webp;
     }
-    if (!source) return Skip("texture", "of a kind that is not read: its colour alone is shown");
-    ReadImage(*source);
+    if (!source) return skipped("of a kind that is not read");
+    const Json::Value& image = file_.Find("images", *source);
+    if (image.isNull()) return skipped("its image is not there");
+    material_.names.texture_place = file_.path().string();
+    const std::string uri = TextOf(image, "uri"), name = "*" + std::to_string(*source);
+    if (const auto view = IndexOf(image, "bufferView")) return ImageWithin(name, *view);
+    if (!uri.starts_with("data:")) return uri;
+    model_.images[name] = file_.BytesOfUri(uri);
+    return name;
   }
 
-  void ReadImage(int index) {
-    const Json::Value& image = file_.Find("images", index);
-    if (image.isNull()) return Skip("texture", "its image is not there: its colour alone is shown");
-    const std::string uri = TextOf(image, "uri"), name = "*" + std::to_string(index);
-    material_.names.texture_place = file_.path().string();
-    material_.names.texture = name;
-    if (const auto view = IndexOf(image, "bufferView")) {
-      ReadImageWithin(name, *view);
-    } else if (uri.starts_with("data:")) {
-      model_.images[name] = file_.BytesOfUri(uri);
-    } else {
-      material_.names.texture = uri;
+  std::string ImageWithin(const std::string& name, int view) {
+    try {
+      model_.images[name] = std::string(file_.View(view));
+      return name;
+    } catch (const InputError& error) {
+      model_.warnings.push_back(std::string(error.what()) + ": the texture of material \"" +
+                                material_.names.material + "\" is left out");
+      return "";
     }
   }
 
-  void ReadImageWithin(const std::string& name, int view) {
-    try {
-      model_.images[name] = std::string(file_.View(view));
-    } catch (const InputError& error) {
-      material_.names.texture.clear();
-      model_.warnings.push_back(std::string(error.what()) + ": the texture of material \"" +
-                                material_.names.material + "\" is left out");
+  // Normals; roughness in the green and metal in the blue channel; what goes through in the red.
+  void ReadMaps(const Json::Value& metal) {
+    using Kind = SurfaceMap::Kind;
+    ReadMap(json_, "normalTexture",
+            {{.kind = Kind::kNormal,
+              .factor = NumberOf(MemberOf(json_, "normalTexture"), "scale", 1)}});
+    ReadMap(
+        metal, "metallicRoughnessTexture",
+        {{.kind = Kind::kRoughness,
+          .channel = 1,
+          .factor = NumberOf(metal, "roughnessFactor", 1),
+          .is_squared = true},
+         {.kind = Kind::kMetallic, .channel = 2, .factor = NumberOf(metal, "metallicFactor", 1)}});
+    const Json::Value& transmission = ExtensionOf(json_, "KHR_materials_transmission");
+    if (material_.names.opacity < 1) {
+      ReadMap(transmission, "transmissionTexture",
+              {{.kind = Kind::kTransmission, .factor = 1 - material_.names.opacity}});
     }
   }
 
@@ -114,12 +166,25 @@ class GltfMaterialReader {
     material_.names.absorption_rgb = material_.names.absorption_rgb.cwiseMax(0);
   }
 
-  void CountWhatIsNotShown(const Json::Value& gloss, const Json::Value& metal) {
-    for (const char* map : {"normalTexture", "occlusionTexture", "emissiveTexture"}) {
-      if (MemberOf(json_, map).isObject()) Skip(map, "not shown");
+  // A share of the diffuse part goes to the other side.
+  void ReadTranslucence() {
+    const Json::Value& diffuse = ExtensionOf(json_, "KHR_materials_diffuse_transmission");
+    const double share = std::clamp(NumberOf(diffuse, "diffuseTransmissionFactor", 0), 0.0, 1.0);
+    if (share == 0) return;
+    for (const char* map : {"diffuseTransmissionTexture", "diffuseTransmissionColorTexture"}) {
+      if (MemberOf(diffuse, map).isObject()) Skip(map, "not shown");
     }
-    if (MemberOf(metal, "metallicRoughnessTexture").isObject()) {
-      Skip("metallicRoughnessTexture", "not shown");
+    if (material_.names.opacity < 1) {
+      return Skip("KHR_materials_diffuse_transmission", "of glass: not shown");
+    }
+    material_.names.diffuse_weight = 1 - share;
+    material_.names.translucent_rgb =
+        share * ColorIn(diffuse, "diffuseTransmissionColorFactor", Vector3d::Ones());
+  }
+
+  void CountWhatIsNotShown(const Json::Value& gloss, const Json::Value& metal) {
+    for (const char* map : {"occlusionTexture", "emissiveTexture"}) {
+      if (MemberOf(json_, map).isObject()) Skip(map, "not shown");
     }
     if (MemberOf(gloss, "specularGlossinessTexture").isObject()) {
       Skip("specularGlossinessTexture", "not shown");
@@ -135,7 +200,8 @@ class GltfMaterialReader {
     if (ColorIn(json_, "emissiveFactor", Vector3d::Zero()).maxCoeff() * strength > 0) {
       Skip("emissiveFactor", "its faces do not shine: list lamps in lights.json");
     }
-    if (NumberOf(metal, "metallicFactor", 0) > 0) {
+    if (NumberOf(metal, "metallicFactor", 0) > 0 &&
+        !MemberOf(metal, "metallicRoughnessTexture").isObject()) {
       Skip("metallicFactor", "shown as a diffuse surface: see specular of materials.json");
     }
   }
@@ -145,6 +211,7 @@ class GltfMaterialReader {
   const Json::Value& json_;
   Model& model_;
   GltfMaterial material_;
+  bool has_place_ = false;  // of an image on the surface
 };
 
 }  // namespace

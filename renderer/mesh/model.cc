@@ -15,6 +15,12 @@ std::string KeyOf(const SurfaceNames& names) {
                     names.texture + '\0' + std::to_string(names.opacity) + '\0' +
                     std::to_string(names.index) + (names.is_solid ? "s" : "p");
   key.append(reinterpret_cast<const char*>(names.absorption_rgb.data()), sizeof(double) * 3);
+  key.append(reinterpret_cast<const char*>(names.translucent_rgb.data()), sizeof(double) * 3);
+  key += std::to_string(names.diffuse_weight);
+  for (const SurfaceMap& map : names.maps) {
+    key += '\0' + map.file + std::to_string(static_cast<int>(map.kind)) +
+           std::to_string(map.channel) + std::to_string(map.factor);
+  }
   if (names.rgb) key.append(reinterpret_cast<const char*>(names.rgb->data()), sizeof(double) * 3);
   return key;
 }

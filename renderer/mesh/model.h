@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "reconstruction/geometry/similarity.h"
+#include "renderer/mesh/surface_map.h"
 
 namespace insitu {
 
@@ -26,9 +27,12 @@ struct SurfaceNames {
   double opacity = 1;                  // there; 0: clear
   std::string texture;                 // image file of its colour, as named there; may be empty
   std::string texture_place;           // where it is named, "file:line", for messages
+  std::vector<SurfaceMap> maps = {};   // other images, at the same places
   bool is_solid = false;               // its faces bound a body of glass, not panes
   double index = 1.5;                  // of refraction, > 1
-  Eigen::Vector3d absorption_rgb = Eigen::Vector3d::Zero();  // of such a body, >= 0 [1/m]
+  Eigen::Vector3d absorption_rgb = Eigen::Vector3d::Zero();   // of such a body, >= 0 [1/m]
+  double diffuse_weight = 1;                                  // of its colour, 0..1
+  Eigen::Vector3d translucent_rgb = Eigen::Vector3d::Zero();  // leaves its other side, matte, 0..1
 
   bool operator==(const SurfaceNames&) const = default;
 };

@@ -25,7 +25,10 @@ std::string SiteInputsSha256(const SitePaths& site, const NaturalEnvironment& na
     text += HashLine(std::filesystem::path(site.artificial()).replace_extension(".bin"));
   }
   std::set<std::string> textures;
-  for (const SurfaceMaterial& material : building.materials) textures.insert(material.texture);
+  for (const SurfaceMaterial& material : building.materials) {
+    textures.insert(material.texture);
+    for (const SurfaceMap& map : material.maps) textures.insert(map.file);
+  }
   for (const std::string& texture : textures) {
     if (!texture.empty()) text += HashLine(site.building() / texture);
   }

@@ -11,13 +11,19 @@
 namespace insitu {
 
 // Radiance of a face of glass towards where the ray comes from, what meets its diffuse part left
-// out. A pane shows its mirror image and, undeviated, what `straight_on` returns: the radiance
-// that reaches it from behind along the ray. A body refracts and mirrors at each of its faces and
-// absorbs between them. What leaves the glass is asked of `trace`: the apparent radiance along a
-// ray. Up to the second pane or mirror (`depth`) both parts are followed, after that one by chance.
-Spectrum GlassColor(const MontageScene& scene, const SceneHit& hit, const Ray& ray,
-                    const LightDirections& light, int depth,
-                    const std::function<Spectrum()>& straight_on,
-                    const std::function<Spectrum(const Ray&)>& trace);
+// out; `material` is it there. A pane shows its mirror image and, undeviated, what `straight_on`
+// returns: the radiance that reaches it from behind along the ray. A body refracts and mirrors at
+// each of its faces and absorbs between them. Rough ones do so facet by facet, and add sun and
+// lamps by their lobes. Up to the second pane or mirror (`depth`) both parts are followed, after
+// that one by chance.
+Spectrum GlassColor(const MontageScene& scene, const SceneHit& hit,
+                    const SpectralMaterial& material, const Ray& ray, const LightDirections& light,
+                    int depth, const std::function<Spectrum()>& straight_on);
+
+// The share that it mirrors at this cosine, 0..1.
+Spectrum GlassReflectance(const SpectralMaterial& glass, double cosine);
+
+// What goes on by a mirror or a pane that hands on so much.
+LightDirections Part(LightDirections light, const MontageScene& scene, const Spectrum& share);
 
 }  // namespace insitu

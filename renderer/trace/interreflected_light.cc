@@ -7,7 +7,6 @@
 #include <span>
 
 #include "calibration/files/error.h"
-#include "radiometry/light/fresnel.h"
 #include "renderer/trace/light_split.h"
 #include "renderer/trace/through_glass.h"
 
@@ -26,9 +25,17 @@ constexpr double kPiecesOfSurface = 5400;  // about as many as a cube has by kPi
 std::vector<Spectrum> DiffuseBrdfs(const MontageScene& scene) {
   std::vector<Spectrum> brdfs;
   for (const SpectralMaterial& material : scene.artificial_materials) {
-    brdfs.push_back(material.diffuse_weight * material.brdf);
+    brdfs.push_back((1 - material.metal_share) * material.diffuse_weight * material.brdf);
   }
   return brdfs;
+}
+
+std::vector<Spectrum> TranslucencesOf(const MontageScene& scene) {
+  std::vector<Spectrum> translucences;
+  for (const SpectralMaterial& material : scene.artificial_materials) {
+    translucences.push_back(material.translucence);
+  }
+  return translucences;
 }
 
 // About the building; without one, about the site.
@@ -146,9 +153,8 @@ Spectrum MeanTransmittance(const MontageScene& scene, int material) {
   Spectrum sum = Spectrum::Zero();
   for (int i = 0; i < kSteps; ++i) {
     const double cosine = std::sqrt((i + 0.5) / kSteps);
-    sum += glass.is_solid
-               ? Spectrum::Constant(1 - FresnelReflectance(cosine, glass.index)).eval()
-               : ThinSheet(cosine, glass.index, glass.absorption, glass.thickness).transmittance;
+    sum += glass.is_solid ? Spectrum::Constant(FaceTransmittance(glass, cosine)).eval()
+                          : PaneOptics(glass, cosine).transmittance;
   }
   sum *= glass.weight / kSteps;
   if (glass.is_solid) sum *= (-glass.absorption * (MeanWay(scene, material) / 2)).exp();
@@ -170,13 +176,20 @@ std::optional<ClearFaces> ClearFacesOf(const MontageScene& scene, const std::vec
 }
 
 PlannedFaces PlannedOf(const MontageScene& scene, const OpaqueFaces& opaque,
-                       const std::vector<Spectrum>& brdfs, const ClearFaces* clear) {
+                       const std::vector<Spectrum>& brdfs,
+                       const std::vector<Spectrum>& translucences, const ClearFaces* clear) {
   if (!clear) {
-    return {scene.artificial_mesh, scene.artificial_rays, scene.artificial_normals,
-            scene.material_of_triangle, brdfs};
+    return {scene.artificial_mesh,
+            scene.artificial_rays,
+            scene.artificial_normals,
+            scene.material_of_triangle,
+            brdfs,
+            nullptr,
+            &translucences};
   }
   const FaceSubset& faces = scene.split_faces->opaque;
-  return {faces.mesh, faces.rays, opaque.normals, opaque.material_of_triangle, brdfs, clear};
+  return {faces.mesh, faces.rays, opaque.normals, opaque.material_of_triangle,
+          brdfs,      clear,      &translucences};
 }
 
 InterreflectionOptions OptionsOf(std::optional<int> bounces, int coarseness) {
@@ -208,12 +221,14 @@ std::span<const KeptPoint> PointsOf(const KeptLight* kept,
 InterreflectedLight::InterreflectedLight(const MontageScene& scene, std::optional<int> bounces,
                                          const KeptLight* kept, int coarseness)
     : artificial_brdfs(DiffuseBrdfs(scene)),
+      translucences(TranslucencesOf(scene)),
       opaque(OpaqueFacesOf(scene)),
       kind_of_pane(KindsOfPanes(scene)),
       clear(ClearFacesOf(scene, kind_of_pane)),
-      transport{scene.Photographed(), scene.natural_mesh,
-                PlannedOf(scene, opaque, artificial_brdfs, clear ? &*clear : nullptr),
-                LampsOf(scene)},
+      transport{
+          scene.Photographed(), scene.natural_mesh,
+          PlannedOf(scene, opaque, artificial_brdfs, translucences, clear ? &*clear : nullptr),
+          LampsOf(scene)},
       interreflection(
           SolvedAmong(transport, scene, OptionsOf(bounces, coarseness), kept, coarseness)),
       on_site(interreflection, scene.natural_mesh, NaturalNormals(scene),

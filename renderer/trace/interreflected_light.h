@@ -27,6 +27,7 @@ struct InterreflectedLight {
                       int coarseness);
 
   std::vector<Spectrum> artificial_brdfs;  // of each material, its diffuse share
+  std::vector<Spectrum> translucences;     // of each material
   OpaqueFaces opaque;
   std::vector<int> kind_of_pane;  // of each triangle of glass
   std::optional<ClearFaces> clear;

@@ -86,20 +86,12 @@ double LargestError(const GatheredPoint& a, const GatheredPoint& b, const Gather
          unit;
 }
 
-void AddTo(GatheredParts* sum, double weight, const GatheredParts& parts) {
-  sum->sky += weight * parts.sky;
-  sum->surroundings += weight * parts.surroundings;
-  sum->sky_blocked += weight * parts.sky_blocked;
-  sum->surroundings_blocked += weight * parts.surroundings_blocked;
-  sum->bounced += weight * parts.bounced;
-}
-
 }  // namespace irradiance_map
 
-using irradiance_map::AddTo, irradiance_map::GatheredPoint, irradiance_map::kCalmShare,
-    irradiance_map::kMostInside, irradiance_map::KeyOf, irradiance_map::LargestError,
-    irradiance_map::Node, irradiance_map::kSteep, irradiance_map::PointKey,
-    irradiance_map::PointKeyHash, irradiance_map::PointOf;
+using irradiance_map::GatheredPoint, irradiance_map::kCalmShare, irradiance_map::kMostInside,
+    irradiance_map::KeyOf, irradiance_map::LargestError, irradiance_map::Node,
+    irradiance_map::kSteep, irradiance_map::PointKey, irradiance_map::PointKeyHash,
+    irradiance_map::PointOf;
 
 void IrradianceMapOptions::Check() const {
   INSITU_CHECK(tolerance > 0);
@@ -327,11 +319,11 @@ struct IrradianceMap::Tree {
       position += weights[i] * corner;
       if (!node.corners[i]->is_open) continue;
       total += weights[i];
-      AddTo(&sum, weights[i], PartsOf(PointOn(place, corner)));
+      sum.Add(weights[i], PartsOf(PointOn(place, corner)));
     }
     if (total <= 0) return PartsOf(PointOn(place, position));
     GatheredParts mean;
-    AddTo(&mean, 1 / total, sum);
+    mean.Add(1 / total, sum);
     return mean;
   }
 

@@ -7,6 +7,7 @@
 #include <numbers>
 #include <span>
 
+#include "radiometry/light/illumination.h"
 #include "renderer/trace/profile.h"
 #include "renderer/trace/through_glass.h"
 
@@ -101,6 +102,12 @@ Eigen::Vector3d PointOnLamp(const Eigen::Vector3d& to_lamp, const Eigen::Vector2
   const Eigen::Vector3d u = to_lamp.unitOrthogonal(), v = to_lamp.cross(u);
   const double radius = std::sqrt(uniform.x()), angle = 2 * std::numbers::pi * uniform.y();
   return radius * (std::cos(angle) * u + std::sin(angle) * v);
+}
+
+// No surface sends back more than it receives, but for errors of photograph and light: they must
+// not grow where light is added.
+Spectrum BoundedBrdf(const Spectrum& brdf, const LightBalance& balance, double diffuse_weight) {
+  return (balance.change > 0).select(brdf.min(1 / (diffuse_weight * std::numbers::pi)), brdf);
 }
 
 }  // namespace
@@ -219,6 +226,62 @@ Spectrum LampIrradiance(const MontageScene& scene, const SurfacePoint& surface,
     if (cosine > 0) irradiance += cosine * light.normal_irradiance;
   }
   return irradiance;
+}
+
+std::optional<LightBalance> BalanceAt(const MontageScene& scene, const SurfacePoint& surface,
+                                      const LightDirections& light,
+                                      const std::optional<SmoothLight>& around) {
+  const Daylight& daylight = scene.natural.light;
+  const Spectrum E_lamps =
+      scene.lamps.empty() ? Spectrum::Zero().eval() : LampIrradiance(scene, surface, light);
+  const bool lit = (E_lamps > 0).any();
+  if (around) {
+    const SplitSun sun = SplitSunlight(scene, surface, light, lit || around->matters);
+    if (!lit && !around->matters && !sun.is_blocked) return std::nullopt;
+    if (light.parts) {  // irradiances, until they meet the surface
+      auto& irradiance = light.parts->light;
+      const GatheredParts& parts = light.parts->around;
+      irradiance[kSunBlocked] = -daylight.sun_radiance * sun.blocked;
+      irradiance[kSkyBlocked] = -parts.sky_blocked;
+      irradiance[kSurroundingsBlocked] = -parts.surroundings_blocked;
+      irradiance[kBounced] = parts.bounced;
+      irradiance[kChangeLamps] = E_lamps;
+    }
+    return LightBalance{daylight.sun_radiance * sun.natural + around->before,
+                        E_lamps + around->change - daylight.sun_radiance * sun.blocked};
+  }
+  const SplitLight split = SplitDaylight(scene, surface, light, lit);
+  if (!lit && !split.IsChanged()) return std::nullopt;
+  if (light.parts) {
+    light.parts->light[kSunBlocked] = -SunIrradiance(daylight, split.blocked);
+    light.parts->light[kSkyBlocked] = -SkyIrradiance(daylight, split.blocked);
+    light.parts->light[kChangeLamps] = E_lamps;
+  }
+  return LightBalance{
+      TotalIrradiance(daylight, split.natural),
+      -(SunIrradiance(daylight, split.blocked) + SkyIrradiance(daylight, split.blocked)), E_lamps};
+}
+
+Spectrum ChangeBy(const LightBalance& balance, const Spectrum& true_color, double diffuse_weight) {
+  const Spectrum rho = DiffuseBrdf(true_color, diffuse_weight, balance.before);
+  if (balance.lamps) {
+    const Spectrum removed = ReflectedRadiance(diffuse_weight, rho, balance.change);  // D3
+    const Spectrum added = ReflectedRadiance(diffuse_weight, rho, *balance.lamps);    // D1
+    return removed.max(-true_color) + added;
+  }
+  const Spectrum bounded = BoundedBrdf(rho, balance, diffuse_weight);
+  return ReflectedRadiance(diffuse_weight, bounded, balance.change).max(-true_color);
+}
+
+void NoteChange(const LightBalance& balance, const Spectrum& true_color, double diffuse_weight,
+                RayParts* parts) {
+  const Spectrum rho = DiffuseBrdf(true_color, diffuse_weight, balance.before);
+  const Spectrum used = balance.lamps ? rho : BoundedBrdf(rho, balance, diffuse_weight);
+  for (const LightPart part :
+       {kSunBlocked, kSkyBlocked, kSurroundingsBlocked, kBounced, kChangeLamps}) {
+    Spectrum& light = parts->light[part];
+    light = ReflectedRadiance(diffuse_weight, used, light);
+  }
 }
 
 }  // namespace insitu

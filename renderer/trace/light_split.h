@@ -5,8 +5,10 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <optional>
 
 #include "radiometry/light/daylight.h"
+#include "renderer/trace/irradiance_map.h"
 #include "renderer/trace/montage_scene.h"
 
 namespace insitu {
@@ -115,6 +117,23 @@ LampLight LampLightAt(const MontageScene& scene, const LampSpectrum& lamp,
 // Irradiance of the lamps, what stands between taken into account.
 Spectrum LampIrradiance(const MontageScene& scene, const SurfacePoint& surface,
                         const LightDirections& directions);
+
+// Irradiance of a natural surface before and what the building changes of it; of the lamps alone
+// where they are counted apart.
+struct LightBalance {
+  Spectrum before, change;
+  std::optional<Spectrum> lamps = {};
+};
+// D1 and D3 in one: what the building takes of sun, sky and surroundings, and what it sends.
+// `around` is the light of the latter two there; nullopt: the paper's. nullopt: nothing, case D2.
+std::optional<LightBalance> BalanceAt(const MontageScene& scene, const SurfacePoint& surface,
+                                      const LightDirections& light,
+                                      const std::optional<SmoothLight>& around);
+// The change of a surface's radiance by it, not below -true_color.
+Spectrum ChangeBy(const LightBalance& balance, const Spectrum& true_color, double diffuse_weight);
+// The same of each light by itself, without the bounds that hold for their sum.
+void NoteChange(const LightBalance& balance, const Spectrum& true_color, double diffuse_weight,
+                RayParts* parts);
 
 // Light rays start this far off the building's faces, which are exact [m].
 constexpr double kBuildingClearance = 0.001;

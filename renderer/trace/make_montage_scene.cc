@@ -79,7 +79,7 @@ SpectralMaterial NaturalSurface(const NaturalEnvironment& natural, const Polygon
 
 // Absorption by wavelength from three channels: what a layer lets through that is as thick as the
 // pane, or of a body as absorbs about half.
-SpectralGlass GlassOf(const SpectralBasis& spectra, const Glass& glass) {
+SpectralGlass SmoothGlass(const SpectralBasis& spectra, const Glass& glass) {
   SpectralGlass result{.weight = glass.weight,
                        .is_solid = glass.is_solid,
                        .index = glass.index,
@@ -90,6 +90,16 @@ SpectralGlass GlassOf(const SpectralBasis& spectra, const Glass& glass) {
   const Eigen::Vector3d left = (-layer * glass.absorption_rgb.array()).exp();
   const Spectrum through = spectra.ReflectanceFromRgb(left).max(1e-6).min(1);
   result.absorption = -through.log() / layer;
+  return result;
+}
+
+SpectralGlass GlassOf(const SpectralBasis& spectra, const Glass& glass,
+                      const Roughness& roughness) {
+  SpectralGlass result = SmoothGlass(spectra, glass);
+  if (roughness.slope > 0) {
+    result.rough = std::make_shared<const RoughSheet>(roughness, result.index, result.absorption,
+                                                      result.thickness);
+  }
   return result;
 }
 
@@ -161,11 +171,22 @@ SpectralMaterial SpectralMaterialOf(const SpectralBasis& spectra, const SurfaceM
                            .brdf = albedo / std::numbers::pi,
                            .specular = material.specular,
                            .mirror_color = spectra.ReflectanceFromRgb(material.specular_rgb)};
+  const Spectrum through = material.translucent.empty()
+                               ? spectra.ReflectanceFromRgb(material.translucent_rgb)
+                               : Sampled(material.translucent, spectra.bins());
+  surface.translucence = through / std::numbers::pi;
+  for (const SurfaceMap& map : material.maps) {
+    if (map.kind == SurfaceMap::Kind::kMetallic) surface.metal_share = map.mean;
+  }
   if (material.metal) {
     surface.metal = SpectralMetal{Sampled(material.metal->index, spectra.bins()),
                                   Sampled(material.metal->extinction, spectra.bins())};
   }
-  if (material.glass) surface.glass = GlassOf(spectra, *material.glass);
+  if (material.glass) {
+    const Roughness smooth;
+    surface.glass = GlassOf(spectra, *material.glass,
+                            material.specular ? material.specular->roughness : smooth);
+  }
   return surface;
 }
 

@@ -17,15 +17,6 @@ using Eigen::Vector3d;
 
 double Uniform(uint64_t seed) { return static_cast<double>(SplitMix64(seed) >> 11) * 0x1p-53; }
 
-// Columns: the axes of a frame whose z is the normal.
-Eigen::Matrix3d FrameAbout(const Vector3d& normal) {
-  Eigen::Matrix3d frame;
-  frame.col(0) = normal.unitOrthogonal();
-  frame.col(1) = normal.cross(frame.col(0));
-  frame.col(2) = normal;
-  return frame;
-}
-
 Spectrum SunReaching(const MontageScene& scene, const Ray& to_sun, bool with_building) {
   if (to_sun.direction.dot(scene.natural.light.zenith_direction) <= 0 ||
       scene.natural_rays.IsOccluded(to_sun)) {
@@ -52,6 +43,14 @@ double LobeOf(const MontageScene& scene, const Roughness& roughness, const Vecto
 }
 
 }  // namespace
+
+Eigen::Matrix3d FrameAbout(const Vector3d& normal) {
+  Eigen::Matrix3d frame;
+  frame.col(0) = normal.unitOrthogonal();
+  frame.col(1) = normal.cross(frame.col(0));
+  frame.col(2) = normal;
+  return frame;
+}
 
 Spectrum MirrorReflectance(const SpectralMaterial& material, double cosine) {
   if (!material.specular) return Spectrum::Zero();
@@ -92,24 +91,32 @@ double PathChoice(const LightDirections& light, int depth) {
   return Uniform(light.seed + 4 * static_cast<uint64_t>(depth) + 2);
 }
 
+Spectrum LightsByLobe(const MontageScene& scene, const Vector3d& origin,
+                      const LightDirections& light, bool with_building,
+                      const std::function<double(const Vector3d&)>& lobe) {
+  Spectrum radiance = Spectrum::Zero();
+  if (const double share = lobe(light.sun); share > 0) {
+    radiance += share * SunReaching(scene, {origin, light.sun}, with_building);
+  }
+  if (!with_building) return radiance;
+  for (const LampSpectrum& lamp : scene.lamps) {
+    const LampLight arriving = LampLightAt(scene, lamp, origin, light);
+    const double share = lobe(arriving.direction);
+    if (share > 0) radiance += share * arriving.normal_irradiance;
+  }
+  return radiance;
+}
+
 Spectrum LightsInRoughMirror(const MontageScene& scene, const SurfacePoint& surface,
                              const Roughness& roughness, const Vector3d& to_viewer,
                              const LightDirections& light, bool with_building, double clearance) {
   if (roughness.slope == 0) return Spectrum::Zero();
   const Eigen::Matrix3d to_frame = FrameAbout(surface.normal).transpose();
   const Vector3d view = to_frame * to_viewer;
-  const Vector3d origin = surface.position + clearance * surface.normal;
-  Spectrum radiance = Spectrum::Zero();
-  if (const double lobe = LobeOf(scene, roughness, view, to_frame * light.sun); lobe > 0) {
-    radiance += lobe * SunReaching(scene, {origin, light.sun}, with_building);
-  }
-  if (!with_building) return radiance;
-  for (const LampSpectrum& lamp : scene.lamps) {
-    const LampLight arriving = LampLightAt(scene, lamp, origin, light);
-    const double lobe = LobeOf(scene, roughness, view, to_frame * arriving.direction);
-    if (lobe > 0) radiance += lobe * arriving.normal_irradiance;
-  }
-  return radiance;
+  return LightsByLobe(scene, surface.position + clearance * surface.normal, light, with_building,
+                      [&](const Vector3d& to_light) {
+                        return LobeOf(scene, roughness, view, to_frame * to_light);
+                      });
 }
 
 Spectrum SunAlong(const MontageScene& scene, const Vector3d& direction) {

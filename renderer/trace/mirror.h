@@ -4,6 +4,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <functional>
 
 #include "renderer/trace/light_split.h"
 #include "renderer/trace/montage_scene.h"
@@ -25,10 +26,19 @@ MirroredRay ChooseMirrored(const SurfacePoint& surface, const Roughness& roughne
                            const Eigen::Vector3d& to_viewer, double clearance,
                            const Eigen::Vector2d& uniform);
 
+// Columns: the axes of a frame whose z is the normal.
+Eigen::Matrix3d FrameAbout(const Eigen::Vector3d& normal);
+
 // The two numbers of a camera ray's mirror number `depth`.
 Eigen::Vector2d FacetChoice(const LightDirections& light, int depth);
 // A number in [0, 1) for a choice at that depth, independent of them.
 double PathChoice(const LightDirections& light, int depth);
+
+// Sun and lamps that reach `origin` [m], weighted by `lobe` of the unit direction towards each
+// [1/sr]: where it is 0 nothing is asked. `with_building`: what it blocks, and its lamps.
+Spectrum LightsByLobe(const MontageScene& scene, const Eigen::Vector3d& origin,
+                      const LightDirections& light, bool with_building,
+                      const std::function<double(const Eigen::Vector3d&)>& lobe);
 
 // Sun and lamps in a rough mirror of facets that mirror all; zero for a smooth one, whose rays may
 // meet them. `with_building`: what it blocks, and its lamps.

@@ -11,6 +11,7 @@
 #include "calibration/photo/raster.h"
 #include "radiometry/light/bumps.h"
 #include "radiometry/light/photographed_color.h"
+#include "radiometry/light/rough_glass.h"
 #include "radiometry/natural_environment.h"
 #include "reconstruction/geometry/ray_scene.h"
 #include "renderer/building/artificial_environment.h"
@@ -29,16 +30,22 @@ struct SpectralGlass {
   double index = 1.5;
   double thickness = 0;                    // of a pane [m]
   Spectrum absorption = Spectrum::Zero();  // [1/m]
+  // Both faces of a rough pane; of a rough body its one interface from both sides. null: smooth.
+  std::shared_ptr<const RoughSheet> rough = {};
 };
 
 struct SpectralMaterial {
   double diffuse_weight = 1;
   Spectrum brdf = Spectrum::Zero();  // rho [1/sr]; zero for natural surfaces: it is in the photo
+  double metal_share = 0;            // mean of its map: so much of it has no diffuse part
+  Spectrum translucence = Spectrum::Zero();  // the same for light of the other side [1/sr]
   std::optional<Specular> specular = {};
   Spectrum mirror_color = Spectrum::Ones();     // of a bare mirror
   std::optional<SpectralMetal> metal = {};      // goes before it
   std::optional<SpectralGlass> glass = {};      // nullopt: opaque
   std::shared_ptr<const BumpField> bumps = {};  // null: flat
+
+  bool IsTranslucent() const { return (translucence > 0).any(); }
 };
 
 struct LampSpectrum {

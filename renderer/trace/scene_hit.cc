@@ -111,6 +111,12 @@ std::optional<SmoothLight> LightAround(const MontageScene& scene, const SceneHit
   return (hit.is_building ? light.on_building : light.on_site).At(*hit.place);
 }
 
+std::optional<SmoothLight> LightBehind(const MontageScene& scene, const SceneHit& hit) {
+  SceneHit behind = hit;
+  behind.place->is_back = !behind.place->is_back;
+  return LightAround(scene, behind);
+}
+
 GatheredParts PartsAround(const MontageScene& scene, const SceneHit& hit) {
   if (!scene.interreflected || !hit.place) return {};
   const InterreflectedLight& light = *scene.interreflected;

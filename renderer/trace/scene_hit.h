@@ -33,6 +33,8 @@ std::optional<LampHit> FindLamp(const MontageScene& scene, const Ray& ray);
 
 // Light of sky and surroundings where a ray meets a surface; nullopt: the paper's.
 std::optional<SmoothLight> LightAround(const MontageScene& scene, const SceneHit& hit);
+// The same of the other side of the building's face.
+std::optional<SmoothLight> LightBehind(const MontageScene& scene, const SceneHit& hit);
 // What that is made of; all zero with the paper's.
 GatheredParts PartsAround(const MontageScene& scene, const SceneHit& hit);
 

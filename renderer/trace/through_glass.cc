@@ -6,6 +6,7 @@
 
 #include "radiometry/light/fresnel.h"
 #include "renderer/trace/profile.h"
+#include "renderer/trace/surface_textures.h"
 
 namespace insitu {
 namespace {
@@ -23,6 +24,16 @@ double WayFactor(double cosine, double index) { return cosine / RefractedCosine(
 
 }  // namespace
 
+SheetOptics PaneOptics(const SpectralGlass& glass, double cosine) {
+  if (glass.rough) return glass.rough->Optics(cosine);
+  return ThinSheet(cosine, glass.index, glass.absorption, glass.thickness);
+}
+
+double FaceTransmittance(const SpectralGlass& glass, double cosine) {
+  if (glass.rough) return glass.rough->from_outside().Transmittance(cosine);
+  return 1 - FresnelReflectance(cosine, glass.index);
+}
+
 Spectrum TransmittanceAlong(const MontageScene& scene, const Ray& ray) {
   const PhaseScope phase(Phase::kEmbree);
   if (scene.OpaqueRays().IsOccluded(ray)) return Spectrum::Zero();
@@ -39,11 +50,11 @@ Spectrum TransmittanceAlong(const MontageScene& scene, const Ray& ray) {
     const double along = ray.direction.dot(hit->sphere_normal ? *hit->sphere_normal
                                                               : scene.artificial_normals[triangle]);
     const double cosine = std::min(1.0, std::abs(along));
+    const double weight = TransmissionAt(scene, {triangle, hit->uv, along > 0}, ray.direction);
     if (!glass.is_solid) {
-      share *= glass.weight *
-               ThinSheet(cosine, glass.index, glass.absorption, glass.thickness).transmittance;
+      share *= weight * PaneOptics(glass, cosine).transmittance;
     } else {
-      share *= glass.weight * (1 - FresnelReflectance(cosine, glass.index));
+      share *= weight * FaceTransmittance(glass, cosine);
       const double longer = WayFactor(cosine, glass.index);
       if (along > 0) {
         const double way = (hit->distance - inside.entry) * std::min(inside.longer, longer);

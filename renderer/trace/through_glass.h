@@ -6,10 +6,15 @@
 
 namespace insitu {
 
+// What a pane mirrors and lets through at this cosine, whatever its roughness.
+SheetOptics PaneOptics(const SpectralGlass& glass, double cosine);
+// The share that one face of a body lets through.
+double FaceTransmittance(const SpectralGlass& glass, double cosine);
+
 // The share of light along a ray, up to its far end, that the building lets through: 0 behind
 // something opaque, 1 where nothing stands. A pane counts with all reflections in it, a body of
-// glass with both its interfaces and the way inside, as if it were a slab: light that it bends
-// elsewhere is not followed.
+// glass with both its interfaces and the way inside, as if it were a slab: light that it bends or
+// scatters elsewhere goes straight on.
 Spectrum TransmittanceAlong(const MontageScene& scene, const Ray& ray);
 
 }  // namespace insitu

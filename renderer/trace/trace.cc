@@ -18,14 +18,6 @@
 namespace insitu {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
-// What goes on by a mirror or a pane that hands on so much.
-LightDirections Part(LightDirections light, const MontageScene& scene, const Spectrum& share) {
-  light.share *= std::min(1.0, share.head(scene.natural.spectra.bins().count).mean());
-  return light;
-}
-
 double CosineTo(const SurfacePoint& surface, const Eigen::Vector3d& to_viewer) {
   return std::min(1.0, surface.normal.dot(to_viewer));
 }
@@ -118,79 +110,6 @@ void NoteAir(const Atmosphere& air, double distance, RayParts* parts) {
   for (Spectrum& light : parts->light) light *= TransmittanceOver(air, distance);
 }
 
-// Irradiance of a natural surface before and what the building changes of it; of the lamps alone
-// where they are counted apart.
-struct LightBalance {
-  Spectrum before, change;
-  std::optional<Spectrum> lamps = {};
-};
-
-// D1 and D3 in one: what the building takes of sun, sky and surroundings, and what it sends.
-// nullopt: nothing, case D2.
-std::optional<LightBalance> BalanceAt(const MontageScene& scene, const SurfacePoint& surface,
-                                      const LightDirections& light,
-                                      const std::optional<SmoothLight>& around) {
-  const Daylight& daylight = scene.natural.light;
-  const Spectrum E_lamps =
-      scene.lamps.empty() ? Spectrum::Zero().eval() : LampIrradiance(scene, surface, light);
-  const bool lit = (E_lamps > 0).any();
-  if (around) {
-    const SplitSun sun = SplitSunlight(scene, surface, light, lit || around->matters);
-    if (!lit && !around->matters && !sun.is_blocked) return std::nullopt;
-    if (light.parts) {  // irradiances, until they meet the surface
-      auto& irradiance = light.parts->light;
-      const GatheredParts& parts = light.parts->around;
-      irradiance[kSunBlocked] = -daylight.sun_radiance * sun.blocked;
-      irradiance[kSkyBlocked] = -parts.sky_blocked;
-      irradiance[kSurroundingsBlocked] = -parts.surroundings_blocked;
-      irradiance[kBounced] = parts.bounced;
-      irradiance[kChangeLamps] = E_lamps;
-    }
-    return LightBalance{daylight.sun_radiance * sun.natural + around->before,
-                        E_lamps + around->change - daylight.sun_radiance * sun.blocked};
-  }
-  const SplitLight split = SplitDaylight(scene, surface, light, lit);
-  if (!lit && !split.IsChanged()) return std::nullopt;
-  if (light.parts) {
-    light.parts->light[kSunBlocked] = -SunIrradiance(daylight, split.blocked);
-    light.parts->light[kSkyBlocked] = -SkyIrradiance(daylight, split.blocked);
-    light.parts->light[kChangeLamps] = E_lamps;
-  }
-  return LightBalance{
-      TotalIrradiance(daylight, split.natural),
-      -(SunIrradiance(daylight, split.blocked) + SkyIrradiance(daylight, split.blocked)), E_lamps};
-}
-
-// No surface sends back more than it receives, but for errors of photograph and light: they must
-// not grow where light is added.
-Spectrum BoundedBrdf(const Spectrum& brdf, const LightBalance& balance, double diffuse_weight) {
-  return (balance.change > 0).select(brdf.min(1 / (diffuse_weight * kPi)), brdf);
-}
-
-// The change of a surface's radiance.
-Spectrum ChangeBy(const LightBalance& balance, const Spectrum& true_color, double diffuse_weight) {
-  const Spectrum rho = DiffuseBrdf(true_color, diffuse_weight, balance.before);
-  if (balance.lamps) {
-    const Spectrum removed = ReflectedRadiance(diffuse_weight, rho, balance.change);  // D3
-    const Spectrum added = ReflectedRadiance(diffuse_weight, rho, *balance.lamps);    // D1
-    return removed.max(-true_color) + added;
-  }
-  const Spectrum bounded = BoundedBrdf(rho, balance, diffuse_weight);
-  return ReflectedRadiance(diffuse_weight, bounded, balance.change).max(-true_color);
-}
-
-// The same of each light by itself, without the bounds that hold for their sum.
-void NoteChange(const LightBalance& balance, const Spectrum& true_color, double diffuse_weight,
-                RayParts* parts) {
-  const Spectrum rho = DiffuseBrdf(true_color, diffuse_weight, balance.before);
-  const Spectrum used = balance.lamps ? rho : BoundedBrdf(rho, balance, diffuse_weight);
-  for (const LightPart part :
-       {kSunBlocked, kSkyBlocked, kSurroundingsBlocked, kBounced, kChangeLamps}) {
-    Spectrum& light = parts->light[part];
-    light = ReflectedRadiance(diffuse_weight, used, light);
-  }
-}
-
 // Case D on a primary ray: the change of the pixel. The photograph is the current one.
 Eigen::Vector3d ChangeOfPixel(const MontageScene& scene, const PrimaryRay& primary,
                               const SceneHit& hit) {
@@ -275,47 +194,43 @@ Spectrum SiteColor(const MontageScene& scene, const SceneHit& hit, const Eigen::
   return L0.max(0);
 }
 
-// What a face of the building is made of where a ray meets it.
-SpectralMaterial MaterialAt(const MontageScene& scene, const SceneHit& hit,
-                            const Eigen::Vector3d& to_viewer) {
-  SpectralMaterial material = scene.MaterialOfTriangle(hit.index);
-  if (!scene.textures) return material;
-  if (const auto albedo = scene.textures->Albedo(*hit.place, hit.distance, -to_viewer)) {
-    material.brdf = scene.natural.spectra.ReflectanceFromRgb(*albedo) / kPi;
-  }
-  return material;
+// On a face of the building.
+Spectrum IrradianceOfBuilding(const MontageScene& scene, const SurfacePoint& surface,
+                              const LightDirections& light,
+                              const std::optional<SmoothLight>& around) {
+  const Daylight& daylight = scene.natural.light;
+  return LampIrradiance(scene, surface, light) +
+         (around ? daylight.sun_radiance * SunOnBuilding(scene, surface, light) + around->before +
+                       around->change
+                 : TotalIrradiance(daylight, DaylightOnBuilding(scene, surface, light)));
 }
 
 // The colour of a face of the building. `straight_on` is what is seen through it if it is a pane.
 Spectrum FaceColor(const MontageScene& scene, const SceneHit& hit, const Ray& ray,
                    const LightDirections& light, int depth,
                    const std::function<Spectrum()>& straight_on) {
-  const SpectralMaterial material = MaterialAt(scene, hit, -ray.direction);
+  const auto [surface, material] =
+      BuildingSurfaceAt(scene, hit, -ray.direction, PathChoice(light, depth));
   if (!material.glass) {
-    const BumpedSurface bumped =
-        BumpedAt(scene, hit.surface, material, -ray.direction, hit.distance);
-    return BuildingColor(scene, bumped.surface, bumped.material, -ray.direction, light, depth,
-                         LightAround(scene, hit));
+    return BuildingColor(scene, surface, material, -ray.direction, light, depth,
+                         LightAround(scene, hit),
+                         material.IsTranslucent() ? LightBehind(scene, hit) : std::nullopt);
   }
-  // A pane mirrors it, at two faces; a body lets most of it through.
-  const Spectrum mirrors = 2 * MirrorReflectance(material, CosineTo(hit.surface, -ray.direction));
-  const LightDirections further = material.glass->is_solid ? light : Part(light, scene, mirrors);
-  const auto trace = [&](const Ray& out) {
-    return TraceSecondary(scene, out, further, World::kWithBuilding, depth + 1);
-  };
-  const Spectrum glass = GlassColor(scene, hit, ray, light, depth, straight_on, trace);
+  const Spectrum glass = GlassColor(scene, hit, material, ray, light, depth, straight_on);
   if (material.glass->weight >= 1) return glass;
-  SpectralMaterial ground = material;  // what does not go through
+  SpectralMaterial ground = material;  // what is neither mirrored nor goes through
   ground.specular.reset();
+  const Spectrum share = (1 - material.glass->weight) *
+                         (1 - GlassReflectance(material, CosineTo(hit.surface, -ray.direction)));
   const Spectrum matte = BuildingColor(scene, hit.surface, ground, -ray.direction, light, depth,
                                        LightAround(scene, hit));
   if (light.parts && depth == 0) {
     for (const LightPart part :
          {kBuildingSun, kBuildingSky, kBuildingSurroundings, kBuildingLamps}) {
-      light.parts->light[part] *= 1 - material.glass->weight;
+      light.parts->light[part] *= share;
     }
   }
-  return glass + (1 - material.glass->weight) * matte;
+  return glass + share * matte;
 }
 
 // Case B above the horizon: the horizon's colour, or what the photographs show of the sky there.
@@ -332,13 +247,9 @@ Spectrum SkyColor(const MontageScene& scene, const Eigen::Vector3d& direction) {
 Spectrum BuildingColor(const MontageScene& scene, const SurfacePoint& surface,
                        const SpectralMaterial& material, const Eigen::Vector3d& to_viewer,
                        const LightDirections& light, int depth,
-                       const std::optional<SmoothLight>& around) {
-  const Daylight& daylight = scene.natural.light;
-  const Spectrum E =
-      LampIrradiance(scene, surface, light) +
-      (around ? daylight.sun_radiance * SunOnBuilding(scene, surface, light) + around->before +
-                    around->change
-              : TotalIrradiance(daylight, DaylightOnBuilding(scene, surface, light)));
+                       const std::optional<SmoothLight>& around,
+                       const std::optional<SmoothLight>& behind) {
+  const Spectrum E = IrradianceOfBuilding(scene, surface, light, around);
   const double cosine = CosineTo(surface, to_viewer);
   const Spectrum mirror = MirrorReflectance(material, cosine);
   Spectrum diffuse_share = Spectrum::Ones(), mirror_share = mirror;  // as printed
@@ -352,8 +263,14 @@ Spectrum BuildingColor(const MontageScene& scene, const SurfacePoint& surface,
   }
   const bool is_noted = light.parts && depth == 0;
   if (is_noted) NoteDiffuse(scene, surface, material, light, around, diffuse_share);
-  const Spectrum diffuse =
-      diffuse_share * ReflectedRadiance(material.diffuse_weight, material.brdf, E);
+  Spectrum diffuse = diffuse_share * ReflectedRadiance(material.diffuse_weight, material.brdf, E);
+  if (material.IsTranslucent()) {
+    const SurfacePoint other{surface.position, -surface.normal};
+    const Spectrum through =
+        diffuse_share * material.translucence * IrradianceOfBuilding(scene, other, light, behind);
+    if (is_noted) light.parts->light[kBuildingTransmission] += through;
+    diffuse += through;
+  }
   if ((mirror <= 0).all()) return diffuse;
   const Spectrum image = MirrorImage(scene, surface, material.specular->roughness, to_viewer,
                                      Part(light, scene, mirror_share), World::kWithBuilding, depth,

@@ -38,11 +38,13 @@ Spectrum TraceSecondary(const MontageScene& scene, const Ray& ray, const LightDi
                         World world, int depth);
 
 // Case C: true colour of the building at a point, looked at from `to_viewer` (unit). `around` is
-// the light of sky and surroundings there; nullopt: the paper's.
+// the light of sky and surroundings there, `behind` that of its other side, from where it may be
+// translucent; nullopt: the paper's.
 Spectrum BuildingColor(const MontageScene& scene, const SurfacePoint& surface,
                        const SpectralMaterial& material, const Eigen::Vector3d& to_viewer,
                        const LightDirections& light, int depth,
-                       const std::optional<SmoothLight>& around = std::nullopt);
+                       const std::optional<SmoothLight>& around = std::nullopt,
+                       const std::optional<SmoothLight>& behind = std::nullopt);
 
 // Cases D1 and D3: the change of a diffuse natural surface of true colour L_0 by the lamps' light
 // that comes and the daylight that the building cuts off, the latter as a negative irradiance.

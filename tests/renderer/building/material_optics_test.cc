@@ -51,6 +51,14 @@ TEST(ReadOptics, Metals) {
   EXPECT_EQ(gold.metal->extinction[0], Eigen::Vector2d(400, 1.9));
 }
 
+TEST(ReadOptics, Translucence) {
+  EXPECT_EQ(Read(R"("translucent_rgb": [0.3, 0.4, 0.5])").translucent_rgb,
+            Eigen::Vector3d(0.3, 0.4, 0.5));
+  const SurfaceMaterial leaf = Read(R"("translucent_table": [[380, 0.1], [780, 0.1]])");
+  EXPECT_EQ(leaf.translucent[1], Eigen::Vector2d(780, 0.1));
+  EXPECT_NEAR(leaf.translucent_rgb.y(), 0.1, 1e-4);
+}
+
 TEST(ReadOptics, FaultsNameTheLine) {
   const auto expect = [](const std::string& keys, int line, const std::string& message) {
     const std::string error = ErrorOf(keys);
@@ -64,6 +72,10 @@ TEST(ReadOptics, FaultsNameTheLine) {
   expect("\"transmission\": 1,\n\"absorption_per_m\": [1, -2, 3]", 3, "is negative");
   expect("\"transmission\": 1,\n\"thickness_m\": -1", 3, "is negative");
   expect("\"specular_rgb\": [1, 2, 3]", 2, "from 0 to 1");
+  expect("\"translucent_rgb\": [0.1, -0.1, 0]", 2, "from 0 to 1");
+  expect("\"translucent_rgb\": [0.4, 0.6, 0]", 2, "no more light than falls on it");  // of 0.5 grey
+  expect("\"transmission\": 1,\n\"translucent_rgb\": [0.4, 0.4, 0]", 3, "beside transmission");
+  expect("\"translucent_table\": [[500, 0.1], [780, 0.1]]", 2, "does not cover");
   expect("\"specular\": \"conductor\",\n\"complex_index\": [[500, 1, 1], [600, 1, 1]]", 3,
          "does not cover the visible range");
   expect("\"specular\": \"conductor\",\n\"complex_index\": [[400, 1, 1], [390, 1, 1]]", 3,

@@ -49,6 +49,20 @@ TEST_F(ObjModel, KeepsEveryDigitAndItsNames) {
   EXPECT_EQ(model.skipped.begin()->first.first, "l");
 }
 
+TEST_F(ObjModel, MapsOfItsMaterials) {
+  folder_.Write("house.mtl", "newmtl BRICK\nnorm n.png\nmap_Pr r.png\nmap_Bump -bm 2 h.png\n");
+  const Model model = Read("house.obj", kObj);
+  const SurfaceNames& brick = model.mesh.surfaces[0];
+  ASSERT_EQ(brick.maps.size(), 2u);
+  EXPECT_EQ(brick.maps[0].kind, SurfaceMap::Kind::kNormal);
+  EXPECT_EQ(brick.maps[0].file, "n.png");
+  EXPECT_TRUE(brick.maps[1].is_squared);
+  EXPECT_THAT(brick.texture_place, HasSubstr("house.mtl:2"));
+  const auto bump = model.skipped.lower_bound({"map_Bump", ""});
+  ASSERT_NE(bump, model.skipped.end());
+  EXPECT_THAT(bump->first.second, HasSubstr("height_map"));
+}
+
 TEST_F(ObjModel, Faults) {
   const auto complaint = [&](const std::string& line) {
     return Complaint("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\n" + line + "\n");
@@ -101,7 +115,10 @@ TEST_F(ObjModel, MaterialFilesAreFoundAsFarAsTheyAreThere) {
   ASSERT_EQ(two.warnings.size(), 1u);
   EXPECT_THAT(two.warnings[0], HasSubstr("its material file lost.mtl is not there"));
   EXPECT_EQ(two.files.size(), 1u);
-  EXPECT_EQ(two.skipped.at({"map_Bump", "of materials: not shown, see materials.json"}), 1);
+  EXPECT_EQ(two.skipped.at({"map_Bump",
+                            "of materials: heights of no stated size, see height_map of "
+                            "materials.json"}),
+            1);
   EXPECT_EQ(two.skipped.size(), 2u);  // Ke says nothing
   folder_.Write("house.mtl", "newmtl M\nKd 1 0 0\n");
   for (const char* library : {"mtllib old.mtl\n", ""}) {

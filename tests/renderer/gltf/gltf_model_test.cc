@@ -138,6 +138,32 @@ TEST_F(GltfModel, MaterialsOfEveryKind) {
   EXPECT_NEAR((glass.absorption_rgb - Vector3d(0, std::log(2) / 2, std::log(2))).norm(), 0, 1e-12);
 }
 
+TEST_F(GltfModel, MapsBesideTheColour) {
+  const auto read = [this](const std::string& material) {
+    return Read(Gltf(R"({"mesh": 0})",
+                     R"(, "images": [{"uri": "a.png"}], "textures": [{"source": 0}])",
+                     R"("attributes": {"POSITION": 0}, "material": 0)", "{" + material + "}"));
+  };
+  const std::string metal = R"("pbrMetallicRoughness": {"roughnessFactor": 0.5,
+      "metallicRoughnessTexture": {"index": 0}}, "normalTexture": {"index": 0, "scale": 0.7)";
+  const std::vector<SurfaceMap> maps = read(metal + "}").mesh.surfaces[0].maps;
+  ASSERT_EQ(maps.size(), 3u);
+  EXPECT_EQ(maps[0].factor, 0.7);
+  EXPECT_EQ(maps[1].channel, 1);
+  EXPECT_EQ(maps[1].factor, 0.5);
+  EXPECT_TRUE(maps[1].is_squared);
+  EXPECT_EQ(maps[2].channel, 2);
+  EXPECT_EQ(maps[2].file, "a.png");
+  // At other coordinates than the first: named and left out.
+  const Model other = read(metal + R"(, "texCoord": 1})");
+  EXPECT_EQ(other.mesh.surfaces[0].maps.size(), 1u);
+  const SurfaceNames blind = read(R"("extensions": {"KHR_materials_diffuse_transmission":
+      {"diffuseTransmissionFactor": 0.25, "diffuseTransmissionColorFactor": [1, 0.5, 0]}})")
+                                 .mesh.surfaces[0];
+  EXPECT_EQ(blind.diffuse_weight, 0.75);
+  EXPECT_EQ(blind.translucent_rgb, Vector3d(0.25, 0.125, 0));
+}
+
 TEST_F(GltfModel, ColoursByVertexAreShownByFaceAndSaid) {
   const Model model = Read(
       Gltf(R"({"mesh": 0})", "", R"("attributes": {"POSITION": 0, "COLOR_0": 3}, "material": 0)"));

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "radiometry/light/fresnel.h"
+#include "radiometry/light/split_mix.h"
 #include "renderer/trace/interreflected_light.h"
 #include "renderer/trace/mirror.h"
 #include "renderer/trace/sampling.h"
@@ -127,6 +128,87 @@ TEST(Body, WithoutAbsorptionDisappearsInAFurnace) {
   for (const double x : {-0.7, 0.1, 0.9}) {
     EXPECT_NEAR(Seen(scene, {0.5, -10, 3}, {x, -1, 1}).x(), kLawnRadiance, 0.02 * kLawnRadiance);
   }
+}
+
+Roughness Rough(double slope, FacetDistribution distribution = FacetDistribution::kGgx) {
+  return {slope, distribution};
+}
+
+// Of many rays that choose as those of a picture do.
+Vector3d SeenByMany(const MontageScene& scene, const Vector3d& from, const Vector3d& to, int rays) {
+  Vector3d sum = Vector3d::Zero();
+  for (int i = 0; i < rays; ++i) {
+    PrimaryRay primary = {{from, (to - from).normalized()},
+                          Vector3d::Constant(kLawnRadiance),
+                          Along(scene.natural.light.sun_direction)};
+    primary.light.facet = SpreadAfter({0.5, 0.5}, i * kFacetsPerRay);
+    primary.light.seed = SplitMix64(i);
+    sum += TracePrimary(scene, primary).rgb / rays;
+  }
+  return sum;
+}
+
+// At all roughnesses, panes and bodies.
+TEST(RoughGlass, DisappearsInAFurnace) {
+  SmallSite site = Furnace();
+  site.natural.light.sky_radiance = site.natural.air.horizon;
+  site.natural.light.ambient_radiance.setZero();
+  for (const auto distribution : {FacetDistribution::kGgx, FacetDistribution::kBeckmann}) {
+    for (const double slope : {0.05, 0.3, 0.6, 1.0}) {
+      SurfaceMaterial pane = Pane(1.5, 0), body = Body(1.5, 0);
+      pane.specular->roughness = body.specular->roughness = Rough(slope, distribution);
+      const MontageScene with_pane = site.With(Plate(site, {0, 0, 1}, 3, pane));
+      EXPECT_NEAR(SeenByMany(with_pane, {0, -10, 6}, {0, 0, 1}, 64).x() / kLawnRadiance, 1, 0.01);
+      const MontageScene with_body = site.With(Box(site, {-1, -1, 0.5}, {1, 1, 2}, body));
+      EXPECT_NEAR(SeenByMany(with_body, {0.5, -10, 3}, {0.1, -1, 1}, 64).x() / kLawnRadiance, 1,
+                  0.01);
+    }
+  }
+}
+
+// A pane that is hardly rough shows and casts what a smooth one does.
+TEST(RoughGlass, IsSmoothGlassWhereItIsNearlySmooth) {
+  const SmallSite site = MakeSmallSite();
+  SurfaceMaterial rough = Pane(1.52, kAbsorption);
+  rough.specular->roughness = Rough(0.004);
+  const MontageScene a = site.With(Plate(site, {0, -5, 1.5}, 1, Pane(1.52, kAbsorption)));
+  const MontageScene b = site.With(Plate(site, {0, -5, 1.5}, 1, rough));
+  EXPECT_NEAR(SeenByMany(b, {0, -10, 3}, {0, 0, 0}, 256).x(), Seen(a, {0, -10, 3}, {0, 0, 0}).x(),
+              0.01);
+  const Ray up = {{0, -5, 0.1}, Vector3d(0.5, 0.1, 1).normalized()};
+  EXPECT_NEAR(TransmittanceAlong(b, up)[0], TransmittanceAlong(a, up)[0], 0.01);
+}
+
+// The sun behind a frosted pane: by the lobe, as rays that find it by chance would have it.
+TEST(RoughGlass, ShowsTheSunBehindItSpread) {
+  SmallSite site = MakeSmallSite();
+  site.natural.light.sun_direction = Vector3d(0, 1, 1).normalized();
+  site.natural.light.sky_radiance.setZero();
+  site.natural.light.ambient_radiance.setZero();
+  site.natural.air.horizon.setZero();
+  SurfaceMaterial pane = Pane(1.5, 0);
+  pane.specular->roughness = Rough(0.3, FacetDistribution::kBeckmann);
+  const MontageScene scene = site.With(Plate(site, {0, 0, 5}, 3, pane));
+  const Vector3d eye(0, -1, 3);
+  const Vector3d to_viewer = (eye - Vector3d(0, 0, 5)).normalized();
+  // The share of ways through the pane that end within a cone about the sun, by its solid angle.
+  const RoughSheet& sheet = *scene.artificial_materials[0].glass->rough;
+  const auto down = [](const Vector3d& v) { return Vector3d(v.x(), v.y(), -v.z()); };
+  constexpr double kCone = 0.12;
+  double within = 0;
+  PathNumbers numbers{3};
+  constexpr int kWays = 400000;
+  for (int i = 0; i < kWays; ++i) {
+    const double u = numbers.Next(), v = numbers.Next();
+    const GlassFacet facet = sheet.from_outside().Choose(down(to_viewer), {u, v});
+    if (facet.lets_through <= 0) continue;
+    const auto origin = sheet.Follow(facet.refracted, &numbers);
+    if (down(origin.direction).dot(scene.natural.light.sun_direction) < std::cos(kCone)) continue;
+    within += facet.lets_through * origin.share[0] / kWays;
+  }
+  const double per_solid_angle = within / (2 * std::numbers::pi * (1 - std::cos(kCone)));
+  // E_s = 2 facing the sun.
+  EXPECT_NEAR(SeenByMany(scene, eye, {0, 0, 5}, 512).x() / (2 * per_solid_angle), 1, 0.06);
 }
 
 // At all roughnesses, bare and as a coat over white.
