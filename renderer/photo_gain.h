@@ -9,6 +9,8 @@
 
 namespace insitu {
 
+inline const Eigen::Vector3d kUnitGain = Eigen::Vector3d::Ones();
+
 // The grain of a photograph after its values were divided by `gain`.
 Grain GrainInUnit(const Grain& grain, const Eigen::Vector3d& gain);
 

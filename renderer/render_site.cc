@@ -19,14 +19,13 @@
 #include "renderer/building/building_outline.h"
 #include "renderer/layers/layer_images.h"
 #include "renderer/light_cache.h"
+#include "renderer/load_scene.h"
 #include "renderer/photo_gain.h"
 #include "renderer/shadows/existing_shadows.h"
 #include "renderer/tiles/partial_render.h"
 #include "renderer/tiles/render_inputs.h"
 #include "renderer/trace/interreflected_light.h"
-#include "renderer/trace/make_montage_scene.h"
 #include "renderer/trace/profile.h"
-#include "renderer/trace/surface_textures.h"
 #include "renderer/write_montage.h"
 
 namespace insitu {
@@ -51,48 +50,6 @@ std::vector<std::filesystem::path> ChoosePhotographs(const SitePaths& site,
     if (wanted) chosen.push_back(path);
   }
   return chosen;
-}
-
-std::shared_ptr<const SurfaceTextures> LoadTextures(const SitePaths& site,
-                                                    const NaturalEnvironment& natural,
-                                                    const ArtificialEnvironment& building) {
-  const auto has_texture = [](const SurfaceMaterial& material) {
-    return !material.texture.empty() || !material.maps.empty();
-  };
-  if (std::ranges::none_of(building.materials, has_texture)) return nullptr;
-  return std::make_shared<const SurfaceTextures>(building, site.building(),
-                                                 site.root / "work/textures", PixelAngle(natural));
-}
-
-// With its photographs in one unit.
-MontageScene WithImages(NaturalEnvironment natural, const std::vector<Eigen::Vector3d>& gains,
-                        const ArtificialEnvironment& building) {
-  const std::vector<InputImage> files = natural.input_images;
-  if (!FitInMemory(natural)) {
-    const auto images = TiledInputImages(files, gains);
-    const PhaseScope shading(Phase::kShading);
-    MontageScene scene = SceneWithoutImages(std::move(natural), building);
-    SetInputImages(images, &scene);
-    return scene;
-  }
-  auto images = std::async(std::launch::async, [&] {
-    const PhaseScope phase(Phase::kFiles);
-    return ReadInputImages(files, gains);
-  });
-  const PhaseScope shading(Phase::kShading);
-  MontageScene scene = SceneWithoutImages(std::move(natural), building);
-  SetInputImages(images.get(), &scene);
-  return scene;
-}
-
-MontageScene LoadScene(const SitePaths& site, NaturalEnvironment natural,
-                       const std::vector<Eigen::Vector3d>& gains,
-                       const ArtificialEnvironment& building) {
-  const PhaseScope phase(Phase::kFiles);
-  auto textures = LoadTextures(site, natural, building);
-  MontageScene scene = WithImages(std::move(natural), gains, building);
-  scene.textures = std::move(textures);
-  return scene;
 }
 
 // Which part of the sun the photograph shows to arrive; nullopt: nobody has drawn it, and it is not

@@ -1,17 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "renderer/render_view.h"
 
-#include <tbb/parallel_for.h>
-
-#include <algorithm>
 #include <cmath>
 
 #include "calibration/files/error.h"
 #include "calibration/foreground_matte.h"
 #include "calibration/lens/undistort.h"
-#include "calibration/photo/tiled_image.h"
 #include "radiometry/measure/photo_exposures.h"
-#include "renderer/photo_gain.h"
+#include "renderer/load_scene.h"
 #include "renderer/trace/profile.h"
 
 namespace insitu {
@@ -69,11 +65,6 @@ Raster ReadRelitPhoto(const SitePaths& site, const std::filesystem::path& photog
   return ReadPhotograph(file).linear;
 }
 
-void RequireInputImage(const InputImage& image) {
-  RequireResult(image.file, "insitu-undistort");
-  RequirePhotographSize(image.file, image.camera.width(), image.camera.height());
-}
-
 }  // namespace
 
 size_t CameraIndex(const SitePaths& site, const SceneGeometry& scene, const std::string& photo) {
@@ -82,43 +73,6 @@ size_t CameraIndex(const SitePaths& site, const SceneGeometry& scene, const std:
   }
   throw InputError(site.environment(), "has no camera for photograph " + photo +
                                            "; run insitu-reconstruct and insitu-light again");
-}
-
-Raster ReadInputImage(const InputImage& image) {
-  RequireInputImage(image);
-  return ReadPhotograph(image.file).linear;
-}
-
-bool FitInMemory(const NaturalEnvironment& natural) {
-  constexpr double kMostBytes = 0.8e9;
-  double bytes = 0;
-  for (const InputImage& image : natural.input_images) {
-    bytes += 3.0 * sizeof(float) * image.camera.width() * image.camera.height();
-  }
-  return bytes <= kMostBytes;
-}
-
-std::vector<Raster> ReadInputImages(const std::vector<InputImage>& images,
-                                    const std::vector<Eigen::Vector3d>& gains) {
-  // One after the other: of several faults always the first is told.
-  for (const InputImage& image : images) RequireInputImage(image);
-  std::vector<Raster> rasters(gains.size());
-  tbb::parallel_for(size_t{0}, gains.size(), [&](size_t i) {
-    rasters[i] = ReadInputImage(images[i]);
-    if (gains[i] != kUnitGain) DivideByGain(gains[i], &rasters[i]);
-  });
-  return rasters;
-}
-
-std::vector<LocalImage::ImageFunction> TiledInputImages(const std::vector<InputImage>& images,
-                                                        const std::vector<Eigen::Vector3d>& gains) {
-  std::vector<LocalImage::ImageFunction> functions;
-  for (size_t i = 0; i < gains.size(); ++i) {
-    RequireInputImage(images[i]);
-    const TiledImage tiled(images[i].file, FactorOfGain(gains[i]));
-    functions.emplace_back([tiled](const Eigen::Vector2d& pixel) { return tiled.At(pixel); });
-  }
-  return functions;
 }
 
 const Raster& InUnit(const RenderView& view) {

@@ -13,6 +13,7 @@
 #include "calibration/photo/photograph.h"
 #include "calibration/program/site.h"
 #include "radiometry/natural_environment.h"
+#include "renderer/photo_gain.h"
 #include "renderer/trace/montage_scene.h"
 
 namespace insitu {
@@ -21,8 +22,6 @@ enum class Frame {
   kPhoto,
   kPinhole
 };  // the original photograph's pixel grid, or the input image's
-
-inline const Eigen::Vector3d kUnitGain = Eigen::Vector3d::Ones();
 
 struct RenderView {
   PosedCamera camera;
@@ -37,20 +36,6 @@ struct RenderView {
 
 // Where the environment has a photograph. Throws InputError: nowhere.
 size_t CameraIndex(const SitePaths& site, const SceneGeometry& scene, const std::string& photo);
-
-// Linear, as photographed. Throws InputError: not there, or not of its camera's size.
-Raster ReadInputImage(const InputImage& image);
-
-// Whether all input images together are few enough to be held, 0.8 GB. Photographs that are
-// rendered take memory beside them.
-bool FitInMemory(const NaturalEnvironment& natural);
-
-// In the site's unit: whole, or as functions that read what they are asked for and give the same to
-// the last bit. `gains`: of the scene's cameras. Throw InputError as ReadInputImage does.
-std::vector<Raster> ReadInputImages(const std::vector<InputImage>& images,
-                                    const std::vector<Eigen::Vector3d>& gains);
-std::vector<LocalImage::ImageFunction> TiledInputImages(const std::vector<InputImage>& images,
-                                                        const std::vector<Eigen::Vector3d>& gains);
 
 // The photograph in the site's unit, in which the scene's light is measured.
 const Raster& InUnit(const RenderView& view);

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "renderer/load_scene.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <future>
+#include <memory>
+#include <utility>
+
+#include "calibration/files/error.h"
+#include "calibration/photo/photograph.h"
+#include "calibration/photo/tiled_image.h"
+#include "radiometry/measure/photo_exposures.h"
+#include "renderer/photo_gain.h"
+#include "renderer/trace/make_montage_scene.h"
+#include "renderer/trace/profile.h"
+#include "renderer/trace/surface_textures.h"
+
+namespace insitu {
+namespace {
+
+void RequireInputImage(const InputImage& image) {
+  RequireResult(image.file, "insitu-undistort");
+  RequirePhotographSize(image.file, image.camera.width(), image.camera.height());
+}
+
+// Whether all input images together are few enough to be held. Photographs that are rendered take
+// memory beside them.
+bool FitInMemory(const NaturalEnvironment& natural) {
+  constexpr double kMostBytes = 0.8e9;
+  double bytes = 0;
+  for (const InputImage& image : natural.input_images) {
+    bytes += 3.0 * sizeof(float) * image.camera.width() * image.camera.height();
+  }
+  return bytes <= kMostBytes;
+}
+
+std::vector<Raster> ReadInputImages(const std::vector<InputImage>& images,
+                                    const std::vector<Eigen::Vector3d>& gains) {
+  // One after the other: of several faults always the first is told.
+  for (const InputImage& image : images) RequireInputImage(image);
+  std::vector<Raster> rasters(gains.size());
+  tbb::parallel_for(size_t{0}, gains.size(), [&](size_t i) {
+    rasters[i] = ReadInputImage(images[i]);
+    if (gains[i] != kUnitGain) DivideByGain(gains[i], &rasters[i]);
+  });
+  return rasters;
+}
+
+std::vector<LocalImage::ImageFunction> TiledInputImages(const std::vector<InputImage>& images,
+                                                        const std::vector<Eigen::Vector3d>& gains) {
+  std::vector<LocalImage::ImageFunction> functions;
+  for (size_t i = 0; i < gains.size(); ++i) {
+    RequireInputImage(images[i]);
+    const TiledImage tiled(images[i].file, FactorOfGain(gains[i]));
+    functions.emplace_back([tiled](const Eigen::Vector2d& pixel) { return tiled.At(pixel); });
+  }
+  return functions;
+}
+
+std::shared_ptr<const SurfaceTextures> LoadTextures(const SitePaths& site,
+                                                    const NaturalEnvironment& natural,
+                                                    const ArtificialEnvironment& building) {
+  const auto has_texture = [](const SurfaceMaterial& material) {
+    return !material.texture.empty() || !material.maps.empty();
+  };
+  if (std::ranges::none_of(building.materials, has_texture)) return nullptr;
+  return std::make_shared<const SurfaceTextures>(building, site.building(),
+                                                 site.root / "work/textures", PixelAngle(natural));
+}
+
+// With its photographs in one unit.
+MontageScene WithImages(NaturalEnvironment natural, const std::vector<Eigen::Vector3d>& gains,
+                        const ArtificialEnvironment& building) {
+  const std::vector<InputImage> files = natural.input_images;
+  if (!FitInMemory(natural)) {
+    const auto images = TiledInputImages(files, gains);
+    const PhaseScope shading(Phase::kShading);
+    MontageScene scene = SceneWithoutImages(std::move(natural), building);
+    SetInputImages(images, &scene);
+    return scene;
+  }
+  auto images = std::async(std::launch::async, [&] {
+    const PhaseScope phase(Phase::kFiles);
+    return ReadInputImages(files, gains);
+  });
+  const PhaseScope shading(Phase::kShading);
+  MontageScene scene = SceneWithoutImages(std::move(natural), building);
+  SetInputImages(images.get(), &scene);
+  return scene;
+}
+
+}  // namespace
+
+Raster ReadInputImage(const InputImage& image) {
+  RequireInputImage(image);
+  return ReadPhotograph(image.file).linear;
+}
+
+MontageScene LoadScene(const SitePaths& site, NaturalEnvironment natural,
+                       const std::vector<Eigen::Vector3d>& gains,
+                       const ArtificialEnvironment& building) {
+  const PhaseScope phase(Phase::kFiles);
+  auto textures = LoadTextures(site, natural, building);
+  MontageScene scene = WithImages(std::move(natural), gains, building);
+  scene.textures = std::move(textures);
+  return scene;
+}
+
+}  // namespace insitu
