@@ -23,7 +23,7 @@ const std::vector<float>& LinearTable() {
   return table;
 }
 
-// round(255 SrgbFromLinear(linear)), clamped to [0, 255]; NaN becomes 0. By a table: a fortieth of
+// round(255 SrgbFromLinear(linear)), clamped to [0, 255]; NaN becomes 0. By a table: a quarter of
 // the power's time.
 uint8_t NearestSrgbCode(float linear);
 
