@@ -92,6 +92,7 @@ MontageScene LoadScene(const SitePaths& site, NaturalEnvironment natural,
   auto textures = LoadTextures(site, natural, building);
   MontageScene scene = WithImages(std::move(natural), gains, building);
   scene.textures = std::move(textures);
+  HeedMasks(site, &scene);
   return scene;
 }
 
