@@ -6,6 +6,7 @@
 #include <set>
 
 #include "calibration/files/error.h"
+#include "calibration/files/json_file.h"
 #include "calibration/photo/photograph.h"
 
 namespace insitu {
@@ -23,6 +24,9 @@ constexpr Drawing kForeground = {
 constexpr Drawing kShadows = {
     "shadows",
     "black where something that no polygon stands for keeps the sun away, white elsewhere"};
+
+constexpr Drawing kMasks = {
+    "", "white where the photograph shows the polygon, black where something stands before it"};
 
 constexpr Drawing kTrimaps = {
     "trimaps",
@@ -48,10 +52,7 @@ fs::path FileOf(const SitePaths& site, const Drawing& drawing, const std::string
   return site.survey() / drawing.folder / (photo + ".png");
 }
 
-std::optional<Raster> ReadDrawing(const SitePaths& site, const Drawing& drawing,
-                                  const std::string& photo, int width, int height) {
-  const fs::path path = FileOf(site, drawing, photo);
-  if (!fs::exists(path)) return std::nullopt;
+Raster ReadGrey(const fs::path& path, const Drawing& drawing, int width, int height) {
   const CodedPhotograph coded = ReadCodedPhotograph(path);
   if (coded.width != width || coded.height != height) {
     throw InputError(path,
@@ -66,6 +67,13 @@ std::optional<Raster> ReadDrawing(const SitePaths& site, const Drawing& drawing,
     return SharesOf(path, *words, width, height, drawing);
   }
   throw InputError(path, "has fractional numbers, expected a PNG of 8 or 16 bits");
+}
+
+std::optional<Raster> ReadDrawing(const SitePaths& site, const Drawing& drawing,
+                                  const std::string& photo, int width, int height) {
+  const fs::path path = FileOf(site, drawing, photo);
+  if (!fs::exists(path)) return std::nullopt;
+  return ReadGrey(path, drawing, width, height);
 }
 
 void AddUnread(const SitePaths& site, const Drawing& drawing, std::vector<std::string>* unread) {
@@ -102,6 +110,20 @@ std::optional<Raster> ReadShadowPicture(const SitePaths& site, const std::string
 std::optional<Raster> ReadTrimap(const SitePaths& site, const std::string& photo, int width,
                                  int height) {
   return ReadDrawing(site, kTrimaps, photo, width, height);
+}
+
+Raster ReadPolygonMask(const SitePaths& site, const std::string& file, int width, int height) {
+  return ReadGrey(site.survey() / file, kMasks, width, height);
+}
+
+std::map<std::string, std::string> PolygonMasks(const SitePaths& site) {
+  std::map<std::string, std::string> masks;
+  const fs::path path = site.survey() / "polygons.json";
+  if (!fs::exists(path)) return masks;
+  for (const JsonNode& polygon : JsonNode::Load(path).At("polygons").Items()) {
+    if (const auto mask = polygon.Find("mask")) masks[polygon.At("name").Text()] = mask->Text();
+  }
+  return masks;
 }
 
 std::vector<std::string> UnreadDrawings(const SitePaths& site) {

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -31,6 +32,14 @@ std::optional<Raster> ReadShadowPicture(const SitePaths& site, const std::string
 // between is to be found.
 std::optional<Raster> ReadTrimap(const SitePaths& site, const std::string& photo, int width,
                                  int height);
+
+// The mask of a polygon, survey/FILE: the share of each pixel in which its photograph shows it.
+// Throws InputError as ReadForegroundMatte, and where it is not there.
+Raster ReadPolygonMask(const SitePaths& site, const std::string& file, int width, int height);
+
+// The files of such masks by the name of their polygon, as survey/polygons.json has them; empty
+// without that file. Throws InputError: it cannot be read.
+std::map<std::string, std::string> PolygonMasks(const SitePaths& site);
 
 // Files in these folders that belong to no photograph, a line each.
 std::vector<std::string> UnreadDrawings(const SitePaths& site);

@@ -90,6 +90,7 @@ Json::Value SceneToJson(const NaturalEnvironment& environment,
 Json::Value MaterialToJson(const NaturalMaterial& material) {
   Json::Value json;
   json["diffuse_weight"] = material.diffuse_weight;
+  if (material.transmission > 0) json["transmission"] = material.transmission;
   if (!material.specular) return json;
   json["specular"] = SpecularJson(*material.specular);
   if (material.bumps) json["bumps"] = BumpsJson(*material.bumps);
@@ -256,6 +257,7 @@ void ReadScene(const JsonNode& node, NaturalEnvironment* environment) {
 NaturalMaterial ReadMaterial(const JsonNode& node) {
   NaturalMaterial material;
   material.diffuse_weight = node.At("diffuse_weight").Number();
+  if (const auto share = node.Find("transmission")) material.transmission = share->Number();
   if (const auto specular = node.Find("specular")) {
     material.specular = SpecularOf(*specular);
   }

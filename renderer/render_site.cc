@@ -262,6 +262,7 @@ class SiteRender {
         statement_(StatementOf(
             site, {options.with_building, options.avr, options.quality, OptionsText(options)})) {
     ThrowIfStopped();
+    HeedMasks(site, &scene_);
     scene_.as_printed = options.as_printed;
     const auto kept = kept_light_.get();
     if (!IsLit()) return;

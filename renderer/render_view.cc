@@ -1,7 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "renderer/render_view.h"
 
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
 #include <cmath>
+#include <map>
+#include <memory>
+#include <optional>
+#include <utility>
 
 #include "calibration/files/error.h"
 #include "calibration/foreground_matte.h"
@@ -9,6 +16,7 @@
 #include "radiometry/measure/photo_exposures.h"
 #include "renderer/load_scene.h"
 #include "renderer/trace/profile.h"
+#include "renderer/trace/scene_hit.h"
 
 namespace insitu {
 namespace {
@@ -65,6 +73,47 @@ Raster ReadRelitPhoto(const SitePaths& site, const std::filesystem::path& photog
   return ReadPhotograph(file).linear;
 }
 
+// Files in survey/ by polygon, of those that have a photograph in whose frame a mask lies.
+std::map<int, std::string> MasksOf(const SitePaths& site, const SceneGeometry& scene) {
+  std::map<int, std::string> of_polygon;
+  const std::map<std::string, std::string> of_name = PolygonMasks(site);
+  for (int p = 0; p < std::ssize(scene.polygons); ++p) {
+    const auto mask = of_name.find(scene.polygons[p].name);
+    if (mask != of_name.end() && scene.polygons[p].photo) of_polygon[p] = mask->second;
+  }
+  return of_polygon;
+}
+
+Raster MaskIn(const SitePaths& site, const std::string& file, const Camera& lens) {
+  return ReadPolygonMask(site, file, lens.width(), lens.height());
+}
+
+// Adds to what stands in front in a photograph what stands before its polygons, where it shows
+// those: what stands before the building the foreground's matte tells.
+void AddMasked(const SitePaths& site, const MontageScene& scene, size_t camera,
+               std::optional<Raster>* share) {
+  const SceneGeometry& geometry = scene.natural.scene;
+  const LocalImage view(geometry.cameras[camera], geometry.origin, LocalImage::ImageFunction());
+  const Camera& lens = view.camera.camera;
+  for (const auto& [p, file] : MasksOf(site, geometry)) {
+    if (geometry.polygons[p].photo != static_cast<int>(camera)) continue;
+    const Raster mask = MaskIn(site, file, lens);
+    if (!*share) share->emplace(mask.width, mask.height, 1);
+    const int polygon = p;
+    tbb::parallel_for(0, mask.height, [&](int y) {
+      for (int x = 0; x < mask.width; ++x) {
+        const float before = 1 - *mask.At(x, y);
+        if (before <= *(*share)->At(x, y)) continue;
+        const Eigen::Vector3d direction =
+            (view.camera.cam_from_world.rotation.inverse() * lens.Unproject(Eigen::Vector2d(x, y)))
+                .normalized();
+        const auto hit = FindHit(scene, {view.center, direction}, World::kWithBuilding);
+        if (hit && !hit->is_building && hit->index == polygon) *(*share)->At(x, y) = before;
+      }
+    });
+  }
+}
+
 }  // namespace
 
 size_t CameraIndex(const SitePaths& site, const SceneGeometry& scene, const std::string& photo) {
@@ -77,6 +126,28 @@ size_t CameraIndex(const SitePaths& site, const SceneGeometry& scene, const std:
 
 const Raster& InUnit(const RenderView& view) {
   return view.in_unit.data.empty() ? view.photo.linear : view.in_unit;
+}
+
+void HeedMasks(const SitePaths& site, MontageScene* scene) {
+  const NaturalEnvironment& natural = scene->natural;
+  std::map<int, std::map<int, Raster>> masks;  // by photograph and polygon
+  for (const auto& [p, file] : MasksOf(site, natural.scene)) {
+    const int photo = *natural.scene.polygons[p].photo;
+    const Camera& lens = natural.scene.cameras[photo].camera;
+    masks[photo].emplace(
+        p, InPinhole(MaskIn(site, file, lens), lens, natural.input_images[photo].camera));
+  }
+  for (auto& [photo, of_polygons] : masks) {
+    const auto shared = std::make_shared<const std::map<int, Raster>>(std::move(of_polygons));
+    scene->images[photo].shows = [shared](int polygon, const Eigen::Vector2d& pixel) {
+      const auto mask = shared->find(polygon);
+      if (mask == shared->end()) return true;
+      const int x = std::clamp(static_cast<int>(std::lround(pixel.x())), 0, mask->second.width - 1);
+      const int y =
+          std::clamp(static_cast<int>(std::lround(pixel.y())), 0, mask->second.height - 1);
+      return *mask->second.At(x, y) > 0.5f;
+    };
+  }
 }
 
 RenderView LoadView(const SitePaths& site, const MontageScene& scene,
@@ -92,6 +163,7 @@ RenderView LoadView(const SitePaths& site, const MontageScene& scene,
   auto share = ReadForegroundMatte(site, photograph.stem().string(), lens.width(), lens.height());
   view.drawn_shadows =
       ReadShadowPicture(site, photograph.stem().string(), lens.width(), lens.height());
+  AddMasked(site, scene, index, &share);
   if (frame == Frame::kPinhole) {
     const Camera& pinhole = natural.input_images[index].camera;
     if (auto& spread = view.quality.point_spread) {

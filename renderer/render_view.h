@@ -40,8 +40,13 @@ size_t CameraIndex(const SitePaths& site, const SceneGeometry& scene, const std:
 // The photograph in the site's unit, in which the scene's light is measured.
 const Raster& InUnit(const RenderView& view);
 
-// `gains`: of the scene's cameras. Throws InputError: a photograph, matte or drawing of shadows
-// whose size is not the camera's.
+// Has photographs not asked for the colour of polygons where their masks say that something stands
+// before them. Throws InputError: a mask that is missing or of another size.
+void HeedMasks(const SitePaths& site, MontageScene* scene);
+
+// What stands in front is what the matte says, and, where the photograph shows polygons and not the
+// building, what their masks do. `gains`: of the scene's cameras. Throws InputError: a photograph,
+// matte, mask or drawing of shadows whose size is not the camera's.
 RenderView LoadView(const SitePaths& site, const MontageScene& scene,
                     const std::vector<Eigen::Vector3d>& gains,
                     const std::filesystem::path& photograph, Frame frame);

@@ -97,6 +97,7 @@ NaturalMaterial ReadNaturalMaterial(const MaterialKeys& material) {
     throw JsonFault(material.At("diffuse_weight"),
                     Sentence("weightRange", "is out of range, expected above 0"));
   }
+  result.transmission = Share(material, "transmission", 0);
   const auto diffuse = material.Find("diffuse");
   if (diffuse && diffuse->Text() != "from photo") {
     throw JsonFault(*diffuse, Sentence("materialDiffuse", "is \"{text}\", expected \"from photo\"",

@@ -27,6 +27,9 @@ struct NaturalMaterial {
   double diffuse_weight = 1;         // k_d > 0
   std::optional<Specular> specular;  // nullopt: purely diffuse
   std::optional<Bumps> bumps = {};   // of what it mirrors; nullopt: flat
+  // Of what it does not mirror, the share that comes from behind: windows, water to the ground.
+  // What falls on it does not change that. 0..1
+  double transmission = 0;
 };
 
 // Of an entry of materials.json: specular (none, fresnel, mirror), specular_weight, ior, roughness
@@ -38,8 +41,9 @@ std::optional<Specular> ReadSpecular(const MaterialKeys& material, bool may_be_m
 Json::Value SpecularJson(const Specular& specular);
 Specular SpecularOf(const JsonNode& node);
 
-// One entry of survey/materials.json: what of a photographed surface the photograph does not tell.
-// Throws InputError: weights out of range, of bare metal, bumps of what mirrors nothing.
+// One entry of survey/materials.json: what of a photographed surface the photograph does not tell;
+// `transmission` of a window. Throws InputError: weights out of range, of bare metal, bumps of what
+// mirrors nothing.
 NaturalMaterial ReadNaturalMaterial(const MaterialKeys& material);
 
 // By name; with use NAME the keys of a library's entry lie below. A site without the file has no

@@ -56,8 +56,9 @@ std::optional<Sighting> SightIn(const LocalImage& image, const SurfacePoint& sur
 
 // nullopt: something hides it.
 std::optional<PhotographedColor> ColorOf(const PhotographedSite& site, const Sighting& sighting,
-                                         const SurfacePoint& surface) {
+                                         int polygon, const SurfacePoint& surface) {
   const LocalImage& image = *sighting.image;
+  if (image.shows && !image.shows(polygon, sighting.pixel)) return std::nullopt;
   const Eigen::Vector3d start = surface.position + kSurveyClearance * surface.normal;
   const Eigen::Vector3d path = image.center - start;
   const double distance = path.norm();
@@ -71,8 +72,8 @@ std::optional<PhotographedColor> ColorOf(const PhotographedSite& site, const Sig
 
 // Those that show it, but for one, the best first; their weights are `share` in all. The first that
 // is left out sets where weights begin, so that one comes in and goes out with none.
-void AddOthers(const PhotographedSite& site, std::optional<int> but, const SurfacePoint& surface,
-               double share, std::vector<PhotographedColor>* colors) {
+void AddOthers(const PhotographedSite& site, std::optional<int> but, int polygon,
+               const SurfacePoint& surface, double share, std::vector<PhotographedColor>* colors) {
   std::vector<Sighting> sightings;
   for (size_t i = 0; i < site.images.size(); ++i) {
     if (but && static_cast<int>(i) == *but) continue;
@@ -86,7 +87,7 @@ void AddOthers(const PhotographedSite& site, std::optional<int> but, const Surfa
   const size_t first = colors->size();
   double least = 0, sum = 0;
   for (const Sighting& sighting : sightings) {
-    auto color = ColorOf(site, sighting, surface);
+    auto color = ColorOf(site, sighting, polygon, surface);
     if (!color) continue;
     if (colors->size() == first + kMostOthers) {
       least = sighting.resolution;
@@ -120,7 +121,7 @@ std::vector<PhotographedColor> LookUpColors(const PhotographedSite& site, int po
   const std::optional<int> attribute = site.scene.polygons[polygon].photo;
   if (attribute) {
     const auto sighting = SightIn(site.images[*attribute], surface);
-    auto color = sighting ? ColorOf(site, *sighting, surface) : std::nullopt;
+    auto color = sighting ? ColorOf(site, *sighting, polygon, surface) : std::nullopt;
     if (color) {
       color->weight = sighting->fade;
       colors.push_back(*color);
@@ -128,7 +129,7 @@ std::vector<PhotographedColor> LookUpColors(const PhotographedSite& site, int po
   }
   const double left = colors.empty() ? 1 : 1 - colors.front().weight;
   const bool asks_others = !site.by_attribute_alone || !attribute;
-  if (left > 0 && asks_others) AddOthers(site, attribute, surface, left, &colors);
+  if (left > 0 && asks_others) AddOthers(site, attribute, polygon, surface, left, &colors);
   if (colors.size() == 1) colors.front().weight = 1;
   return colors;
 }

@@ -35,6 +35,9 @@ struct LocalImage {
   PosedCamera camera;
   Eigen::Vector3d center;  // of projection [m]
   ImageFunction rgb;
+  // Whether it shows a polygon there, and not something before it; empty: wherever nothing hides
+  // it.
+  std::function<bool(int polygon, const Eigen::Vector2d& pixel)> shows = {};
 };
 
 // What a look-up needs. All references are the caller's.

@@ -6,6 +6,7 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <optional>
@@ -24,8 +25,10 @@ namespace insitu {
 struct ClearFaces {
   const TriangleMesh& mesh;
   const RayScene& rays;                      // of `mesh`
-  const std::vector<int>& kind_of_triangle;  // index into mean_transmittance
-  std::vector<Spectrum> mean_transmittance;  // of light from the hemisphere, 0..1
+  const std::vector<int>& kind_of_triangle;  // index into transmittance
+  // 0..1, by the cosine at which light meets it: of the middle of a class of its square.
+  static constexpr int kClasses = 16;
+  std::vector<std::array<Spectrum, kClasses>> transmittance;
   // Of the building along a ray, 0 behind what is opaque.
   std::function<Spectrum(const Ray&)> transmittance_along;
 };

@@ -31,6 +31,19 @@ bool MayMeet(const Eigen::AlignedBox3d& box, const Eigen::Vector3d& origin,
   return far >= 0 && a.min(b).maxCoeff() <= far;
 }
 
+uint32_t ClassOfCosine(const TriangleMesh& mesh, const RayHit& hit, const Ray& ray) {
+  const auto corner = [&](int i) {
+    return mesh.vertices[mesh.triangles[hit.triangle][i]].cast<double>().eval();
+  };
+  const Eigen::Vector3d normal =
+      hit.sphere_normal ? *hit.sphere_normal
+                        : (corner(1) - corner(0)).cross(corner(2) - corner(0)).normalized().eval();
+  const double cosine = normal.dot(ray.direction);
+  constexpr int kLast = ClearFaces::kClasses - 1;
+  return static_cast<uint32_t>(
+      std::min(kLast, static_cast<int>(cosine * cosine * ClearFaces::kClasses)));
+}
+
 }  // namespace
 
 Surroundings::Surroundings(const TransportScene& scene, const Daylight& light, Patches patches)
@@ -108,7 +121,7 @@ std::vector<Meeting> Surroundings::Meet(const SurfacePoint& surface,
 // A ray that goes through more panes than are counted loses nothing in the others; kinds of glass
 // beyond the fifteenth count as the fifteenth.
 void Surroundings::MeetGlass(const Ray& ray, Meeting* meeting) const {
-  constexpr int kBits = 4, kMostPanes = 16 / kBits, kMostKinds = (1 << kBits) - 1;
+  constexpr int kMostPanes = 4, kMostKinds = 15;
   const ClearFaces& clear = *scene_.planned.clear;
   Ray rest = ray;
   if (meeting->distance > 0) rest.far = meeting->distance;
@@ -116,15 +129,16 @@ void Surroundings::MeetGlass(const Ray& ray, Meeting* meeting) const {
     const auto hit = clear.rays.Nearest(rest);
     if (!hit) return;
     const int kind = std::min(clear.kind_of_triangle[hit->triangle], kMostKinds - 1);
-    meeting->panes = static_cast<uint16_t>(meeting->panes << kBits | (kind + 1));
+    meeting->panes = meeting->panes << 8 | ClassOfCosine(clear.mesh, *hit, ray) << 4 |
+                     static_cast<uint32_t>(kind + 1);
     rest.near = hit->distance + kSurveyClearance;
   }
 }
 
 Spectrum Surroundings::Through(const Meeting& meeting) const {
   Spectrum share = Spectrum::Ones();
-  for (unsigned panes = meeting.panes; panes != 0; panes >>= 4) {
-    share *= scene_.planned.clear->mean_transmittance[(panes & 15) - 1];
+  for (uint32_t panes = meeting.panes; panes != 0; panes >>= 8) {
+    share *= scene_.planned.clear->transmittance[(panes & 15) - 1][panes >> 4 & 15];
   }
   return share;
 }

@@ -35,7 +35,9 @@ struct Meeting {
   int behind = kDark;   // the piece on its other side, if light comes through to this one
   double distance = 0;  // after [m]; 0: none
   bool is_back = false;
-  uint16_t panes = 0;  // the kinds of glass before it, four bits each, counted from 1
+  // The panes before it, a byte each: the class of the cosine at which it is met, and in the lower
+  // half its kind, counted from 1.
+  uint32_t panes = 0;
 };
 
 class Surroundings {

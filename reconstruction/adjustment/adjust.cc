@@ -37,9 +37,10 @@ std::map<std::string, StartPoint> JudgedPoints(const std::vector<AdjustedPoint>&
 
 void WarnOfMasks(const Survey& survey, Adjustment* adjustment) {
   for (const PolygonOutline& polygon : survey.polygons) {
-    if (!polygon.mask) continue;
+    if (!polygon.mask || polygon.photo) continue;
     adjustment->warnings.push_back("polygon '" + polygon.name +
-                                   "': its mask is not used, what it covers will be shaded");
+                                   "': its mask is not used, for it has no photo, in whose frame "
+                                   "a mask lies");
   }
 }
 

@@ -4,6 +4,7 @@
 #include <set>
 
 #include "calibration/files/sha256.h"
+#include "calibration/foreground_matte.h"
 
 namespace insitu {
 namespace {
@@ -24,6 +25,7 @@ std::string SiteInputsSha256(const SitePaths& site, const NaturalEnvironment& na
     text += HashLine(site.artificial());
     text += HashLine(std::filesystem::path(site.artificial()).replace_extension(".bin"));
   }
+  for (const auto& [polygon, mask] : PolygonMasks(site)) text += HashLine(site.survey() / mask);
   std::set<std::string> textures;
   for (const SurfaceMaterial& material : building.materials) {
     textures.insert(material.texture);

@@ -2,6 +2,7 @@
 #include "renderer/trace/interreflected_light.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <span>
@@ -146,19 +147,21 @@ double MeanWay(const MontageScene& scene, int material) {
   return area > 0 ? 4 * std::abs(volume) / area : 0;
 }
 
-// Of a pane, or of one face of a body and half the way through it.
-Spectrum MeanTransmittance(const MontageScene& scene, int material) {
-  constexpr int kSteps = 32;  // of the squared cosine
+// Of a pane, or of one face of a body and half the way through it, by classes of the cosine.
+std::array<Spectrum, ClearFaces::kClasses> TransmittancesOf(const MontageScene& scene,
+                                                            int material) {
   const SpectralGlass& glass = *scene.artificial_materials[material].glass;
-  Spectrum sum = Spectrum::Zero();
-  for (int i = 0; i < kSteps; ++i) {
-    const double cosine = std::sqrt((i + 0.5) / kSteps);
-    sum += glass.is_solid ? Spectrum::Constant(FaceTransmittance(glass, cosine)).eval()
-                          : PaneOptics(glass, cosine).transmittance;
+  const Spectrum within = glass.is_solid
+                              ? Spectrum((-glass.absorption * (MeanWay(scene, material) / 2)).exp())
+                              : Spectrum::Ones().eval();
+  std::array<Spectrum, ClearFaces::kClasses> classes;
+  for (int i = 0; i < ClearFaces::kClasses; ++i) {
+    const double cosine = std::sqrt((i + 0.5) / ClearFaces::kClasses);
+    classes[i] = glass.weight * within *
+                 (glass.is_solid ? Spectrum::Constant(FaceTransmittance(glass, cosine)).eval()
+                                 : PaneOptics(glass, cosine).transmittance);
   }
-  sum *= glass.weight / kSteps;
-  if (glass.is_solid) sum *= (-glass.absorption * (MeanWay(scene, material) / 2)).exp();
-  return sum;
+  return classes;
 }
 
 std::optional<ClearFaces> ClearFacesOf(const MontageScene& scene, const std::vector<int>& kinds) {
@@ -168,9 +171,9 @@ std::optional<ClearFaces> ClearFacesOf(const MontageScene& scene, const std::vec
                      return TransmittanceAlong(scene, ray);
                    }};
   for (size_t i = 0; i < kinds.size(); ++i) {
-    if (kinds[i] < std::ssize(clear.mean_transmittance)) continue;
-    clear.mean_transmittance.push_back(
-        MeanTransmittance(scene, scene.material_of_triangle[faces.triangles[i]]));
+    if (kinds[i] < std::ssize(clear.transmittance)) continue;
+    clear.transmittance.push_back(
+        TransmittancesOf(scene, scene.material_of_triangle[faces.triangles[i]]));
   }
   return clear;
 }

@@ -71,6 +71,7 @@ SpectralMaterial NaturalSurface(const NaturalEnvironment& natural, const Polygon
   if (found == natural.materials.end()) return {};
   SpectralMaterial surface{.diffuse_weight = found->second.diffuse_weight,
                            .specular = found->second.specular};
+  surface.transmission = found->second.transmission;
   if (const auto& bumps = found->second.bumps) {
     surface.bumps = FieldOf(natural, *bumps, polygon.material);
   }

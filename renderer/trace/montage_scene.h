@@ -37,7 +37,8 @@ struct SpectralGlass {
 struct SpectralMaterial {
   double diffuse_weight = 1;
   Spectrum brdf = Spectrum::Zero();  // rho [1/sr]; zero for natural surfaces: it is in the photo
-  double metal_share = 0;            // mean of its map: so much of it has no diffuse part
+  double transmission = 0;  // of a natural surface: share of its radiance that comes from behind
+  double metal_share = 0;   // mean of its map: so much of it has no diffuse part
   Spectrum translucence = Spectrum::Zero();  // the same for light of the other side [1/sr]
   std::optional<Specular> specular = {};
   Spectrum mirror_color = Spectrum::Ones();     // of a bare mirror

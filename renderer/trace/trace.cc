@@ -135,11 +135,11 @@ Eigen::Vector3d ChangeOfPixel(const MontageScene& scene, const PrimaryRay& prima
     if (primary.light.parts) primary.light.parts->light[kChangeReflection] = change;
   }
   if (balance) {
+    const Spectrum diffuse = (1 - material.transmission) * (L0 - mirrored_before).max(0);
     if (primary.light.parts) {
-      NoteChange(*balance, (L0 - mirrored_before).max(0), material.diffuse_weight,
-                 primary.light.parts);
+      NoteChange(*balance, diffuse, material.diffuse_weight, primary.light.parts);
     }
-    change += ChangeBy(*balance, (L0 - mirrored_before).max(0), material.diffuse_weight);
+    change += ChangeBy(*balance, diffuse, material.diffuse_weight);
   }
   if ((change == 0).all()) return Eigen::Vector3d::Zero();  // D2
   change = change.max(-L0) * TransmittanceOver(air, hit.distance);
@@ -189,7 +189,8 @@ Spectrum SiteColor(const MontageScene& scene, const SceneHit& hit, const Eigen::
   Spectrum L0 =
       diffuse + Mirrored(scene, bumped.surface, bumped.material, to_viewer, light, world, depth);
   if (world == World::kWithBuilding) {
-    L0 += DiffuseChange(scene, hit.surface, diffuse, material.diffuse_weight, light, around);
+    L0 += DiffuseChange(scene, hit.surface, (1 - material.transmission) * diffuse,
+                        material.diffuse_weight, light, around);
   }
   return L0.max(0);
 }

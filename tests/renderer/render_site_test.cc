@@ -63,6 +63,33 @@ TEST_F(RenderSiteTest, NeedsTheDescriptionsAndTheImagesAlone) {
   EXPECT_THAT(ReadWhole(site_.montages() / "photo.uncertainty.csv"), HasSubstr("sigma_major_px"));
 }
 
+// What stands before the lawn on the left stays the photograph; the building is drawn over it.
+TEST_F(RenderSiteTest, HeedsMasksOfPolygons) {
+  const Raster without = RenderSite(site_, {})[0].result.linear;
+  Raster mask(64, 48);
+  for (int y = 0; y < 48; ++y) {
+    for (int x = 40; x < 64; ++x) mask.SetRgb(x, y, Eigen::Vector3d::Ones());
+  }
+  WritePng(site_.survey() / "lawn.png", mask, Encoding::kSrgb8);
+  const std::string polygons = R"({"polygons": [{"name": "lawn", "mask": "lawn.png"}]})";
+  WriteWhole(site_.survey() / "polygons.json", polygons);
+  const RenderSiteReport report = RenderSite(site_, {})[0];
+  const Raster& with = report.result.linear;
+  int kept = 0, alike = 0;
+  for (int y = 0; y < 48; ++y) {
+    for (int x = 0; x < 64; ++x) {
+      const bool was_lawn = with.Rgb(x, y) == small_.photo.Rgb(x, y);
+      if (x < 40) kept += was_lawn && without.Rgb(x, y) != small_.photo.Rgb(x, y);
+      if (x >= 41) alike += (with.Rgb(x, y) - without.Rgb(x, y)).norm() < 0.01;
+    }
+  }
+  EXPECT_GT(kept, 50);        // darkened without the mask
+  EXPECT_GT(alike, 22 * 48);  // what no photograph shows has the mean of the rest
+  EXPECT_GT(report.result.building_pixels, 100);
+  std::filesystem::remove(site_.survey() / "lawn.png");
+  EXPECT_THAT(Complaint(), HasSubstr("lawn.png"));
+}
+
 TEST_F(RenderSiteTest, HoldsNoPictureThatIsWrittenUnlessAskedTo) {
   RenderSiteOptions options;
   const RenderResult kept = RenderSite(site_, options)[0].result;

@@ -32,11 +32,13 @@ TEST(ReadNaturalMaterials, ReadsAllKinds) {
              "diffuse": "from photo"},
     "water": {"specular": "fresnel", "specular_weight": 0.9, "ior": 1.33, "roughness": 0.05,
               "distribution": "beckmann"},
-    "pool": {"use": "water", "roughness": 0.1},
+    "pool": {"use": "water", "roughness": 0.1, "transmission": 0.7},
     "steel": {"specular": "mirror", "specular_weight": 0.6, "diffuse_weight": 0.5}}})"));
   ASSERT_EQ(materials.size(), 4u);
   EXPECT_NEAR(*materials.at("pool").specular->index, 1.333, 2e-3);  // of the library
   EXPECT_EQ(materials.at("pool").specular->roughness.slope, 0.1);
+  EXPECT_EQ(materials.at("pool").transmission, 0.7);
+  EXPECT_EQ(materials.at("lawn").transmission, 0);
   EXPECT_FALSE(materials.at("lawn").specular);
   EXPECT_EQ(materials.at("lawn").diffuse_weight, 1);
   EXPECT_EQ(materials.at("water").specular->weight, 0.9);
@@ -59,6 +61,7 @@ TEST(ReadNaturalMaterials, FaultsNameFileAndLine) {
         << error;
     EXPECT_NE(error.find(message), std::string::npos) << error;
   };
+  expect("\"transmission\": 1.2", 3, "expected 0 to 1");
   expect("\"specular\": \"shiny\"", 3, "expected \"none\", \"fresnel\" or \"mirror\"");
   expect("\"specular\": \"mirror\",\n\"specular_weight\": 1.5", 4, "expected 0 to 1");
   expect("\"specular\": \"mirror\",\n\n\"roughness\": 1.2", 5, "expected 0 to 1");

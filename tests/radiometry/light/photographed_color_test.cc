@@ -72,6 +72,9 @@ class PhotographedColorTest : public testing::Test {
     for (size_t i = 0; i < photos_.size(); ++i) {
       images.emplace_back(scene_.cameras[i], scene_.origin, photos_[i]);
     }
+    if (first_is_masked_) {
+      images[0].shows = [](int polygon, const Eigen::Vector2d&) { return polygon != 0; };
+    }
     const PhotographedSite site = {scene_, rays, polygons.polygon_of_triangle,
                                    images, air_, spectra_};
     const auto color = LookUpColor(site, 0, {{x, y, 0}, {0, 0, up}});
@@ -85,6 +88,7 @@ class PhotographedColorTest : public testing::Test {
     EXPECT_LT((*color - ColorAt({x, y, 0}, photo)).norm(), 0.002) << x << " " << y;
   }
 
+  bool first_is_masked_ = false;  // something stands before the level square
   SceneGeometry scene_;
   std::vector<Raster> photos_;
   Atmosphere air_;
@@ -104,6 +108,13 @@ TEST_F(PhotographedColorTest, WhatThatOneDoesNotShowAnotherDoes) {
   scene_.polygons[0].photo = 1;
   ExpectColor(-4, 3, 0);
   EXPECT_FALSE(LookUp(3, 15));
+}
+
+TEST_F(PhotographedColorTest, WhereItsMaskHidesThePolygonAnotherIsAsked) {
+  ExpectColor(-1, -3.5, 0);
+  first_is_masked_ = true;
+  ExpectColor(-1, -3.5, 1);
+  EXPECT_FALSE(LookUp(-12, 4));  // which the first alone shows
 }
 
 TEST_F(PhotographedColorTest, AsPrintedTheAttributeAloneIsAsked) {

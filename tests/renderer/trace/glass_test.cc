@@ -99,6 +99,59 @@ TEST(Pane, LetsTheSkyThroughToWhatIsBehind) {
   EXPECT_NEAR(Red(scene, light.change) / before, mean - 1, 0.02);
 }
 
+// A surface that stands sees the sky through it at grazing angles, where less comes through.
+TEST(Pane, LetsTheSkyThroughByTheAngleAtWhichItIsMet) {
+  SmallSite site = MakeSmallSite();
+  site.natural.light.sun_radiance.setZero();
+  MontageScene scene = site.With(Plate(site, {0, 0, 0.5}, 90, Pane(1.52, 0)));
+  AddInterreflection(&scene, std::nullopt);
+  const GatheredParts light =
+      scene.interreflected->interreflection.PartsAt({Vector3d(0, 0, 0.2), Vector3d::UnitX()});
+  double through = 0, all = 0;
+  constexpr int kSteps = 200;
+  for (int i = 0; i < kSteps; ++i) {  // rings of height z about the zenith weigh sqrt(1 - z^2)
+    const double z = (i + 0.5) / kSteps, weight = std::sqrt(1 - z * z);
+    through += weight * ThinSheet(z, 1.52, Spectrum::Zero(), 0.01).transmittance[0];
+    all += weight;
+  }
+  const double share = Red(scene, light.sky) / Red(scene, light.sky + light.sky_blocked);
+  EXPECT_NEAR(share, through / all, 0.015);
+}
+
+// The sun's patch on a floor inside is the sun times T at its angle, and the sky's light the sky's
+// times its own.
+TEST(Pane, LightsTheFloorBehindIt) {
+  SmallSite site = MakeSmallSite();
+  site.natural.light.ambient_radiance.setZero();
+  SurfaceMaterial pane = Pane(1.52, 0);
+  pane.glass->absorption_rgb = {60, 15, 30};  // tinted
+  ArtificialEnvironment room = Plate(site, {0, 0, 2}, 60, pane);
+  const ArtificialEnvironment floor =
+      Plate(site, {0, 0, 1}, 1, {"floor", Vector3d::Constant(0.5), 1, std::nullopt});
+  for (const Vector3d& vertex : floor.vertices) room.vertices.push_back(vertex);
+  for (const Eigen::Vector3i& t : floor.triangles) {
+    room.triangles.emplace_back(t + Eigen::Vector3i::Constant(4));
+    room.material_of_triangle.push_back(1);
+  }
+  room.materials.push_back(floor.materials[0]);
+  MontageScene scene = site.With(room);
+  AddInterreflection(&scene, std::nullopt);
+  const SpectralGlass& glass = *scene.artificial_materials[0].glass;
+  const auto T = [&](double cosine) {
+    return ThinSheet(cosine, 1.52, glass.absorption, 0.01).transmittance;
+  };
+  Spectrum of_sky = Spectrum::Zero();
+  for (int i = 0; i < 100; ++i) of_sky += T(std::sqrt((i + 0.5) / 100)) / 100;
+  const Daylight& light = scene.natural.light;
+  const double slant = std::numbers::sqrt2 / 2;
+  const Spectrum E = T(slant) * slant * light.sun_solid_angle * light.sun_radiance +
+                     of_sky * std::numbers::pi * light.sky_radiance;
+  const Vector3d expected = scene.natural.spectra.RgbFromSpectrum(0.5 / std::numbers::pi * E);
+  const Vector3d seen = Seen(scene, {0, -3, 1.5}, {0, 0, 1});  // from below the pane
+  EXPECT_LT((seen - expected).norm(), 0.01 * expected.norm());
+  EXPECT_LT(seen.x(), 0.9 * seen.y());
+}
+
 TEST(TransmittanceAlong, OfABodyIsBothFacesAndTheBentWay) {
   const SmallSite site = MakeSmallSite();
   const MontageScene scene = site.With(Box(site, {-5, -5, 1}, {5, 5, 1.25}, Body(1.5, 4)));

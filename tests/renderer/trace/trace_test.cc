@@ -206,6 +206,19 @@ TEST(CaseD2, LitByTheSameLightAsBeforeIsExactlyUnchanged) {
   EXPECT_TRUE(TracePrimary(scene, Primary(scene, {0, -10, 3}, {0, 0, 0})).rgb.isZero(0));
 }
 
+// What comes from behind a window does not hang on the light on it.
+TEST(CaseD3, DarkensOnlyWhatAWindowDoesNotLetThrough) {
+  SmallSite site = MakeSmallSite();
+  const auto change = [&](double transmission) {
+    site.natural.materials["lawn"].transmission = transmission;
+    const MontageScene scene = site.With(Plate(site, {20, 0, 20}, 2, Grey(0.5)));
+    return TracePrimary(scene, Primary(scene, {0, -10, 3}, {0, 0, 0})).rgb.x();
+  };
+  EXPECT_LT(change(0), -0.1);
+  EXPECT_NEAR(change(0.7), 0.3 * change(0), 1e-6);
+  EXPECT_EQ(change(1), 0);
+}
+
 TEST(CaseD3, BlockedSunIsTheQuotientOfIrradiances) {
   SmallSite site = MakeSmallSite();
   site.natural.light.sky_radiance.setZero();
