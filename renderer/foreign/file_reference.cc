@@ -49,6 +49,16 @@ std::vector<std::string> PartsOf(std::string path) {
   return parts;
 }
 
+bool IsAscii(const std::string& text) {
+  return std::ranges::all_of(text, [](char c) { return static_cast<unsigned char>(c) < 0x80; });
+}
+
+// As keys are equal; of most entries of a large folder it is seen at a glance that they are not.
+bool IsNamed(const std::string& entry, const std::string& name, const std::string& key) {
+  if (IsAscii(entry) && IsAscii(name) && entry.size() != name.size()) return false;
+  return NameKey(entry) == key;
+}
+
 // The entry of a folder of that name, or else of that name in another case.
 std::optional<fs::path> EntryOf(const fs::path& folder, const std::string& name) {
   std::error_code none;
@@ -56,7 +66,7 @@ std::optional<fs::path> EntryOf(const fs::path& folder, const std::string& name)
   std::vector<fs::path> alike;
   const std::string key = NameKey(name);
   for (const fs::directory_entry& entry : fs::directory_iterator(folder, none)) {
-    if (NameKey(entry.path().filename().string()) == key) alike.push_back(entry.path());
+    if (IsNamed(entry.path().filename().string(), name, key)) alike.push_back(entry.path());
   }
   if (alike.empty()) return std::nullopt;
   return *std::ranges::min_element(alike);

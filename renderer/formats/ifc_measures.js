@@ -3,6 +3,7 @@
 'use strict';
 
 const MOST_CORNERS = 2 ** 26;  // of one part: pairs stay exact
+const endsOf = (edge) => [Math.floor(edge / MOST_CORNERS), edge % MOST_CORNERS];
 
 class Measures {
   // visit(x, y, z) with half the cross product of each triangle's sides.
@@ -38,17 +39,47 @@ class Measures {
   // By Gauss's theorem about a vertex of each part; null: an edge without a partner of the other direction.
   volumeOf({ranges, spheres}) {
     let volume = spheres.reduce((sum, radius) => sum + 4 / 3 * Math.PI * radius ** 3, 0);
-    for (const [from, to] of ranges) {
-      const part = this.volumeOfPart(from, to);
+    for (const range of ranges) {
+      const part = this.measured(range);
       if (part === null) return null;
       volume += part;
     }
     return volume;
   }
-  volumeOfPart(from, to) {
+  // Volume of one part, known from then on.
+  measured(range) {
+    if (range.volume === undefined) {
+      const {volume, open} = this.measurePart(...range);
+      range.volume = open.size > 0 ? null : volume;
+    }
+    return range.volume;
+  }
+  // Triangles that a solid lacks, where three open edges go about one, are added at the end of all; how many.
+  fillTriangles(range, surface) {
+    const {volume, open, corners} = this.measurePart(...range);
+    range.volume = open.size > 0 ? null : volume;
+    const next = new Map();  // corner -> corner, the way that a missing face goes
+    for (const [edge, passes] of open) {
+      const [low, high] = endsOf(edge);
+      const [from, to] = passes > 0 ? [high, low] : [low, high];
+      next.set(from, next.has(from) || Math.abs(passes) > 1 ? undefined : to);
+    }
+    const before = this.triangles.length;
+    for (const a of [...next.keys()]) {
+      const b = next.get(a);
+      const c = next.get(b);
+      if (b === undefined || c === undefined || next.get(c) !== a) continue;
+      this.triangles.push(corners[a], corners[b], corners[c], surface);
+      for (const corner of [a, b, c]) next.delete(corner);
+    }
+    if (this.triangles.length > before) [range[1], range.volume] = [this.triangles.length, undefined];
+    return (this.triangles.length - before) / 4;
+  }
+  // Volume, open edges, and which vertex each of their corners is.
+  measurePart(from, to) {
     const {vertices: v, triangles: t} = this;
     const idOf = new Map();  // place to 0.01 mm -> number
-    const places = [];  // by number
+    const corners = [];  // by number
     const numbers = new Map();  // vertex -> number
     const number = (i) => {
       let id = numbers.get(i);
@@ -57,7 +88,7 @@ class Measures {
       id = idOf.get(key);
       if (id === undefined) {
         idOf.set(key, id = idOf.size);
-        places.push([v[3 * i], v[3 * i + 1], v[3 * i + 2]]);
+        corners.push(i);
       }
       numbers.set(i, id);
       return id;
@@ -76,7 +107,8 @@ class Measures {
       step(q, r);
       step(r, p);
     }
-    return this.cutAtCorners(edges, places).size > 0 ? null : Math.abs(volume);
+    const placeOf = (corner) => v.slice(3 * corners[corner], 3 * corners[corner] + 3);
+    return {volume: Math.abs(volume), open: this.cutAtCorners(edges, placeOf), corners};
   }
   addEdge(edges, p, q, passes) {
     if (p === q) return;
@@ -86,18 +118,18 @@ class Measures {
   }
   // web-ifc drops corners on straight lines: an open edge is cut where the corner of another lies on it, as in
   // element_measures.cc.
-  cutAtCorners(edges, places) {
+  cutAtCorners(edges, placeOf) {
     if (edges.size === 0 || edges.size > 2000) return edges;
-    const endsOf = (edge) => [Math.floor(edge / MOST_CORNERS), edge % MOST_CORNERS];
     const corners = new Set([...edges.keys()].flatMap(endsOf));
+    const places = new Map([...corners].map((corner) => [corner, placeOf(corner)]));
     const pieces = new Map();
     for (const [edge, passes] of edges) {
       const [p, q] = endsOf(edge);
-      const way = places[q].map((value, c) => value - places[p][c]);
+      const way = places.get(q).map((value, c) => value - places.get(p)[c]);
       const square = way.reduce((sum, value) => sum + value * value, 0);
       const stops = [[0, p], [1, q]];
       for (const corner of corners) {
-        const offset = places[corner].map((value, c) => value - places[p][c]);
+        const offset = places.get(corner).map((value, c) => value - places.get(p)[c]);
         const along = offset.reduce((sum, value, c) => sum + value * way[c], 0) / square;
         const off = Math.hypot(...offset.map((value, c) => value - along * way[c]));
         if (along > 0 && along < 1 && off <= 1e-5 && corner !== p && corner !== q) stops.push([along, corner]);

@@ -18,6 +18,8 @@ class Reader extends Georeference {
     this.skipped = [];
     this.warnings = [];
     this.shown = new Set();
+    this.filled = [];  // elements of which triangles were missing
+    this.isSolid = new Map();  // element -> by the type of its shapes
     this.partsOf = new Map();  // element -> [from, to) in triangles, spheres
   }
 
@@ -82,7 +84,10 @@ class Reader extends Georeference {
       this.triangles.push(first + indices[i], first + indices[i + 1], first + indices[i + 2], surface);
     }
     if (indices.length > 0) this.shown.add(element);
-    this.partsOf.get(element).ranges.push([start, this.triangles.length]);
+    const range = [start, this.triangles.length];
+    this.partsOf.get(element).ranges.push(range);
+    const added = this.isSolidElement(element) ? this.fillTriangles(range, surface) : 0;
+    if (added > 0) this.filled.push({size: added, text: layer + ' (' + added + ')'});
     geometry.delete();
   }
   // x, y, z, radius of a whole one: all its corners are as far from the middle of its box, and no
@@ -153,21 +158,29 @@ class Reader extends Georeference {
     for (const [what, count] of this.texturesByName()) this.skipped.push([...JSON.parse(what), count]);
   }
 
+  isSolidShape(id, depth = 0) {
+    const shape = this.line(id);
+    if (/^(SweptSolid|AdvancedSweptSolid|Brep|AdvancedBrep|CSG|Clipping|SolidModel)$/.test(String(valueOf(shape.RepresentationType)))) return true;
+    return valueOf(shape.RepresentationType) === 'MappedRepresentation' && depth < 4 && (shape.Items || []).some((item) => {
+      const source = this.line(item.value).MappingSource;
+      const mapped = source && this.line(source.value).MappedRepresentation;
+      return mapped && this.isSolidShape(mapped.value, depth + 1);
+    });
+  }
+  isSolidElement(element) {
+    if (!this.isSolid.has(element)) this.isSolid.set(element, this.shapesOf(element).some((id) => this.isSolidShape(id)));
+    return this.isSolid.get(element);
+  }
   // Elements whose shapes are solids by their type and whose faces leave edges open.
   nameOpenSolids() {
-    const isSolid = (id, depth = 0) => {
-      const shape = this.line(id);
-      if (/^(SweptSolid|AdvancedSweptSolid|Brep|AdvancedBrep|CSG|Clipping|SolidModel)$/.test(String(valueOf(shape.RepresentationType)))) return true;
-      return valueOf(shape.RepresentationType) === 'MappedRepresentation' && depth < 4 && (shape.Items || []).some((item) => {
-        const source = this.line(item.value).MappingSource;
-        const mapped = source && this.line(source.value).MappedRepresentation;
-        return mapped && isSolid(mapped.value, depth + 1);
-      });
-    };
+    if (this.filled.length > 0) {
+      this.warnings.push(this.filled.length + ' elements that are solids in the file lacked triangles, which are filled in: ' +
+        this.listed(this.filled));
+    }
     const open = [];
     let solids = 0;
     for (const [element, part] of this.partsOf) {
-      if (!this.shapesOf(element).some((id) => isSolid(id))) continue;
+      if (!this.isSolidElement(element)) continue;
       ++solids;
       if (this.volume(element) === null) open.push({size: this.areaOf(part), text: part.layer});
     }
@@ -187,7 +200,7 @@ class Reader extends Georeference {
 
   // Net volumes and areas that the file states, held against those of the faces.
   compareQuantities() {
-    this.compare('volume', 'm3', 0.02, 1e-4, this.stated('VolumeValue', 'VOLUMEUNIT', 3, /^(net ?)?volume$/i),
+    this.compare('volume', 'm3', 0.02, 1e-4, this.stated('VolumeValue', 'VOLUMEUNIT', 3, /^(net ?)?volumen?$/i),
       (element) => this.volume(element));
     this.compare('surface area', 'm2', 0.02, 1e-3,
       this.stated('AreaValue', 'AREAUNIT', 2, /^(net|total) ?surface ?area$/i),
@@ -218,18 +231,35 @@ class Reader extends Georeference {
   stated(value, unitType, power, name, kind = /^/) {
     const stated = new Map();
     const unit = this.unitOf(unitType, power);
-    for (const relation of this.lines('IfcRelDefinesByProperties')) {
-      const set = relation.RelatingPropertyDefinition && this.line(relation.RelatingPropertyDefinition.value);
-      for (const reference of (set && set.Quantities) || []) {
-        const quantity = this.line(reference.value);
-        const size = Number(valueOf(quantity[value]));
-        if (!name.test(String(valueOf(quantity.Name))) || !(size > 0)) continue;
-        for (const object of relation.RelatedObjects || []) {
-          if (this.shown.has(object.value) && kind.test(this.kindOf(object.value))) stated.set(object.value, size * unit);
-        }
+    for (const measure of this.statedMeasures()) {
+      if (measure.value !== value || !name.test(measure.name)) continue;
+      for (const element of measure.elements) {
+        if (this.shown.has(element) && kind.test(this.kindOf(element))) stated.set(element, measure.size * unit);
       }
     }
     return stated;
+  }
+  // Areas and volumes of quantities, and of properties in sets of dimensions, as Revit writes them.
+  statedMeasures() {
+    if (this.measures) return this.measures;
+    this.measures = [];
+    for (const relation of this.lines('IfcRelDefinesByProperties')) {
+      const set = relation.RelatingPropertyDefinition && this.line(relation.RelatingPropertyDefinition.value);
+      const isOfSizes = set && /quantit|dimension|abmess|mass|meng/i.test(String(valueOf(set.Name)));
+      const elements = (relation.RelatedObjects || []).map((object) => object.value);
+      for (const reference of (set && (set.Quantities || (isOfSizes && set.HasProperties))) || []) {
+        const line = this.line(reference.value);
+        for (const value of ['AreaValue', 'VolumeValue']) {
+          const size = Number(valueOf(this.measureIn(line, value)));
+          if (size > 0) this.measures.push({name: String(valueOf(line.Name)), value, size, elements});
+        }
+      }
+    }
+    return this.measures;
+  }
+  measureIn(line, value) {
+    const {NominalValue} = line;
+    return NominalValue && NominalValue.name === 'IFC' + value.replace('Value', 'Measure').toUpperCase() ? NominalValue : line[value];
   }
 }
 

@@ -2,22 +2,17 @@
 #include "renderer/mesh/element_measures.h"
 
 #include <Eigen/Geometry>
-#include <cstdint>
-#include <iterator>
 #include <map>
 #include <numbers>
-#include <set>
-#include <unordered_map>
 #include <vector>
 
 #include "renderer/mesh/near_vertices.h"
+#include "renderer/mesh/open_edges.h"
 
 namespace insitu {
 namespace {
 
 using Eigen::Vector3d;
-// Smaller vertex first -> passes one way less the other.
-using EdgeCounts = std::unordered_map<uint64_t, int>;
 
 // Sums over the faces of one layer, about its first vertex: far coordinates lose nothing.
 struct MeasureSums {
@@ -26,45 +21,6 @@ struct MeasureSums {
   double sphere_area = 0, sphere_volume = 0;
   EdgeCounts edges;
 };
-
-void AddEdge(int from, int to, int passes, EdgeCounts* edges) {
-  if (from == to) return;
-  const bool upwards = from < to;
-  const auto low = static_cast<uint64_t>(upwards ? from : to);
-  const auto high = static_cast<uint64_t>(upwards ? to : from);
-  const auto edge = edges->try_emplace(low << 32 | high, 0).first;
-  edge->second += upwards ? passes : -passes;
-  if (edge->second == 0) edges->erase(edge);
-}
-
-int LowOf(uint64_t edge) { return static_cast<int>(edge >> 32); }
-int HighOf(uint64_t edge) { return static_cast<int>(edge & 0xFFFFFFFF); }
-
-// Cut at the corners of others that lie on them: a side that has three neighbours, as some kernels
-// leave it, has no gap. Of so many open edges that this would take long, as they are.
-EdgeCounts CutAtCorners(const EdgeCounts& edges, const std::vector<Vector3d>& vertices) {
-  constexpr size_t kMost = 2000;
-  if (edges.empty() || edges.size() > kMost) return edges;
-  std::set<int> corners;
-  for (const auto& [edge, passes] : edges) corners.insert({LowOf(edge), HighOf(edge)});
-  EdgeCounts pieces;
-  for (const auto& [edge, passes] : edges) {
-    const Vector3d& from = vertices[LowOf(edge)];
-    const Vector3d way = vertices[HighOf(edge)] - from;
-    std::map<double, int> stops;
-    for (const int corner : corners) {
-      const double along = (vertices[corner] - from).dot(way) / way.squaredNorm();
-      const double off = (vertices[corner] - from - along * way).norm();
-      if (along > 0 && along < 1 && off <= kJoinTolerance) stops[along] = corner;
-    }
-    stops[0] = LowOf(edge);
-    stops[1] = HighOf(edge);
-    for (auto stop = stops.begin(), next = std::next(stop); next != stops.end(); ++stop, ++next) {
-      AddEdge(stop->second, next->second, passes, &pieces);
-    }
-  }
-  return pieces;
-}
 
 // `first` tells which vertices are one.
 void AddTriangle(const ModelMesh& mesh, const Eigen::Vector3i& triangle,

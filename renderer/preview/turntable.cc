@@ -17,6 +17,7 @@
 #include "calibration/program/html_text.h"
 #include "reconstruction/geometry/sphere_facets.h"
 #include "renderer/building/shown_environment.h"
+#include "renderer/mesh/open_edges.h"
 #include "renderer/preview/turntable_script.h"
 
 namespace insitu {
@@ -45,7 +46,7 @@ std::string Base64(const std::vector<T>& values) {
   return text;
 }
 
-// Ends of edges that one triangle alone has.
+// Ends of edges that one triangle alone has, and no row of others along them.
 std::vector<uint32_t> OpenEdges(const ArtificialEnvironment& building) {
   std::unordered_map<uint64_t, int> faces_of_edge;
   const auto key_of = [](int a, int b) {
@@ -54,10 +55,15 @@ std::vector<uint32_t> OpenEdges(const ArtificialEnvironment& building) {
   for (const Eigen::Vector3i& t : building.triangles) {
     for (int i = 0; i < 3; ++i) ++faces_of_edge[key_of(t[i], t[(i + 1) % 3])];
   }
-  std::vector<uint64_t> open;
-  for (const auto& [key, count] : faces_of_edge) {
-    if (count == 1) open.push_back(key);
+  EdgeCounts alone;
+  for (const Eigen::Vector3i& t : building.triangles) {
+    for (int i = 0; i < 3; ++i) {
+      const int from = t[i], to = t[(i + 1) % 3];
+      if (faces_of_edge.at(key_of(from, to)) == 1) AddEdge(from, to, 1, &alone);
+    }
   }
+  std::vector<uint64_t> open;
+  for (const auto& [key, passes] : CutAtCorners(alone, building.vertices)) open.push_back(key);
   std::ranges::sort(open);  // the same bytes on every machine
   std::vector<uint32_t> ends;
   for (const uint64_t key : open) {

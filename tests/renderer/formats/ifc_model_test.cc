@@ -96,6 +96,14 @@ TEST(IfcModel, StatedVolumesAreHeldAgainstTheFaces) {
     return ReadIfc(folder.Write("a.ifc", text), 60).warnings;
   };
   EXPECT_TRUE(warnings("5097.").empty());
+  const ScratchFolder folder;
+  std::string text = kBox;  // as Revit says it
+  text.insert(text.rfind("ENDSEC;"),
+              "#90=IFCPROPERTYSINGLEVALUE('Volume',$,IFCVOLUMEMEASURE(6.),$);\n"
+              "#91=IFCPROPERTYSET('a',$,'PSet_Revit_Dimensions',$,(#90));\n"
+              "#92=IFCRELDEFINESBYPROPERTIES('b',$,$,$,(#18),#91);\n");
+  EXPECT_THAT(ReadIfc(folder.Write("a.ifc", text), 60).warnings,
+              testing::ElementsAre(HasSubstr("5.097 m3, stated 6.000")));
   const std::vector<std::string> off = warnings("6000.");
   ASSERT_EQ(off.size(), 1u);
   EXPECT_THAT(off[0], HasSubstr("1 of 1 elements that state their volume have another"));

@@ -14,9 +14,14 @@
 namespace insitu {
 namespace {
 
+// In a folder of its own: the files that a model names are sought about it.
 const std::filesystem::path& FuzzedFile() {
-  static const std::filesystem::path path =
-      std::filesystem::temp_directory_path() / ("convert_fuzzer_" + std::to_string(getpid()));
+  static const std::filesystem::path path = [] {
+    const std::string name = "convert_fuzzer_" + std::to_string(getpid());
+    const std::filesystem::path folder = std::filesystem::temp_directory_path() / name;
+    std::filesystem::create_directories(folder);
+    return folder / "model";
+  }();
   return path;
 }
 

@@ -46,6 +46,16 @@ TEST_F(TurntablePage, HoldsAllThatItNeeds) {
   EXPECT_THAT(page, HasSubstr("\"open_edges\":\"AAAAAAEAAAAAAAAAAwAAAAEAAAACAAAAAgAAAAMAAAA=\""));
 }
 
+// The long side of one triangle, the two halves of others: no gap.
+TEST_F(TurntablePage, SidesWithSeveralNeighboursAreNotOpen) {
+  ArtificialEnvironment building = Square();
+  building.vertices.emplace_back(2600001, 1, 0);
+  building.triangles = {{0, 1, 2}, {0, 4, 3}, {4, 2, 3}};
+  building.material_of_triangle = {0, 0, 0};
+  const std::string page = Turntable(building, {{"a"}, {0, 0, 0}});
+  EXPECT_THAT(page, HasSubstr("\"open_edges\":\"AAAAAAEAAAAAAAAAAwAAAAEAAAACAAAAAgAAAAMAAAA=\""));
+}
+
 TEST_F(TurntablePage, IsLeftOutWithoutThree) {
   setenv("INSITU_THREE", "/nowhere", 1);
   EXPECT_EQ(Turntable(Square(), {{"a"}, {0, 0}}), "");
