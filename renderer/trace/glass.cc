@@ -10,7 +10,6 @@
 #include "renderer/trace/mirror.h"
 #include "renderer/trace/sampling.h"
 #include "renderer/trace/through_glass.h"
-#include "renderer/trace/trace.h"
 
 namespace insitu {
 namespace {
@@ -102,7 +101,7 @@ class BodyPath {
 class RoughGlassFace {
  public:
   RoughGlassFace(const MontageScene& scene, const SceneHit& hit, const SpectralMaterial& material,
-                 const Ray& ray, const LightDirections& light, int depth)
+                 const Ray& ray, const LightDirections& light, int depth, const TraceFurther& trace)
       : scene_(scene),
         material_(scene.material_of_triangle[hit.index]),
         mirrors_(material.specular ? material.specular->weight : 0),
@@ -111,7 +110,8 @@ class RoughGlassFace {
         frame_(FrameAbout(hit.surface.normal)),
         view_(frame_.transpose() * -ray.direction),
         light_(light),
-        depth_(depth) {}
+        depth_(depth),
+        trace_(trace) {}
 
   Spectrum Color() const {
     const int facets = depth_ == 0 ? kFacetsPerRay : 1;
@@ -143,9 +143,7 @@ class RoughGlassFace {
     if (i > 0) further.seed = SplitMix64(light_.seed + i);
     PathNumbers numbers{SplitMix64(further.seed + 4 * static_cast<uint64_t>(depth_) + 3)};
     const GlassFacet facet = Outside().Choose(view_, SpreadAfter(FacetChoice(light_, depth_), i));
-    const TraceRay trace = [&](const Ray& out) {
-      return TraceSecondary(scene_, out, further, World::kWithBuilding, depth_ + 1);
-    };
+    const TraceRay trace = [&](const Ray& out) { return trace_(out, further); };
     const auto mirrored = [&] { return trace(From(true, frame_ * facet.mirrored)); };
     const auto behind = [&] {
       return glass_.is_solid ? ThroughBody(frame_ * facet.refracted, &numbers, trace)
@@ -228,6 +226,7 @@ class RoughGlassFace {
   Vector3d view_;  // in that frame
   const LightDirections& light_;
   int depth_;
+  const TraceFurther& trace_;
 };
 
 }  // namespace
@@ -246,23 +245,22 @@ LightDirections Part(LightDirections light, const MontageScene& scene, const Spe
 
 Spectrum GlassColor(const MontageScene& scene, const SceneHit& hit,
                     const SpectralMaterial& material, const Ray& ray, const LightDirections& light,
-                    int depth, const std::function<Spectrum()>& straight_on) {
+                    int depth, const std::function<Spectrum()>& straight_on,
+                    const TraceFurther& trace) {
   const int index = scene.material_of_triangle[hit.index];
   const SpectralGlass& glass = *material.glass;
   if (glass.rough && !scene.as_printed) {
-    return RoughGlassFace(scene, hit, material, ray, light, depth).Color();
+    return RoughGlassFace(scene, hit, material, ray, light, depth, trace).Color();
   }
   const double cosine = std::min(1.0, -ray.direction.dot(hit.surface.normal));
   const double mirrors = material.specular ? material.specular->weight : 0;
   // A pane mirrors it, at two faces; a body lets most of it through.
   const LightDirections further =
       glass.is_solid ? light : Part(light, scene, 2 * MirrorReflectance(material, cosine));
-  const TraceRay trace = [&](const Ray& out) {
-    return TraceSecondary(scene, out, further, World::kWithBuilding, depth + 1);
-  };
+  const TraceRay trace_ray = [&](const Ray& out) { return trace(out, further); };
   const auto mirrored = [&] {
-    return trace({hit.surface.position + kBuildingClearance * hit.surface.normal,
-                  MirroredDirection(ray.direction, hit.surface.normal)});
+    return trace_ray({hit.surface.position + kBuildingClearance * hit.surface.normal,
+                      MirroredDirection(ray.direction, hit.surface.normal)});
   };
   const double choice = PathChoice(light, depth);
   RayParts* const parts = depth == 0 ? light.parts : nullptr;
@@ -275,7 +273,7 @@ Spectrum GlassColor(const MontageScene& scene, const SceneHit& hit,
   const auto inside = [&] {
     const auto direction = Refracted(ray.direction, hit.surface.normal, glass.index);
     const Ray within = {hit.surface.position - kStep * hit.surface.normal, *direction};
-    return BodyPath(scene, index, trace).Follow(within, 1, 0);
+    return BodyPath(scene, index, trace_ray).Follow(within, 1, 0);
   };
   return Both(Spectrum::Constant(F), Spectrum::Constant(glass.weight * (1 - F)), mirrored, inside,
               depth, choice, parts);

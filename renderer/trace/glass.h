@@ -10,6 +10,9 @@
 
 namespace insitu {
 
+// What a ray brings that goes on by a face of glass.
+using TraceFurther = std::function<Spectrum(const Ray& ray, const LightDirections& light)>;
+
 // Radiance of a face of glass towards where the ray comes from, what meets its diffuse part left
 // out; `material` is it there. A pane shows its mirror image and, undeviated, what `straight_on`
 // returns: the radiance that reaches it from behind along the ray. A body refracts and mirrors at
@@ -18,7 +21,8 @@ namespace insitu {
 // that one by chance.
 Spectrum GlassColor(const MontageScene& scene, const SceneHit& hit,
                     const SpectralMaterial& material, const Ray& ray, const LightDirections& light,
-                    int depth, const std::function<Spectrum()>& straight_on);
+                    int depth, const std::function<Spectrum()>& straight_on,
+                    const TraceFurther& trace);
 
 // The share that it mirrors at this cosine, 0..1.
 Spectrum GlassReflectance(const SpectralMaterial& glass, double cosine);

@@ -314,19 +314,20 @@ BumpedSurface BumpedAt(const MontageScene& scene, const SurfacePoint& surface,
   return bumped;
 }
 
-BumpedSurface BuildingSurfaceAt(const MontageScene& scene, const SceneHit& hit,
+BumpedSurface BuildingSurfaceAt(const MontageScene& scene, const SurfacePoint& surface,
+                                const FacePlace& place, double distance,
                                 const Eigen::Vector3d& to_viewer, double choice) {
-  BumpedSurface found{hit.surface, scene.MaterialOfTriangle(hit.index)};
+  BumpedSurface found{surface, scene.MaterialOfTriangle(place.triangle)};
   if (scene.textures) {
     const SurfaceTextures& textures = *scene.textures;
-    if (const auto albedo = textures.Albedo(*hit.place, hit.distance, -to_viewer)) {
+    if (const auto albedo = textures.Albedo(place, distance, -to_viewer)) {
       found.material.brdf = scene.natural.spectra.ReflectanceFromRgb(*albedo) / std::numbers::pi;
     }
-    const MapValues maps = textures.Maps(*hit.place, hit.distance, -to_viewer);
-    ApplyMaps(maps, *hit.place, to_viewer, choice, &found);
+    const MapValues maps = textures.Maps(place, distance, -to_viewer);
+    ApplyMaps(maps, place, to_viewer, choice, &found);
   }
   if (found.material.glass) return found;
-  return BumpedAt(scene, found.surface, found.material, to_viewer, hit.distance);
+  return BumpedAt(scene, found.surface, found.material, to_viewer, distance);
 }
 
 double TransmissionAt(const MontageScene& scene, const FacePlace& place,

@@ -11,7 +11,6 @@
 #include "renderer/building/artificial_environment.h"
 #include "renderer/trace/irradiance_map.h"
 #include "renderer/trace/montage_scene.h"
-#include "renderer/trace/scene_hit.h"
 
 namespace insitu {
 
@@ -68,9 +67,11 @@ BumpedSurface BumpedAt(const MontageScene& scene, const SurfacePoint& surface,
                        const SpectralMaterial& material, const Eigen::Vector3d& to_viewer,
                        double distance);
 
-// A face of the building as a ray meets it: its material there by textures and maps, its normal by
-// relief and bumps. What is metal in part is metal where `choice`, in [0, 1), says so.
-BumpedSurface BuildingSurfaceAt(const MontageScene& scene, const SceneHit& hit,
+// A face of the building as a ray meets it, `distance` [m] on: its material there by textures and
+// maps, its normal by relief and bumps. What is metal in part is metal where `choice`, in [0, 1),
+// says so.
+BumpedSurface BuildingSurfaceAt(const MontageScene& scene, const SurfacePoint& surface,
+                                const FacePlace& place, double distance,
                                 const Eigen::Vector3d& to_viewer, double choice);
 
 // Share of what glass does not mirror that goes through where a ray of unit `direction` meets it.

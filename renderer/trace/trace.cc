@@ -210,14 +210,17 @@ Spectrum IrradianceOfBuilding(const MontageScene& scene, const SurfacePoint& sur
 Spectrum FaceColor(const MontageScene& scene, const SceneHit& hit, const Ray& ray,
                    const LightDirections& light, int depth,
                    const std::function<Spectrum()>& straight_on) {
-  const auto [surface, material] =
-      BuildingSurfaceAt(scene, hit, -ray.direction, PathChoice(light, depth));
+  const auto [surface, material] = BuildingSurfaceAt(scene, hit.surface, *hit.place, hit.distance,
+                                                     -ray.direction, PathChoice(light, depth));
   if (!material.glass) {
     return BuildingColor(scene, surface, material, -ray.direction, light, depth,
                          LightAround(scene, hit),
                          material.IsTranslucent() ? LightBehind(scene, hit) : std::nullopt);
   }
-  const Spectrum glass = GlassColor(scene, hit, material, ray, light, depth, straight_on);
+  const auto trace = [&](const Ray& further, const LightDirections& of) {
+    return TraceSecondary(scene, further, of, World::kWithBuilding, depth + 1);
+  };
+  const Spectrum glass = GlassColor(scene, hit, material, ray, light, depth, straight_on, trace);
   if (material.glass->weight >= 1) return glass;
   SpectralMaterial ground = material;  // what is neither mirrored nor goes through
   ground.specular.reset();
