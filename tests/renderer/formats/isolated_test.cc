@@ -33,8 +33,20 @@ TEST(Isolated, ACrashOrAnEndlessLoopThereIsAFailureHere) {
 
 TEST(Isolated, BringsTheWholeModel) {
   Model model;
-  model.mesh.surfaces = {
-      {"a", "b", "c", Vector3d(1, 0.5, 0), 0.3, "t.png", "m:1", true, 1.33, Vector3d(1, 2, 3)}, {}};
+  model.mesh.surfaces = {{.layer = "a",
+                          .block = "b",
+                          .material = "c",
+                          .rgb = Vector3d(1, 0.5, 0),
+                          .opacity = 0.3,
+                          .texture = "t.png",
+                          .texture_place = "m:1",
+                          .maps = {{.kind = SurfaceMap::Kind::kNormal, .file = "n.png"}},
+                          .is_solid = true,
+                          .index = 1.33,
+                          .absorption_rgb = Vector3d(1, 2, 3),
+                          .diffuse_weight = 0.5,
+                          .translucent_rgb = Vector3d(0.1, 0.2, 0.3)},
+                         {}};
   model.mesh.vertices = {{1, 2, 3}, {4, 5, 6}, {7, 8, 1e9 / 3}};
   model.mesh.triangles = {{0, 1, 2}};
   model.mesh.surface_of_triangle = {1};

@@ -52,12 +52,13 @@ TEST(GlassBall, RefractsAsItsClosedForm) {
     const auto hit = FindHit(scene, ray, World::kWithBuilding);
     ASSERT_TRUE(hit && hit->is_building);
     std::vector<Ray> left;  // mirrored, then through, then by a reflection within ...
-    const auto trace = [&](const Ray& out) {
+    const auto trace = [&](const Ray& out, const LightDirections&) {
       left.push_back(out);
       return Spectrum::Ones().eval();
     };
     GlassColor(
-        scene, *hit, ray, Along(scene), 0, [] { return Spectrum::Zero().eval(); }, trace);
+        scene, *hit, scene.MaterialOfTriangle(hit->index), ray, Along(scene), 0,
+        [] { return Spectrum::Zero().eval(); }, trace);
     ASSERT_GE(left.size(), 2u);
     const double i = std::asin(sine), t = std::asin(sine / 1.5);
     const double mirrored = std::numbers::pi - 2 * i, bent = 2 * (i - t);  // turns
