@@ -69,11 +69,20 @@ class Measures {
       const b = next.get(a);
       const c = next.get(b);
       if (b === undefined || c === undefined || next.get(c) !== a) continue;
+      if (this.hasFace(range, [a, b, c].map((corner) => corners[corner]))) continue;  // its back: a face alone
       this.triangles.push(corners[a], corners[b], corners[c], surface);
       for (const corner of [a, b, c]) next.delete(corner);
     }
     if (this.triangles.length > before) [range[1], range.volume] = [this.triangles.length, undefined];
     return (this.triangles.length - before) / 4;
+  }
+  hasFace([from, to], vertices) {
+    const keyOf = (i) => [0, 1, 2].map((c) => Math.round(this.vertices[3 * i + c] * 1e5)).join();
+    const keys = vertices.map(keyOf);
+    for (let i = from; i < to; i += 4) {
+      if ([0, 1, 2].every((corner) => keys.includes(keyOf(this.triangles[i + corner])))) return true;
+    }
+    return false;
   }
   // Volume, open edges, and which vertex each of their corners is.
   measurePart(from, to) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "renderer/formats/model_file.h"
 
+#include <algorithm>
 #include <fstream>
 #include <functional>
 #include <string_view>
@@ -89,8 +90,16 @@ Model ReadDxfFile(const std::filesystem::path& path, const DxfOptions& options) 
                   [&](const auto& file) { return ReadDxf(file, of_copy); });
 }
 
+// web-ifc takes a second a megabyte: what takes far longer has no end.
+int SecondsOfSize(const std::filesystem::path& path, int seconds) {
+  constexpr double kAtLeast = 60, kBytesPerSecond = 5e4;
+  const double expected = kAtLeast + static_cast<double>(file_size(path)) / kBytesPerSecond;
+  return static_cast<int>(std::min<double>(seconds, expected));
+}
+
 // Old exporters write names in Windows-1252, where IFC has ASCII and its own codes.
-Model ReadIfcFile(const std::filesystem::path& path, int seconds) {
+Model ReadIfcFile(const std::filesystem::path& path, int most_seconds) {
+  const int seconds = SecondsOfSize(path, most_seconds);
   if (!IsUtf16File(path) && IsUtf8File(path)) return ReadIfc(path, seconds);
   std::string text = DecodedText(ReadWhole(path));
   if (!IsUtf8(text)) text = PlainText(path, std::move(text));

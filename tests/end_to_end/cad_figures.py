@@ -198,6 +198,9 @@ def house():
         check(len(found) == count, f'FZK-Haus: {len(found)} {kind.strip("_")}')
     names = [m['name'] for m in one.description['materials']]
     check('Glas' in names, 'FZK-Haus: its glass is there')
+    opened = [name for name, element in one.report['elements'].items()
+              if element['volume_m3'] is None and not name.startswith('IfcFurnishingElement_')]
+    check(not opened, f'FZK-Haus: but for furniture, which the file leaves open, open are {opened}')
     # The walls of the ground floor: 12 m x 10 m.
     low = one.vertices[(one.vertices[:, 2] > 0.5) & (one.vertices[:, 2] < 2.0)]
     size = low.max(axis=0) - low.min(axis=0)
