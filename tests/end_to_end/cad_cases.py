@@ -96,7 +96,7 @@ def ifc():
     Converted(boolean + '/f09_bool_extruded').area(228, 176)
     Converted(boolean + '/f11_niche').area(222, 178)
     Converted(boolean, '336--beam--segfault--1--augmented.ifc').area(0.119)
-    Converted(boolean, '331--slab--segfault--augmented.ifc').area(50.5, 4.77828)
+    Converted(boolean, '331--slab--segfault--augmented.ifc').area(50.5)
     read = Converted('04-ifc-ownerhistory-nosite/f04_ownerhistory_missing')
     read.check(read.status == 0, f'status {read.status}')
     # As OpenCASCADE has it: web-ifc alone lacks a triangle of 0.323 m2.
