@@ -11,6 +11,7 @@
 #include "radiometry/light/fresnel.h"
 #include "renderer/building/data_map.h"
 #include "renderer/building/shown_environment.h"
+#include "renderer/trace/scene_hit.h"
 #include "renderer/trace/through_glass.h"
 #include "tests/calibration/files/scratch_folder.h"
 #include "tests/renderer/trace/small_site.h"
@@ -200,7 +201,8 @@ class MappedPlateTest : public testing::Test {
   static BumpedSurface At(const MontageScene& scene, double x) {
     const Ray ray = {{x, 0, 3}, -Eigen::Vector3d::UnitZ()};
     const auto hit = FindHit(scene, ray, World::kWithBuilding);
-    return BuildingSurfaceAt(scene, hit.value(), Eigen::Vector3d::UnitZ(), 0.5);
+    return BuildingSurfaceAt(scene, hit.value().surface, hit->place.value(), hit->distance,
+                             Eigen::Vector3d::UnitZ(), 0.5);
   }
 
   ScratchFolder folder_;
