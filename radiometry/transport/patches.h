@@ -26,7 +26,7 @@ struct ClearFaces {
   const TriangleMesh& mesh;
   const RayScene& rays;                      // of `mesh`
   const std::vector<int>& kind_of_triangle;  // index into transmittance
-  // 0..1, by the cosine at which light meets it: of the middle of a class of its square.
+  // 0..1, by the cosine at which light meets it: of the middle of each of equal classes.
   static constexpr int kClasses = 16;
   std::vector<std::array<Spectrum, kClasses>> transmittance;
   // Of the building along a ray, 0 behind what is opaque.

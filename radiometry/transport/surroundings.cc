@@ -2,6 +2,7 @@
 #include "radiometry/transport/surroundings.h"
 
 #include <algorithm>
+#include <cmath>
 #include <array>
 #include <limits>
 #include <span>
@@ -38,10 +39,9 @@ uint32_t ClassOfCosine(const TriangleMesh& mesh, const RayHit& hit, const Ray& r
   const Eigen::Vector3d normal =
       hit.sphere_normal ? *hit.sphere_normal
                         : (corner(1) - corner(0)).cross(corner(2) - corner(0)).normalized().eval();
-  const double cosine = normal.dot(ray.direction);
+  const double cosine = std::abs(normal.dot(ray.direction));
   constexpr int kLast = ClearFaces::kClasses - 1;
-  return static_cast<uint32_t>(
-      std::min(kLast, static_cast<int>(cosine * cosine * ClearFaces::kClasses)));
+  return static_cast<uint32_t>(std::min(kLast, static_cast<int>(cosine * ClearFaces::kClasses)));
 }
 
 }  // namespace

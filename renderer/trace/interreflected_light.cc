@@ -156,7 +156,7 @@ std::array<Spectrum, ClearFaces::kClasses> TransmittancesOf(const MontageScene& 
                               : Spectrum::Ones().eval();
   std::array<Spectrum, ClearFaces::kClasses> classes;
   for (int i = 0; i < ClearFaces::kClasses; ++i) {
-    const double cosine = std::sqrt((i + 0.5) / ClearFaces::kClasses);
+    const double cosine = (i + 0.5) / ClearFaces::kClasses;
     classes[i] = glass.weight * within *
                  (glass.is_solid ? Spectrum::Constant(FaceTransmittance(glass, cosine)).eval()
                                  : PaneOptics(glass, cosine).transmittance);
