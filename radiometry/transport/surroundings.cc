@@ -2,8 +2,8 @@
 #include "radiometry/transport/surroundings.h"
 
 #include <algorithm>
-#include <cmath>
 #include <array>
+#include <cmath>
 #include <limits>
 #include <span>
 #include <utility>
