@@ -36,7 +36,7 @@ check 'insitu --help tells the stages in their order' help_has_stages_in_order
 every_command_explains_itself() {
   local command
   for command in $("$insitu" --help | sed -n 's/^  \([a-z-]*\) .*/\1/p'); do
-    "$insitu" "$command" --help | grep -q "^Usage: insitu-$command" || { printf '%s' "$command" && return 1; }
+    grep -q "^Usage: insitu-$command" < <("$insitu" "$command" --help) || { printf '%s' "$command" && return 1; }
     [[ $("$insitu" "$command" --version) == "insitu-$command "* ]] || return 1
   done
 }

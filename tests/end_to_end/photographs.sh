@@ -22,7 +22,7 @@ with_photo() {
 with_photo dng
 "$WRITE_PHOTOGRAPH" raw "$photo" "$target"
 program() { "$INSITU_BIN/insitu-$1" "$site" "${@:2}" >/dev/null; }
-depth_of() { oiiotool --info -v "$1" | grep -m 1 -oE 'uint(8|16)|half|float'; }
+depth_of() { grep -m 1 -oE 'uint(8|16)|half|float' < <(oiiotool --info -v "$1"); }
 has_depth() {
   local depth
   depth=$(depth_of "$site/montages/$name.$1")
