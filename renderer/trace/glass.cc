@@ -23,6 +23,9 @@ constexpr int kMostInterior = 12;   // faces met inside a body
 constexpr double kLittle = 0.02;    // share of light inside a body that is not followed any more
 constexpr double kStep = 1e-4;      // [m], off a face of a body
 constexpr int kMostScattered = 64;  // faces met inside a rough one
+// Of what a camera ray's facet of rough glass lets through: behind it lies whatever stands there,
+// the sun's patches on a floor beside its walls.
+constexpr int kWaysPerFacet = 4;
 
 // Light at a pane or an interface: what it mirrors and what it lets through, by functions that
 // find it out. Deep in a path only one of them is asked, and stands for both. `parts` of a camera
@@ -145,9 +148,14 @@ class RoughGlassFace {
     const GlassFacet facet = Outside().Choose(view_, SpreadAfter(FacetChoice(light_, depth_), i));
     const TraceRay trace = [&](const Ray& out) { return trace_(out, further); };
     const auto mirrored = [&] { return trace(From(true, frame_ * facet.mirrored)); };
+    const int ways = depth_ == 0 ? kWaysPerFacet : 1;
     const auto behind = [&] {
-      return glass_.is_solid ? ThroughBody(frame_ * facet.refracted, &numbers, trace)
-                             : ThroughPane(facet.refracted, &numbers, trace);
+      Spectrum sum = Spectrum::Zero();
+      for (int way = 0; way < ways; ++way) {
+        sum += glass_.is_solid ? ThroughBody(frame_ * facet.refracted, &numbers, trace)
+                               : ThroughPane(facet.refracted, &numbers, trace);
+      }
+      return Spectrum(sum / ways);
     };
     return Both(Spectrum::Constant(mirrors_ * facet.mirrors),
                 Spectrum::Constant(glass_.weight * facet.lets_through), mirrored, behind, depth_,
