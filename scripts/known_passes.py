@@ -51,12 +51,13 @@ def machine():
 
 @functools.cache
 def project(build):
-    """Every program, and every file that none is compiled from, committed or not."""
+    """Every program of ours that is installed, and every file that none is compiled from, committed or not."""
     listed = subprocess.run(["git", "-C", ROOT, "ls-files", "-z", "--cached", "--others", "--exclude-standard"],
                             stdout=subprocess.PIPE, text=True, check=True).stdout
     files = [os.path.join(ROOT, name) for name in sorted(set(listed.split("\0")) - {""} - UNREAD)
              if not name.endswith(COMPILED)]
-    programs = [os.path.join(build, "bin", name) for name in sorted(os.listdir(os.path.join(build, "bin")))]
+    programs = [os.path.join(build, "bin", name) for name in sorted(os.listdir(os.path.join(build, "bin")))
+                if name.startswith("insitu")]  # not benchmarks, which no test runs
     return digest(digest_of_files(files), digest_of_files(programs))
 
 
