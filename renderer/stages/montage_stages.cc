@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "calibration/files/error.h"
+#include "calibration/foreground_matte.h"
 #include "calibration/program/report_paths.h"
 #include "calibration/site_cameras.h"
 #include "radiometry/library/material_library.h"
@@ -127,10 +128,22 @@ Paths Building(const MontageRequest& request) {
   return {request.site.artificial(), request.site.artificial().replace_extension(".bin")};
 }
 
+// Of polygons, and what names them. A faulty survey is told by the stage that reads it first.
+Paths Masks(const SitePaths& site) {
+  Paths masks = {site.survey() / "polygons.json"};
+  try {
+    for (const auto& [polygon, file] : PolygonMasks(site)) masks.push_back(site.survey() / file);
+  } catch (const InputError&) {
+    return masks;
+  }
+  return masks;
+}
+
 Paths RenderInputs(const MontageRequest& request) {
   const SitePaths& site = request.site;
   Paths inputs = {site.environment(), site.input_image("").parent_path(), site.photos(),
                   site.survey() / "foreground", site.survey() / "shadows"};
+  for (const fs::path& mask : Masks(site)) inputs.push_back(mask);
   if (!site.hour.empty()) inputs.push_back(site.hours() / site.hour);
   if (request.with_building) inputs.push_back(site.building());  // textures
   return inputs += Building(request);

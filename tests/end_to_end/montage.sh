@@ -74,6 +74,23 @@ printf '{"constraints": []}\n' >"$site/survey/constraints.json"
 check 'a new file is said' explains 'reconstruct +runs: survey/constraints.json is new'
 rm -- "$site/survey/constraints.json"
 check 'and one that is gone' explains 'reconstruct +runs: survey/constraints.json is gone'
+draw_mask() { # of a polygon, in its photograph: all of it is seen
+  /usr/bin/python3 - "$site/survey" <<'PYTHON'
+import json, sys
+import cv2, numpy
+survey = sys.argv[1]
+with open(f"{survey}/polygons.json", encoding="utf-8") as file:
+    told = json.load(file)
+polygon = next(one for one in told["polygons"] if one.get("photo"))
+polygon["mask"] = "mask.png"
+with open(f"{survey}/polygons.json", "w", encoding="utf-8") as file:
+    json.dump(told, file)
+height, width = cv2.imread(f"{survey}/../photos/{polygon['photo']}.jpg").shape[:2]
+cv2.imwrite(f"{survey}/mask.png", numpy.full((height, width), 255, numpy.uint8))
+PYTHON
+}
+draw_mask
+check 'the mask of a polygon is an input of rendering' explains 'render +runs: .*survey/mask.png is new'
 rm -- "$site/work/environment.json"
 check 'a missing result is made again' explains 'light +runs: work/environment.json is missing'
 printf ' ' >>"$site/work/environment.json"
