@@ -24,7 +24,7 @@ constexpr double kUnseenSigma = 0.5;  // of what unseen surroundings are taken t
 constexpr double kCurved = 1e-3;      // share by which twice a code is not twice the light
 // While samples are being chosen: at once, within a fraction of the sigmas.
 constexpr SurroundingsDetail kSoFar = {
-    .directions = 1024, .piece_m = 0.6, .piece_directions = 64, .rounds = 2};
+    .directions = 1024, .piece_m = 0.8, .piece_directions = 32, .rounds = 2};
 
 std::map<std::string, NaturalMaterial> MaterialsOfPolygons(const SitePaths& site,
                                                            const SceneGeometry& scene,
@@ -177,12 +177,11 @@ std::vector<DaylightSample> DaylightSamples(const LightMeasurement& measured,
 }
 
 // What the samples receive from around, if the light is that of `fit`.
-void SetSurroundings(const PhotographedLight& light, const std::vector<SurfacePoint>& points,
-                     const Spectrum& brdf, std::vector<DaylightSample>* samples,
-                     std::vector<double>* unseen) {
+void SetSurroundings(const PhotographedLight& light, const Spectrum& brdf,
+                     std::vector<DaylightSample>* samples, std::vector<double>* unseen) {
   unseen->clear();
-  for (size_t i = 0; i < points.size(); ++i) {
-    const GatheredLight around = light.At(points[i]);
+  for (size_t i = 0; i < samples->size(); ++i) {
+    const GatheredLight around = light.AtFocus(i);
     DaylightSample& sample = (*samples)[i];
     sample.surroundings = around.surroundings_before;
     sample.geometry.sky = around.sky;
@@ -224,11 +223,10 @@ DaylightFit FitWithOrWithoutSky(const LightMeasurement& measured, bool has_sun,
 }
 
 // Eq. (9) with photographed surroundings: what no photograph shows of them depends on the light,
-// so the two take turns.
+// so the two take turns, from the light that (9) finds with ambient light alone.
 void FitInSurroundings(const PhotographSet& photos, const std::vector<SurfacePoint>& points,
                        const LightOptions& options, LightMeasurement* measured) {
   const NaturalEnvironment& environment = measured->environment;
-  Daylight light = environment.light;
   PhotographedLight around(
       {environment.scene, environment.air, environment.spectra, environment.light},
       LocalImages(environment, photos, measured->exposure_fit.photos),
@@ -236,16 +234,21 @@ void FitInSurroundings(const PhotographSet& photos, const std::vector<SurfacePoi
       {.bounces = options.bounces,
        .patch_directions = options.around.piece_directions,
        .point_directions = options.around.directions});
-  const bool has_sun = environment.scene.sun.has_value();
-  DaylightFit& fit = measured->daylight_fit;
   const std::vector<DaylightSample> bare = measured->daylight;
-  for (int round = 0; round < options.around.rounds; ++round) {
-    around.Solve(light);
-    measured->daylight = bare;
-    SetSurroundings(around, points, measured->brdf, &measured->daylight, &measured->unseen);
+  DaylightFit& fit = measured->daylight_fit;
+  const auto refit = [&] {
+    const bool has_sun = environment.scene.sun.has_value();
     fit = FitWithOrWithoutSky(*measured, has_sun, FitOptions(*measured, options));
+  };
+  refit();
+  for (int round = 0; round < options.around.rounds; ++round) {
+    Daylight light = environment.light;
     light.sun_radiance = fit.sun_radiance;
     light.sky_radiance = fit.sky_radiance + fit.ambient_radiance;
+    around.Solve(light);
+    measured->daylight = bare;
+    SetSurroundings(around, measured->brdf, &measured->daylight, &measured->unseen);
+    refit();
   }
 }
 

@@ -320,11 +320,15 @@ void Interreflection::SolveAfter(const Daylight& light) {
   }
 }
 
-GatheredLight Interreflection::At(const SurfacePoint& surface) const {
+std::vector<Meeting> Interreflection::Meet(const SurfacePoint& surface) const {
+  return surroundings_.Meet(surface, point_directions_);
+}
+
+GatheredLight Interreflection::Gathered(const std::vector<Meeting>& meetings) const {
   GatheredLight light;
   int skies = 0, unseen = 0, backs = 0;
   Spectrum relative_sky = Spectrum::Zero();
-  for (const Meeting& meeting : surroundings_.Meet(surface, point_directions_)) {
+  for (const Meeting& meeting : meetings) {
     if (meeting.distance > 0) light.nearness += 1 / meeting.distance;
     backs += meeting.is_back;
     unseen += IsUnseen(meeting.before);
@@ -351,7 +355,7 @@ GatheredLight Interreflection::At(const SurfacePoint& surface) const {
 GatheredParts Interreflection::PartsAt(const SurfacePoint& surface) const {
   GatheredParts parts;
   const double weight = kPi / options_.point_directions;
-  for (const Meeting& meeting : surroundings_.Meet(surface, point_directions_)) {
+  for (const Meeting& meeting : Meet(surface)) {
     const Spectrum before = weight * RadianceBefore(meeting.before);
     const bool is_sky_after = meeting.material < 0 && Meeting::IsSky(meeting.after);
     const Spectrum change = weight * ChangeAlong(meeting);

@@ -70,8 +70,10 @@ class Interreflection {
   // shows reflects as the mean of its material does, or of the whole site.
   void Solve(const Daylight& light);
 
-  // Thread-safe once solved.
-  GatheredLight At(const SurfacePoint& surface) const;
+  // Thread-safe once solved. What a point meets does not change with the daylight.
+  GatheredLight At(const SurfacePoint& surface) const { return Gathered(Meet(surface)); }
+  std::vector<Meeting> Meet(const SurfacePoint& surface) const;
+  GatheredLight Gathered(const std::vector<Meeting>& meetings) const;
   GatheredParts PartsAt(const SurfacePoint& surface) const;
 
   // Diffuse reflection of a polygon where no photograph shows it [1/sr].

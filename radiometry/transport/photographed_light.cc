@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "radiometry/transport/photographed_light.h"
 
+#include <tbb/parallel_for.h>
+
 #include <utility>
 
 namespace insitu {
@@ -25,6 +27,14 @@ PhotographedLight::PhotographedLight(const LitSite& site, std::vector<LocalImage
              polygons_.mesh,
              nothing_.faces,
              {}},
-      interreflection_(scene_, site.light, GridAbout(foci), options) {}
+      interreflection_(scene_, site.light, GridAbout(foci), options),
+      meetings_(foci.points.size()) {
+  tbb::parallel_for(size_t{0}, meetings_.size(),
+                    [&](size_t i) { meetings_[i] = interreflection_.Meet(foci.points[i]); });
+}
+
+GatheredLight PhotographedLight::AtFocus(size_t point) const {
+  return interreflection_.Gathered(meetings_[point]);
+}
 
 }  // namespace insitu

@@ -9,7 +9,7 @@
 
 namespace insitu {
 
-// Surfaces are in small pieces about these points.
+// Where light is wanted; surfaces are in small pieces about these points.
 struct LightFoci {
   const std::vector<SurfacePoint>& points;
   double piece_m = 0.15;  // of what surrounds a point, where that is nearest
@@ -29,9 +29,8 @@ class PhotographedLight {
   PhotographedLight(const LitSite& site, std::vector<LocalImage> images, const LightFoci& foci,
                     const InterreflectionOptions& options);
 
-  // As of Interreflection.
-  void Solve(const Daylight& light) { interreflection_.Solve(light); }
-  GatheredLight At(const SurfacePoint& point) const { return interreflection_.At(point); }
+  void Solve(const Daylight& light) { interreflection_.Solve(light); }  // as of Interreflection
+  GatheredLight AtFocus(size_t point) const;
 
  private:
   // For a site as it stands.
@@ -50,6 +49,7 @@ class PhotographedLight {
   NothingPlanned nothing_;
   TransportScene scene_;
   Interreflection interreflection_;
+  std::vector<std::vector<Meeting>> meetings_;  // of each focus
 };
 
 }  // namespace insitu
