@@ -145,7 +145,7 @@ Json::Value ControlToPage(const Adjustment& adjustment) {
 // Builds one message.
 class Solver {
  public:
-  explicit Solver(const LiveInput& input) : input_(input) {}
+  Solver(const LiveInput& input, const SceneFound& found) : input_(input), found_(found) {}
 
   LiveResult Solve() {
     const auto start = std::chrono::steady_clock::now();
@@ -160,6 +160,8 @@ class Solver {
     message["converged"] = true;
     TakePhotos();
     SolvePart();
+    if (result_.solved) TakeScene();
+    if (found_) found_(result_.scene);
     TellLeftOut();
     TellDiagnoses();
     if (result_.solved) TellSolution();
@@ -318,6 +320,16 @@ class Solver {
     message["zenith"] = LiveZenith(part_.survey, *result_.solved);
   }
 
+  void TakeScene() {
+    const SolvedSurvey& solved = *result_.solved;
+    adjustment_.points = AdjustedPoints(solved.survey_network.network, solved.solution);
+    adjustment_.poses = AdjustedPoses(solved.survey_network.network, solved.solution);
+    result_.scene =
+        AdjustedScene(part_.survey, solved.survey_network, solved.solution, adjustment_);
+    std::erase_if(result_.scene->polygons,
+                  [](const Polygon& polygon) { return !HasInterior(polygon); });
+  }
+
   void TellStatistics() {
     const NetworkSolution& solution = result_.solved->solution;
     Json::Value& message = result_.message;
@@ -330,10 +342,8 @@ class Solver {
   }
 
   void TellPhotos() {
-    const Network& network = result_.solved->survey_network.network;
-    const std::vector<AdjustedPose> poses = AdjustedPoses(network, result_.solved->solution);
-    for (size_t i = 0; i < poses.size(); ++i) {
-      const AdjustedPose& pose = poses[i];
+    for (size_t i = 0; i < adjustment_.poses.size(); ++i) {
+      const AdjustedPose& pose = adjustment_.poses[i];
       result_.cameras.push_back({pose.photo, cameras_[part_.indices[i]], pose.cam_from_world});
       result_.poses[pose.photo] = pose.cam_from_world;
       Json::Value& photo = result_.message["photos"][pose.photo];
@@ -350,29 +360,27 @@ class Solver {
     result_.message["points"] = PredictedPoints(input_.survey, solved, result_.cameras);
     AddPointsOnPlanes(input_.survey, part_.survey, solved, result_.cameras,
                       input_.options.plane_sigma, &result_.message["points"]);
-    Adjustment adjustment;
-    adjustment.points = AdjustedPoints(solved.survey_network.network, solved.solution);
-    adjustment.poses = AdjustedPoses(solved.survey_network.network, solved.solution);
-    CompareWithSurvey(part_.survey, &adjustment);
-    result_.scene = AdjustedScene(part_.survey, solved.survey_network, solved.solution, adjustment);
-    std::erase_if(result_.scene->polygons,
-                  [](const Polygon& polygon) { return !HasInterior(polygon); });
-    result_.message["control"] = ControlToPage(adjustment);
+    CompareWithSurvey(part_.survey, &adjustment_);
+    result_.message["control"] = ControlToPage(adjustment_);
   }
 
   const LiveInput& input_;
+  const SceneFound& found_;
   LiveResult result_;
   Survey survey_;  // without the rows of photos without lens
   std::vector<std::string> names_;
   std::vector<Camera> cameras_;
   std::vector<PhotoLens> lenses_;
   DeterminedPart part_;
+  Adjustment adjustment_;            // of `part_`, if that is solved
   std::vector<LeftOut> unsolvable_;  // marks that SolvePart left out
 };
 
 }  // namespace
 
-LiveResult SolveLive(const LiveInput& input) { return Solver(input).Solve(); }
+LiveResult SolveLive(const LiveInput& input, const SceneFound& found) {
+  return Solver(input, found).Solve();
+}
 
 Json::Value LiveSolution(const LiveInput& input) { return SolveLive(input).message; }
 

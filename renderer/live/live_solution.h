@@ -4,6 +4,7 @@
 
 #include <json/value.h>
 
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -47,8 +48,10 @@ struct LiveResult {
 };
 
 // Adjusts what is determined and tells what is not, and why. Throws nothing for any survey that
-// ReadSurvey returns: contradictions are `failed`, `left_out` and `diagnoses`.
-LiveResult SolveLive(const LiveInput& input);
+// ReadSurvey returns: contradictions are `failed`, `left_out` and `diagnoses`. `found`, if given,
+// is called once with the result's scene, while the message is still to be made.
+using SceneFound = std::function<void(const std::optional<SceneGeometry>& scene)>;
+LiveResult SolveLive(const LiveInput& input, const SceneFound& found = {});
 
 // The message alone.
 Json::Value LiveSolution(const LiveInput& input);

@@ -12,7 +12,9 @@ LiveWorker::LiveWorker(SitePaths site) : site_(std::move(site)) {}
 
 void LiveWorker::ForgetStages() { has_lenses_ = false; }
 
-LiveState LiveWorker::Adjust(int revision) {
+LiveState LiveWorker::Adjust(
+    int revision,
+    const std::function<void(int serial, const std::optional<SceneGeometry>&)>& found) {
   if (!has_lenses_) photos_ = ReadLivePhotos(site_);
   has_lenses_ = true;
   std::vector<std::string> names;
@@ -24,7 +26,8 @@ LiveState LiveWorker::Adjust(int revision) {
   state.result = SolveLive({.survey = std::move(read.survey),
                             .photos = photos_,
                             .last_poses = poses_,
-                            .site = ReadLiveSite(site_)});
+                            .site = ReadLiveSite(site_)},
+                           [&](const auto& scene) { found(state.serial, scene); });
   if (!state.result.poses.empty()) poses_ = state.result.poses;
   state.result.message["type"] = "adjusted";
   state.result.message["revision"] = revision;

@@ -5,8 +5,10 @@
 
 #include <json/value.h>
 
+#include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -36,8 +38,11 @@ class LiveWorker {
   // Lenses may be others now: a stage has run.
   void ForgetStages();
 
-  // What the files say as they stand. Throws nothing for their content.
-  LiveState Adjust(int revision);
+  // What the files say as they stand. Throws nothing for their content. `found` as of SolveLive,
+  // with the serial that the state will have.
+  LiveState Adjust(
+      int revision,
+      const std::function<void(int serial, const std::optional<SceneGeometry>&)>& found);
 
  private:
   SitePaths site_;

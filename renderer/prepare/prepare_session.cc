@@ -211,9 +211,13 @@ struct PrepareSession::Parts {
     warned_photos = std::move(faults);
   }
 
-  // The light and the building stay those of the adjustment before until they are known anew.
+  // The light and the building stay those of the adjustment before until they are known anew; they
+  // begin while the adjustment is still being told.
   void Solve(int revision) {
-    auto state = std::make_shared<LiveState>(worker.Adjust(revision));
+    const auto order = [&](int serial, const std::optional<SceneGeometry>& scene) {
+      appearance.Order({serial, revision, scene});
+    };
+    auto state = std::make_shared<LiveState>(worker.Adjust(revision, order));
     {
       const std::lock_guard lock(mutex);
       state->appearance = live->appearance;
@@ -222,7 +226,6 @@ struct PrepareSession::Parts {
     Tell(state->result.message);
     WarnOfPhotos(state->result.message["photos"]);
     TellToDo();
-    appearance.Order({state->serial, revision, state->result.scene});
   }
 
   // By the thread that makes it.

@@ -33,7 +33,7 @@ void Measure(const SitePaths& site) {
       has_building ? ReadBuildingWireframe(site) : BuildingWireframe();
   for (int i = 0; i < kTimes; ++i) {
     LiveState state;
-    Time("adjustment", [&] { state = worker.Adjust(i); });
+    Time("adjustment", [&] { state = worker.Adjust(i, [](int, const auto&) {}); });
     if (!state.result.scene) return;
     Time("building", [&] { LiveBuilding(building, *state.result.scene); });
     Time("light", [&] { LiveLight(site, *state.result.scene, photos); });

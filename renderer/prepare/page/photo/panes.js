@@ -16,7 +16,8 @@ export function buildPanes() {
   });
   byId("panes").replaceChildren(); // the first look
   setLayout(firstLayout(state.photos));
-  on("draw", () =>
+  // Of what else is told, as that something is saved, no photo shows anything.
+  on("adjusted building faults film light merge mode refused selection tables tool view", () =>
     ui.panes.forEach(pane => {
       pane.isDrawn = false;
     })
