@@ -8,7 +8,7 @@
 #include "calibration/program/program.h"
 #include "calibration/program/site_lock.h"
 #include "renderer/batch/run_batch.h"
-#include "renderer/stages/stage_program.h"
+#include "renderer/commands/commands.h"
 
 namespace insitu {
 namespace {

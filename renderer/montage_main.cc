@@ -11,6 +11,7 @@
 #include "calibration/program/child_process.h"
 #include "calibration/program/program.h"
 #include "calibration/program/site_lock.h"
+#include "renderer/commands/commands.h"
 #include "renderer/stages/run_stages.h"
 #include "renderer/stages/stage_program.h"
 

@@ -14,7 +14,7 @@
 #include "renderer/levels/avr_levels.h"
 #include "renderer/render_view.h"
 #include "renderer/tiles/render_watcher.h"
-#include "renderer/trace/render.h"
+#include "renderer/picture/render.h"
 
 namespace insitu {
 

@@ -12,7 +12,7 @@
 #include "renderer/levels/avr_levels.h"
 #include "renderer/render_view.h"
 #include "renderer/shadows/shadow_separation.h"
-#include "renderer/trace/render.h"
+#include "renderer/picture/render.h"
 
 namespace insitu {
 

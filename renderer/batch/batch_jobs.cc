@@ -7,8 +7,8 @@
 
 #include "calibration/files/json_file.h"
 #include "calibration/files/whole_file.h"
+#include "renderer/commands/commands.h"
 #include "renderer/stages/montage_stages.h"
-#include "renderer/stages/stage_program.h"
 
 namespace insitu {
 namespace {

@@ -10,9 +10,9 @@
 #include "calibration/program/warnings.h"
 #include "radiometry/natural_environment.h"
 #include "reconstruction/geometry/omega_phi_kappa.h"
+#include "renderer/commands/commands.h"
 #include "renderer/stages/montage_stages.h"
 #include "renderer/stages/run_stages.h"
-#include "renderer/stages/stage_program.h"
 
 namespace insitu {
 namespace {

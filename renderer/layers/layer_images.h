@@ -13,7 +13,7 @@
 #include "renderer/building/artificial_environment.h"
 #include "renderer/layers/light_errors.h"
 #include "renderer/trace/montage_scene.h"
-#include "renderer/trace/render.h"
+#include "renderer/picture/render.h"
 
 namespace insitu {
 

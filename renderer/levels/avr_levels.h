@@ -12,7 +12,7 @@
 #include "renderer/building/artificial_environment.h"
 #include "renderer/building/building_outline.h"
 #include "renderer/trace/montage_scene.h"
-#include "renderer/trace/render.h"
+#include "renderer/picture/render.h"
 
 namespace insitu {
 

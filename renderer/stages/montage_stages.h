@@ -24,8 +24,7 @@ struct MontageRequest {
 
 // A stage is the program insitu-NAME, run on the site folder.
 struct MontageStage {
-  std::string name;
-  std::string summary;             // one line, for insitu --help
+  std::string name;                // the next of StageCommands()
   std::vector<std::string> after;  // stages that it takes results of
   // Files, or folders that stand for all files in them; what is not there counts too. Called when
   // the stages before have run. Throw InputError: the site cannot be right.

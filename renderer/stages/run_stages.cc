@@ -16,6 +16,7 @@
 #include "calibration/files/wording.h"
 #include "calibration/program/child_process.h"
 #include "calibration/program/program.h"
+#include "renderer/commands/commands.h"
 #include "renderer/stages/file_states.h"
 #include "renderer/stages/stage_program.h"
 #include "renderer/stages/stage_record.h"

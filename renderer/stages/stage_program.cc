@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "renderer/stages/stage_program.h"
 
-#include <unistd.h>
-
 #include <fstream>
 #include <optional>
 #include <sstream>
@@ -11,6 +9,7 @@
 #include "calibration/files/error.h"
 #include "calibration/program/child_process.h"
 #include "calibration/program/program.h"
+#include "renderer/commands/commands.h"
 #include "renderer/stages/montage_stages.h"
 
 namespace insitu {
@@ -74,16 +73,6 @@ bool TakesValue(const std::string& argument, const StageOption& option, const fs
 }
 
 }  // namespace
-
-fs::path OwnFolder() { return fs::read_symlink("/proc/self/exe").parent_path(); }
-
-fs::path FindProgram(const fs::path& folder, const std::string& name) {
-  const fs::path program = folder / ("insitu-" + name);
-  if (access(program.c_str(), X_OK) != 0) {
-    throw InputError(program, "cannot be run; install insitu again, or build it by scripts/setup");
-  }
-  return program;
-}
 
 void RequireSameVersion(const fs::path& program) {
   const std::string expected = program.filename().string() + " " INSITU_VERSION;

@@ -10,12 +10,6 @@
 
 namespace insitu {
 
-// The folder of the program that is running.
-std::filesystem::path OwnFolder();
-
-// insitu-NAME in a folder. Throws InputError: it is not there, or cannot be run.
-std::filesystem::path FindProgram(const std::filesystem::path& folder, const std::string& name);
-
 // Throws InputError: it is of another version than this program.
 void RequireSameVersion(const std::filesystem::path& program);
 

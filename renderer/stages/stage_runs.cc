@@ -10,8 +10,8 @@
 #include "calibration/files/text_table.h"
 #include "calibration/program/child_process.h"
 #include "calibration/program/program.h"
+#include "renderer/commands/commands.h"
 #include "renderer/stages/montage_stages.h"
-#include "renderer/stages/stage_program.h"
 
 namespace insitu {
 namespace {

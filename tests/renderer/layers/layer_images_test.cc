@@ -12,7 +12,7 @@
 
 #include "renderer/layers/cryptomatte.h"
 #include "renderer/trace/interreflected_light.h"
-#include "renderer/trace/render.h"
+#include "renderer/picture/render.h"
 #include "tests/calibration/files/scratch_folder.h"
 #include "tests/renderer/trace/small_site.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "renderer/trace/outline.h"
+#include "renderer/picture/outline.h"
 
 #include <algorithm>
 

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "renderer/trace/interreflected_light.h"
-#include "renderer/trace/render.h"
+#include "renderer/picture/render.h"
 #include "tests/renderer/trace/small_site.h"
 
 namespace insitu {
