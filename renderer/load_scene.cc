@@ -27,10 +27,10 @@ void RequireInputImage(const InputImage& image) {
 
 // Whether all input images together are few enough to be held. Photographs that are rendered take
 // memory beside them.
-bool FitInMemory(const NaturalEnvironment& natural) {
+bool FitInMemory(const std::vector<InputImage>& images) {
   constexpr double kMostBytes = 0.8e9;
   double bytes = 0;
-  for (const InputImage& image : natural.input_images) {
+  for (const InputImage& image : images) {
     bytes += 3.0 * sizeof(float) * image.camera.width() * image.camera.height();
   }
   return bytes <= kMostBytes;
@@ -70,27 +70,6 @@ std::shared_ptr<const SurfaceTextures> LoadTextures(const SitePaths& site,
                                                  site.root / "work/textures", PixelAngle(natural));
 }
 
-// With its photographs in one unit.
-MontageScene WithImages(NaturalEnvironment natural, const std::vector<Eigen::Vector3d>& gains,
-                        const ArtificialEnvironment& building) {
-  const std::vector<InputImage> files = natural.input_images;
-  if (!FitInMemory(natural)) {
-    const auto images = TiledInputImages(files, gains);
-    const PhaseScope shading(Phase::kShading);
-    MontageScene scene = SceneWithoutImages(std::move(natural), building);
-    SetInputImages(images, &scene);
-    return scene;
-  }
-  auto images = std::async(std::launch::async, [&] {
-    const PhaseScope phase(Phase::kFiles);
-    return ReadInputImages(files, gains);
-  });
-  const PhaseScope shading(Phase::kShading);
-  MontageScene scene = SceneWithoutImages(std::move(natural), building);
-  SetInputImages(images.get(), &scene);
-  return scene;
-}
-
 }  // namespace
 
 Raster ReadInputImage(const InputImage& image) {
@@ -98,13 +77,23 @@ Raster ReadInputImage(const InputImage& image) {
   return ReadPhotograph(image.file).linear;
 }
 
+std::future<SceneImages> ReadSceneImages(const std::vector<InputImage>& images,
+                                         const std::vector<Eigen::Vector3d>& gains) {
+  return std::async(std::launch::async, [images, gains]() -> SceneImages {
+    const PhaseScope phase(Phase::kFiles);
+    if (FitInMemory(images)) return ReadInputImages(images, gains);
+    return TiledInputImages(images, gains);
+  });
+}
+
 MontageScene LoadScene(const SitePaths& site, NaturalEnvironment natural,
-                       const std::vector<Eigen::Vector3d>& gains,
-                       const ArtificialEnvironment& building) {
+                       std::future<SceneImages> images, const ArtificialEnvironment& building) {
   const PhaseScope phase(Phase::kFiles);
   auto textures = LoadTextures(site, natural, building);
-  MontageScene scene = WithImages(std::move(natural), gains, building);
+  const PhaseScope shading(Phase::kShading);
+  MontageScene scene = SceneWithoutImages(std::move(natural), building);
   scene.textures = std::move(textures);
+  std::visit([&](auto&& read) { SetInputImages(std::move(read), &scene); }, images.get());
   return scene;
 }
 

@@ -3,6 +3,8 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <future>
+#include <variant>
 #include <vector>
 
 #include "calibration/photo/raster.h"
@@ -16,11 +18,17 @@ namespace insitu {
 // Linear, as photographed. Throws InputError: not there, or not of its camera's size.
 Raster ReadInputImage(const InputImage& image);
 
-// With the building's textures and the input images in the site's unit: whole, or, where they are
-// over 0.8 GB together, as functions that read what they are asked for and give the same to the
-// last bit. `gains`: of the scene's cameras. Throws InputError as ReadInputImage does.
+// The input images in the site's unit: whole, or, where they are over 0.8 GB together, as functions
+// that read what they are asked for and give the same to the last bit.
+using SceneImages = std::variant<std::vector<Raster>, std::vector<LocalImage::ImageFunction>>;
+
+// Read by a thread of its own, while the scene is made. `gains`: of the scene's cameras. Its get()
+// throws InputError as ReadInputImage does.
+std::future<SceneImages> ReadSceneImages(const std::vector<InputImage>& images,
+                                         const std::vector<Eigen::Vector3d>& gains);
+
+// With the building's textures.
 MontageScene LoadScene(const SitePaths& site, NaturalEnvironment natural,
-                       const std::vector<Eigen::Vector3d>& gains,
-                       const ArtificialEnvironment& building);
+                       std::future<SceneImages> images, const ArtificialEnvironment& building);
 
 }  // namespace insitu

@@ -212,13 +212,18 @@ class SiteRender {
     layers.reset();
     WriteSunShares(site_, photograph, shares);
     shares.reset();
-    WriteLayers(site_, photograph, report.result);
-    if (!options_.keeps_pictures) report.result.layers = report.result.unseen = {};
+    // Of a quick look beside the picture, otherwise before it, so that the memory is free.
+    auto layered = std::async(options_.is_quick ? std::launch::async : std::launch::deferred, [&] {
+      WriteLayers(site_, photograph, report.result);
+      if (!options_.keeps_pictures) report.result.layers = report.result.unseen = {};
+    });
+    if (!options_.is_quick) layered.get();
     Raster linear =
         options_.keeps_pictures ? report.result.linear : std::exchange(report.result.linear, {});
     report.remarks =
         WriteMontage(site_, photograph, {options_.frame, options_.with_tiff, options_.is_quick},
                      std::move(view.photo), std::move(linear), report.result, statement_);
+    if (layered.valid()) layered.get();
     RemarkClipped(report.result, &report.remarks);
     if (options_.with_building) {
       report.uncertainty = WriteUncertaintyOf(site_, geometry, camera, edges_.get());
@@ -249,16 +254,17 @@ class SiteRender {
   SiteRender(const SitePaths& site, const RenderSiteOptions& options, NaturalEnvironment natural)
       : site_(site),
         options_(options),
+        gains_(ReadPhotoGains(site)),
+        images_(ReadSceneImages(natural.input_images, gains_)),
         building_(BuildingShown(site, options)),
         edges_(std::async(options.is_quick ? std::launch::deferred : std::launch::async,
                           [this] { return BuildingEdges(building_); })
                    .share()),
-        gains_(ReadPhotoGains(site)),
         files_(SiteInputsSha256(site, natural, building_)),
         inputs_(Sha256OfText(OptionsText(options) + "\n" + files_)),
         light_inputs_(Sha256OfText(LightOptionsText(options) + "\n" + files_)),
         kept_light_(std::async(std::launch::async, [this] { return KeptLightIfAny(); })),
-        scene_(LoadScene(site, std::move(natural), gains_, building_)),
+        scene_(LoadScene(site, std::move(natural), std::move(images_), building_)),
         statement_(StatementOf(
             site, {options.with_building, options.avr, options.quality, OptionsText(options)})) {
     ThrowIfStopped();
@@ -357,10 +363,11 @@ class SiteRender {
 
   const SitePaths& site_;
   const RenderSiteOptions& options_;
+  const std::vector<Eigen::Vector3d> gains_;
+  std::future<SceneImages> images_;  // read while the building is, until the scene takes them
   const ArtificialEnvironment building_;
   // While files are read; of a quick look, whose picture needs none, after it.
   const std::shared_future<BuildingEdges> edges_;
-  const std::vector<Eigen::Vector3d> gains_;
   const std::string files_, inputs_, light_inputs_;   // hashes
   std::future<std::optional<KeptLight>> kept_light_;  // read while the scene is made
   MontageScene scene_;
