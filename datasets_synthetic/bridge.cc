@@ -136,6 +136,7 @@ Site MakeRiver(int width, int height) {
                                 "pier1_1", "pier1_5", "post_4",  "right_3", "left_3"};
   site.survey.upright_boxes = {"house", "pier0", "pier1", "post"};
   site.survey.level = "water";
+  site.survey.matt = {"left", "right"};
   site.survey.shadows = "left";
   site.survey.daylight = Material::kPalePlaster;
   site.origin = {2593210.0, 1220640.0, 428.0};

@@ -25,7 +25,8 @@ struct SurveyPlan {
   std::set<std::string> check_points;
   std::set<std::string> control_points;     // besides targets and what lies far away
   std::vector<std::string> upright_boxes;   // whose edges show the zenith
-  std::string level;                        // the face that haze is measured on
+  std::string level;                        // the face that the paper measures haze on
+  std::set<std::string> matt;               // those that are better for it, if that one mirrors
   std::string shadows;                      // the face that shadows are measured on
   Material daylight = Material::kConcrete;  // that samples of the light are taken on
 };

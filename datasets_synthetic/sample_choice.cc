@@ -5,6 +5,8 @@
 #include <cmath>
 #include <map>
 #include <optional>
+#include <set>
+#include <string>
 #include <utility>
 
 #include "datasets_synthetic/random.h"
@@ -81,17 +83,17 @@ std::optional<ChosenPixel> HorizonPixel(const RenderedView& view, int index) {
   return std::nullopt;
 }
 
-std::vector<ChosenPixel> HazePixels(const std::string& level,
+std::vector<ChosenPixel> HazePixels(const std::set<std::string>& faces,
                                     const std::vector<RenderedView>& renderings) {
   constexpr double kNearest = 14, kFarthest = 260;  // [m]
   constexpr double kBinsPerOctave = 5;
   Lottery lottery;
   ForEachPure(renderings, [&](int view, int x, int y, const PixelRecord& record) {
-    if (!record.face || record.face->name != level) return;
+    if (!record.face || !faces.count(record.face->name)) return;
     if (record.sun != 1 || record.sky_share < 0.9f) return;
     if (record.distance < kNearest || record.distance > kFarthest) return;
     const int bin = static_cast<int>(kBinsPerOctave * std::log2(record.distance / kNearest));
-    lottery.Enter({bin}, {view, x, y, level});
+    lottery.Enter({bin}, {view, x, y, record.face->name});
   });
   return lottery.Winners();
 }
@@ -125,7 +127,12 @@ ChosenSamples ChooseSamples(const SurveyPlan& plan, const std::vector<RenderedVi
     const auto pixel = HorizonPixel(renderings[i], static_cast<int>(i));
     if (pixel) samples.horizon.push_back(*pixel);
   }
-  samples.haze = HazePixels(plan.level, renderings);
+  if (plan.matt.empty()) {
+    samples.haze = HazePixels({plan.level}, renderings);
+  } else {
+    samples.haze = HazePixels(plan.matt, renderings);
+    samples.mirrored = HazePixels({plan.level}, renderings);
+  }
   samples.daylight = DaylightPixels(plan.daylight, renderings);
   return samples;
 }

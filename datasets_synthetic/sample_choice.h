@@ -17,7 +17,8 @@ struct ChosenPixel {
 
 struct ChosenSamples {
   std::vector<ChosenPixel> horizon;   // one of each photograph, in the sky
-  std::vector<ChosenPixel> haze;      // level ground in full sun, near to far
+  std::vector<ChosenPixel> haze;      // level ground in full sun, near to far, where it is matt
+  std::vector<ChosenPixel> mirrored;  // the same on the face that mirrors, as the paper has it
   std::vector<ChosenPixel> daylight;  // one material in varied light
 };
 

@@ -57,10 +57,15 @@ void WriteSurvey(const fs::path& folder, const Place& place, const FieldSurvey& 
                  const std::vector<RenderedView>& renderings, SiteSummary& summary) {
   const Site& site = *place.site;
   const ChosenSamples samples = ChooseSamples(site.survey, renderings);
+  ChosenSamples printed = samples;
+  printed.haze = samples.mirrored;
   WriteMeasurements(folder, site, survey, {});
   WritePolygons(folder / "polygons.json", site, BestViews(site.natural, renderings));
   WriteDirections(folder / "directions.json", survey);
   WriteSamples(folder / "samples.json", site, samples, place.daylight);
+  if (!printed.haze.empty()) {
+    WriteSamples(folder / "samples_paper.json", site, printed, place.daylight);
+  }
   WriteNaturalMaterials(folder / "materials.json", site);
   summary.polygons = static_cast<int>(site.natural.faces.size());
   summary.horizon_samples = static_cast<int>(samples.horizon.size());

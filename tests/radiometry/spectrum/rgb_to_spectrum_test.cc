@@ -145,6 +145,20 @@ TEST(SpectralBasis, RgbOfOneSpaceStandsOnThePrimariesOfAnother) {
       1e-13);
 }
 
+// Hall's published code takes D6500 for NTSC's white, we illuminant C.
+TEST(SpectralBasis, TheWhiteOfTheBasisPlaysNoPart) {
+  RgbPrimaries halls = Ntsc1953();
+  halls.white = {0.313, 0.329};
+  for (const int count : {9, 16}) {
+    const SpectralBasis ours(Rec709(), {count}, Ntsc1953()), his(Rec709(), {count}, halls);
+    for (int i = 0; i < 3; ++i) {
+      const Eigen::Vector3d rgb = Eigen::Vector3d::Unit(i);
+      const Spectrum difference = ours.SpectrumFromRgb(rgb) - his.SpectrumFromRgb(rgb);
+      EXPECT_LT(difference.abs().maxCoeff(), 1e-12) << count << " " << i;
+    }
+  }
+}
+
 TEST(SpectralBasis, UnusedBinsStayEmpty) {
   const SpectralBasis spectra(Rec709(), {9});
   EXPECT_EQ(spectra.Ones().sum(), 9);
