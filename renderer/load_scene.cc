@@ -2,6 +2,7 @@
 #include "renderer/load_scene.h"
 
 #include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <future>
@@ -36,23 +37,33 @@ bool FitInMemory(const std::vector<InputImage>& images) {
   return bytes <= kMostBytes;
 }
 
+Raster ReadInUnit(const InputImage& image, const Eigen::Vector3d& gain) {
+  Raster raster = ReadInputImage(image);
+  if (gain != kUnitGain) DivideByGain(gain, &raster);
+  return raster;
+}
+
 std::vector<Raster> ReadInputImages(const std::vector<InputImage>& images,
                                     const std::vector<Eigen::Vector3d>& gains) {
-  // One after the other: of several faults always the first is told.
-  for (const InputImage& image : images) RequireInputImage(image);
   std::vector<Raster> rasters(gains.size());
-  tbb::parallel_for(size_t{0}, gains.size(), [&](size_t i) {
-    rasters[i] = ReadInputImage(images[i]);
-    if (gains[i] != kUnitGain) DivideByGain(gains[i], &rasters[i]);
-  });
+  tbb::parallel_for(size_t{0}, gains.size(),
+                    [&](size_t i) { rasters[i] = ReadInUnit(images[i], gains[i]); });
   return rasters;
+}
+
+LocalImage::ImageFunction ReadWhenAsked(const InputImage& image, const Eigen::Vector3d& gain) {
+  const std::shared_future<Raster> raster =
+      std::async(std::launch::deferred, [image, gain] {
+        // A thread that waits for its share takes up no other work, which might ask for the same.
+        return tbb::this_task_arena::isolate([&] { return ReadInUnit(image, gain); });
+      }).share();
+  return [raster](const Eigen::Vector2d& pixel) { return Interpolate(raster.get(), pixel); };
 }
 
 std::vector<LocalImage::ImageFunction> TiledInputImages(const std::vector<InputImage>& images,
                                                         const std::vector<Eigen::Vector3d>& gains) {
   std::vector<LocalImage::ImageFunction> functions;
   for (size_t i = 0; i < gains.size(); ++i) {
-    RequireInputImage(images[i]);
     const TiledImage tiled(images[i].file, FactorOfGain(gains[i]));
     functions.emplace_back([tiled](const Eigen::Vector2d& pixel) { return tiled.At(pixel); });
   }
@@ -78,11 +89,18 @@ Raster ReadInputImage(const InputImage& image) {
 }
 
 std::future<SceneImages> ReadSceneImages(const std::vector<InputImage>& images,
-                                         const std::vector<Eigen::Vector3d>& gains) {
-  return std::async(std::launch::async, [images, gains]() -> SceneImages {
+                                         const std::vector<Eigen::Vector3d>& gains, bool is_quick) {
+  return std::async(std::launch::async, [images, gains, is_quick]() -> SceneImages {
     const PhaseScope phase(Phase::kFiles);
-    if (FitInMemory(images)) return ReadInputImages(images, gains);
-    return TiledInputImages(images, gains);
+    // One after the other: of several faults always the first is told.
+    for (const InputImage& image : images) RequireInputImage(image);
+    if (!FitInMemory(images)) return TiledInputImages(images, gains);
+    if (!is_quick) return ReadInputImages(images, gains);
+    std::vector<LocalImage::ImageFunction> functions;
+    for (size_t i = 0; i < gains.size(); ++i) {
+      functions.push_back(ReadWhenAsked(images[i], gains[i]));
+    }
+    return functions;
   });
 }
 

@@ -25,6 +25,7 @@
 #include "renderer/tiles/partial_render.h"
 #include "renderer/tiles/render_inputs.h"
 #include "renderer/trace/interreflected_light.h"
+#include "renderer/trace/mean_brdf.h"
 #include "renderer/trace/profile.h"
 #include "renderer/write_montage.h"
 
@@ -255,7 +256,7 @@ class SiteRender {
       : site_(site),
         options_(options),
         gains_(ReadPhotoGains(site)),
-        images_(ReadSceneImages(natural.input_images, gains_)),
+        images_(ReadSceneImages(natural.input_images, gains_, options.is_quick)),
         building_(BuildingShown(site, options)),
         edges_(std::async(options.is_quick ? std::launch::deferred : std::launch::async,
                           [this] { return BuildingEdges(building_); })
@@ -271,6 +272,7 @@ class SiteRender {
     HeedMasks(site, &scene_);
     scene_.as_printed = options.as_printed;
     const auto kept = kept_light_.get();
+    if (options.uniform_ambient) scene_.mean_brdf_of_polygon = MeanBrdfOfPolygons(scene_);
     if (!IsLit()) return;
     AddInterreflection(&scene_, options.bounces, kept ? &*kept : nullptr, options.light_coarseness);
     if (kept) kept_points_ = GatheredPoints();

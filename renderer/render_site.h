@@ -12,9 +12,9 @@
 #include "calibration/program/site.h"
 #include "renderer/building/building_uncertainty.h"
 #include "renderer/levels/avr_levels.h"
+#include "renderer/picture/render.h"
 #include "renderer/render_view.h"
 #include "renderer/tiles/render_watcher.h"
-#include "renderer/picture/render.h"
 
 namespace insitu {
 

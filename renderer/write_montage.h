@@ -10,9 +10,9 @@
 #include "calibration/photo/montage_files.h"
 #include "calibration/program/site.h"
 #include "renderer/levels/avr_levels.h"
+#include "renderer/picture/render.h"
 #include "renderer/render_view.h"
 #include "renderer/shadows/shadow_separation.h"
-#include "renderer/picture/render.h"
 
 namespace insitu {
 

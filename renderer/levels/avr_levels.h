@@ -11,8 +11,8 @@
 #include "calibration/photo/raster.h"
 #include "renderer/building/artificial_environment.h"
 #include "renderer/building/building_outline.h"
-#include "renderer/trace/montage_scene.h"
 #include "renderer/picture/render.h"
+#include "renderer/trace/montage_scene.h"
 
 namespace insitu {
 

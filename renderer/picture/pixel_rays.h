@@ -7,7 +7,8 @@
 
 #include "calibration/lens/sight_map.h"
 #include "calibration/photo/photograph.h"
-#include "renderer/picture/render.h"
+#include "renderer/picture/render_options.h"
+#include "renderer/trace/montage_scene.h"
 #include "renderer/trace/sampling.h"
 
 namespace insitu {

@@ -263,7 +263,6 @@ void SetInputImages(const std::vector<LocalImage::ImageFunction>& images, Montag
     camera.camera = natural.input_images[i].camera;
     scene->images.emplace_back(camera, natural.scene.origin, images[i]);
   }
-  scene->mean_brdf_of_polygon = MeanBrdfOfPolygons(*scene);
 }
 
 void SetInputImages(std::vector<Raster> images, MontageScene* scene) {
@@ -280,6 +279,7 @@ MontageScene MakeMontageScene(NaturalEnvironment natural, const ArtificialEnviro
                               std::vector<Raster> images) {
   MontageScene scene = SceneWithoutImages(std::move(natural), artificial);
   SetInputImages(std::move(images), &scene);
+  scene.mean_brdf_of_polygon = MeanBrdfOfPolygons(scene);
   return scene;
 }
 

@@ -15,7 +15,8 @@ namespace insitu {
 MontageScene MakeMontageScene(NaturalEnvironment natural, const ArtificialEnvironment& artificial,
                               std::vector<Raster> images);
 
-// The same in two steps, so that images can be read while the first is done.
+// The same in two steps, so that images can be read while the first is done; mean_brdf_of_polygon,
+// for which every image is read, stays empty (mean_brdf.h).
 MontageScene SceneWithoutImages(NaturalEnvironment natural,
                                 const ArtificialEnvironment& artificial);
 void SetInputImages(std::vector<Raster> images, MontageScene* scene);

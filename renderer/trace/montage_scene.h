@@ -123,7 +123,8 @@ struct MontageScene {
   // In the order of natural.scene.cameras [Durisch92, §4.1]; empty: not in memory.
   std::vector<Raster> input_images;
   std::vector<LocalImage> images;  // the same with their pinhole cameras
-  // Mean BRDF of each polygon's material over the photographs, for polygons that none shows.
+  // Mean BRDF of each polygon's material over the photographs, for polygons that none shows; read
+  // without light among surfaces alone, which has its own.
   std::vector<Spectrum> mean_brdf_of_polygon;
 
   // Light among surfaces; null: the paper's uniform ambient light [Durisch92, Eq. (4)]. It refers

@@ -11,8 +11,8 @@
 #include <sstream>
 
 #include "renderer/layers/cryptomatte.h"
-#include "renderer/trace/interreflected_light.h"
 #include "renderer/picture/render.h"
+#include "renderer/trace/interreflected_light.h"
 #include "tests/calibration/files/scratch_folder.h"
 #include "tests/renderer/trace/small_site.h"
 

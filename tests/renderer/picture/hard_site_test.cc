@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "renderer/trace/interreflected_light.h"
 #include "renderer/picture/render.h"
+#include "renderer/trace/interreflected_light.h"
 #include "tests/renderer/trace/small_site.h"
 
 namespace insitu {

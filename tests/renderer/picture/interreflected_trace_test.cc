@@ -4,8 +4,8 @@
 
 #include <numbers>
 
-#include "renderer/trace/interreflected_light.h"
 #include "renderer/picture/render.h"
+#include "renderer/trace/interreflected_light.h"
 #include "renderer/trace/trace.h"
 #include "tests/renderer/trace/small_site.h"
 
