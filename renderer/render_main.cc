@@ -13,6 +13,7 @@
 #include "calibration/program/program.h"
 #include "calibration/program/warnings.h"
 #include "renderer/layers/layer_images.h"
+#include "renderer/layers/layer_names.h"
 #include "renderer/render_quality.h"
 #include "renderer/render_site.h"
 #include "renderer/tiles/stop_signals.h"

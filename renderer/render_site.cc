@@ -201,7 +201,9 @@ class SiteRender {
     report.point_spread = render.point_spread;
     report.has_grain = render.grain.has_value();
     const auto start = std::chrono::steady_clock::now();
-    report.result = IsDrawn(options_.avr) ? Drawn(view) : Tiles(photograph, view, render);
+    report.result = IsDrawn(options_.avr)
+                        ? Drawn(view)
+                        : Tiles(photograph, view, render, layers ? &*layers : nullptr);
     if (!view.in_unit.data.empty()) {
       BackToPhotograph(view.relit.data.empty() ? view.photo.linear : view.relit, view.in_unit,
                        view.gain, &report.result.linear);
@@ -323,8 +325,9 @@ class SiteRender {
                                                  : DrawOutline(drawn, edges_.get());
   }
 
+  // `layers`: null: none.
   RenderResult Tiles(const std::filesystem::path& photograph, const RenderView& view,
-                     const RenderOptions& render) {
+                     const RenderOptions& render, LayerImages* layers) {
     const Raster& photo = InUnit(view);
     const std::string name = photograph.stem().string();
     partials_.push_back(std::make_unique<PartialRender>(
@@ -336,7 +339,11 @@ class SiteRender {
     Progress progress(name, tiles);
     RenderCourse course;
     course.earlier = partial.TakeEarlier();
-    if (render.layers) course.earlier.clear();
+    if (layers) {
+      std::erase_if(course.earlier, [&](const FinishedTile& tile) {
+        return !layers->TakeTile(tile.index, tile.layers);
+      });
+    }
     RenderWatcher* const watcher = options_.watcher;
     if (watcher) watcher->Begin(name, photo);
     for (const FinishedTile& tile : course.earlier) {
@@ -344,7 +351,9 @@ class SiteRender {
       if (watcher) watcher->Take(tile);
     }
     course.tile_done = [&](const FinishedTile& tile) {
-      partial.Keep(tile);
+      FinishedTile kept = tile;
+      if (layers) kept.layers = layers->TileBytes(tile.index);
+      partial.Keep(kept);
       progress.Step();
       if (watcher) watcher->Take(tile);
     };

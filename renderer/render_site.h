@@ -40,8 +40,8 @@ struct RenderSiteOptions {
   bool is_quick = false;            // pictures packed little
   AvrLevel avr = AvrLevel::kMaterials;
   std::string quality = {};  // what the pictures say of it; empty: final
-  // By ChosenLayers(), to <photo>.parts.exr; empty: none. Tiles that an earlier run has kept are
-  // then rendered again, since they do not tell them.
+  // By ChosenLayers(), to <photo>.parts.exr; empty: none. Of the tiles that an earlier run has kept
+  // those without these layers are rendered again.
   std::vector<std::string> layers = {};
   int light_coarseness = 1;          // of light among surfaces, as AddInterreflection has it
   bool keeps_pictures = true;        // in the reports, too: as much memory as all montages together

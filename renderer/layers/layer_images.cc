@@ -1,47 +1,23 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "renderer/layers/layer_images.h"
 
-#include <OpenImageIO/imageio.h>
-
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <map>
 #include <memory>
-#include <set>
+#include <utility>
 
-#include "calibration/files/error.h"
 #include "calibration/files/whole_file.h"
-#include "calibration/photo/montage_files.h"
 #include "renderer/layers/cryptomatte.h"
+#include "renderer/layers/layer_names.h"
+#include "renderer/layers/parts_file.h"
 #include "renderer/tiles/finished_tile.h"
 
 namespace insitu {
 namespace {
 
-constexpr char kMontage[] = "montage", kRest[] = "rest", kRestFine[] = "rest_fine";
-constexpr char kObjects[] = "CryptoObject", kMaterials[] = "CryptoMaterial";
-
-// First the photograph, then the light as LightPart has it, then grain.
-const std::vector<std::string> kSummed = {
-    "photo",
-    "building_sun",
-    "building_sky",
-    "building_surroundings",
-    "building_lamps",
-    "building_reflection",
-    "building_transmission",
-    "building_haze",
-    "sun_blocked",
-    "sky_blocked",
-    "surroundings_blocked",
-    "bounced_light",
-    "change_lamps",
-    "change_reflection",
-    "grain",
-};
 constexpr int kGrain = kLightParts + 1, kUncertainty = kGrain + 1, kTileLayers = kUncertainty + 1;
-const std::vector<std::string> kOthers = {"coverage", "depth",    "normal",
-                                          "object",   "material", "uncertainty"};
 
 // What is to be added to `sum` for `wanted` to come out, in one step or, where no float does it, in
 // two: the first brings the sum to zero.
@@ -55,129 +31,6 @@ Rest RestOf(float sum, float wanted) {
     if (sum + tried == wanted) return {tried, 0};
   }
   return {-sum, wanted};
-}
-
-// A part of the file: channels of its own, named.
-struct Part {
-  std::string name;
-  std::vector<std::string> channels;
-};
-
-// Channels of `images`, of one or three each, side by side, upright.
-std::vector<float> Samples(const std::vector<const Raster*>& images, int orientation) {
-  if (images.size() == 1 && images[0]->channels == 3) {
-    CodedPhotograph picture;
-    picture.width = images[0]->width;
-    picture.height = images[0]->height;
-    picture.samples = images[0]->data;
-    return std::get<std::vector<float>>(Upright(std::move(picture), orientation).samples);
-  }
-  std::vector<float> samples(images.size() * images[0]->data.size());
-  for (size_t c = 0; c < images.size(); ++c) {
-    Raster grey(images[c]->width, images[c]->height);
-    for (size_t i = 0; i < grey.data.size(); ++i) grey.data[i] = images[c]->data[i / 3];
-    const std::vector<float> turned = Samples({&grey}, orientation);
-    for (size_t i = 0; i < images[c]->data.size(); ++i) {
-      samples[i * images.size() + c] = turned[3 * i];
-    }
-  }
-  return samples;
-}
-
-// Two ranks a part, as the specification has them.
-std::string RanksName(const char* matte, size_t first) {
-  return std::string(matte) + "0" + std::to_string(first / 4);
-}
-
-// A part's channels bear its name: readers that do not know of parts (Blender 3.4) tell them apart
-// by it. Those of the montage are plain, so that others show it.
-std::vector<std::string> ChannelsOf(const std::string& part, const char* letters) {
-  std::vector<std::string> channels;
-  for (; *letters; ++letters) {
-    channels.push_back(part == kMontage ? std::string(1, *letters) : part + "." + *letters);
-  }
-  return channels;
-}
-
-std::vector<Part> PartsOf(const std::vector<std::string>& chosen) {
-  std::vector<Part> parts;
-  for (const std::string& name : chosen) {
-    if (name == "object" || name == "material") {
-      for (size_t first = 0; first < 2 * size_t{kCryptomatteRanks}; first += 4) {
-        const std::string own = RanksName(name == "object" ? kObjects : kMaterials, first);
-        parts.push_back({own, ChannelsOf(own, "RGBA")});
-      }
-    } else {
-      const char* letters = name == "coverage" ? "Y" : name == "depth" ? "Z" : "RGB";
-      parts.push_back({name, ChannelsOf(name, name == "normal" ? "XYZ" : letters)});
-    }
-  }
-  return parts;
-}
-
-using Attributes = std::map<std::string, std::string>;
-
-void AddCryptomatte(const char* matte, const std::vector<std::string>& names,
-                    Attributes* attributes) {
-  const std::string key = "cryptomatte/" + CryptomatteKey(matte) + "/";
-  (*attributes)[key + "name"] = matte;
-  (*attributes)[key + "hash"] = "MurmurHash3_32";
-  (*attributes)[key + "conversion"] = "uint32_to_float32";
-  (*attributes)[key + "manifest"] = CryptomatteManifest(names);
-}
-
-// An EXR of many parts, written one after the other.
-class PartsFile {
- public:
-  // `attributes` go into every part: some readers look into the first alone.
-  PartsFile(const std::filesystem::path& file, int width, int height,
-            const std::vector<Part>& parts, const Attributes& attributes)
-      : file_(file.string()), out_(OIIO::ImageOutput::create(file_)) {
-    for (const Part& part : parts) {
-      OIIO::ImageSpec spec(width, height, static_cast<int>(part.channels.size()), OIIO::TypeFloat);
-      spec.channelnames = part.channels;
-      spec.attribute("oiio:subimagename", part.name);
-      spec.attribute("compression", "zip");
-      for (const auto& [key, value] : attributes) spec.attribute(key, value);
-      specs_.push_back(std::move(spec));
-    }
-    Require(out_ && out_->open(file_, static_cast<int>(specs_.size()), specs_.data()));
-  }
-
-  void Append(const std::vector<float>& samples) {
-    if (next_ > 0) {
-      Require(out_->open(file_, specs_.at(next_), OIIO::ImageOutput::AppendSubimage));
-    }
-    Require(out_->write_image(OIIO::TypeFloat, samples.data()));
-    ++next_;
-  }
-
-  void Close() { Require(out_->close()); }
-
- private:
-  void Require(bool is_good) const {
-    if (is_good) return;
-    throw std::runtime_error(
-        file_ + ": cannot be written: " + (out_ ? out_->geterror() : OIIO::geterror()));
-  }
-
-  const std::string file_;
-  const std::unique_ptr<OIIO::ImageOutput> out_;
-  std::vector<OIIO::ImageSpec> specs_;
-  size_t next_ = 0;
-};
-
-// Of `chosen`, those that are added up, in words.
-std::string SumText(const std::vector<std::string>& chosen) {
-  std::string text;
-  for (const std::string& name : chosen) {
-    const bool is_summed = name == kRest || name == kRestFine ||
-                           std::find(kSummed.begin(), kSummed.end(), name) != kSummed.end();
-    if (!is_summed) continue;
-    text += text.empty() ? std::string(kMontage) + " = " : " + ";
-    text += name;
-  }
-  return text;
 }
 
 void SetRanks(const std::map<int, double>& shares, const std::vector<float>& ids, int x, int y,
@@ -225,6 +78,18 @@ std::vector<std::string> MaterialNames(const LayerThings& things) {
   return names;
 }
 
+// Which layers bytes of a tile are of.
+std::string ChoiceText(const std::vector<std::string>& chosen) {
+  std::string text;
+  for (const std::string& name : chosen) text += name + " ";
+  return text + "\n";
+}
+
+size_t RowBytes(const Raster& image, const Tile& tile) {
+  return static_cast<size_t>(tile.right - tile.left) * static_cast<size_t>(image.channels) *
+         sizeof(float);
+}
+
 std::vector<float> IdsOf(const std::vector<std::string>& names) {
   std::vector<float> ids;
   for (const std::string& name : names) ids.push_back(CryptomatteId(name));
@@ -232,39 +97,6 @@ std::vector<float> IdsOf(const std::vector<std::string>& names) {
 }
 
 }  // namespace
-
-const std::vector<std::string>& LayerNames() {
-  static const std::vector<std::string> names = [] {
-    std::vector<std::string> all = {kMontage};
-    all.insert(all.end(), kSummed.begin(), kSummed.end());
-    all.insert(all.end(), {kRest, kRestFine});
-    all.insert(all.end(), kOthers.begin(), kOthers.end());
-    return all;
-  }();
-  return names;
-}
-
-std::vector<std::string> ChosenLayers(const std::string& text) {
-  if (text == "all") return LayerNames();
-  std::set<std::string> wanted;
-  for (size_t at = 0; at <= text.size();) {
-    const size_t end = std::min(text.find(',', at), text.size());
-    wanted.insert(text.substr(at, end - at));
-    at = end + 1;
-  }
-  if (std::ranges::any_of(kSummed, [&](const auto& name) { return wanted.contains(name); })) {
-    wanted.insert({kRest, kRestFine});
-  }
-  std::string known;
-  std::vector<std::string> chosen;
-  for (const std::string& name : LayerNames()) {
-    known += ", " + name;
-    if (wanted.erase(name) > 0) chosen.push_back(name);
-  }
-  if (wanted.empty()) return chosen;
-  throw InputError("--layers",
-                   "there is no layer \"" + *wanted.begin() + "\", expected all" + known);
-}
 
 LayerThings ThingsOf(const MontageScene& scene, const ArtificialEnvironment& building,
                      const LightErrors& errors) {
@@ -313,6 +145,12 @@ LayerImages::LayerImages(const Raster& photo, const Foreground* foreground, Laye
   const size_t ranks = 2 * size_t{kCryptomatteRanks};
   if (IsChosen("object")) object_ranks_.assign(ranks, grey);
   if (IsChosen("material")) material_ranks_.assign(ranks, grey);
+  for (Raster* image : {&coverage_, &distance_, &normal_}) {
+    if (!image->data.empty()) filled_.push_back(image);
+  }
+  for (auto* all : {&object_ranks_, &material_ranks_}) {
+    for (Raster& image : *all) filled_.push_back(&image);
+  }
 }
 
 LayerImages::~LayerImages() = default;
@@ -352,6 +190,52 @@ void LayerImages::Take(int x, int y, const LayeredPixel& pixel) {
   layers->Set(kUncertainty, at, pixel.seen * UncertaintyOf(pixel, things_.errors));
 }
 
+std::string LayerImages::TileBytes(int index) const {
+  const Tile tile = TileAt(photo_.width, photo_.height, index);
+  std::string bytes = ChoiceText(chosen_);
+  const auto append = [&](const void* from, size_t size) {
+    bytes.append(static_cast<const char*>(from), size);
+  };
+  for (const Raster* image : filled_) {
+    for (int y = tile.top; y < tile.bottom; ++y) {
+      append(image->At(tile.left, y), RowBytes(*image, tile));
+    }
+  }
+  if (const auto& layers = tiles_[static_cast<size_t>(index)]) {
+    append(layers->is_computed.data(), layers->is_computed.size());
+    append(layers->samples.data(), layers->samples.size() * sizeof(float));
+  }
+  return bytes;
+}
+
+bool LayerImages::TakeTile(int index, const std::string& bytes) {
+  const Tile tile = TileAt(photo_.width, photo_.height, index);
+  const std::string choice = ChoiceText(chosen_);
+  auto layers = std::make_unique<TileLayers>(tile);
+  size_t images = choice.size();
+  for (const Raster* image : filled_) {
+    images += static_cast<size_t>(tile.bottom - tile.top) * RowBytes(*image, tile);
+  }
+  const size_t samples = layers->samples.size() * sizeof(float);
+  const size_t all = images + layers->is_computed.size() + samples;
+  if (!bytes.starts_with(choice) || (bytes.size() != images && bytes.size() != all)) return false;
+  const char* from = bytes.data() + choice.size();
+  const auto take = [&](void* to, size_t size) {
+    std::memcpy(to, from, size);
+    from += size;
+  };
+  for (Raster* image : filled_) {
+    for (int y = tile.top; y < tile.bottom; ++y) {
+      take(image->At(tile.left, y), RowBytes(*image, tile));
+    }
+  }
+  if (bytes.size() == images) return true;
+  take(layers->is_computed.data(), layers->is_computed.size());
+  take(layers->samples.data(), samples);
+  tiles_[static_cast<size_t>(index)] = std::move(layers);
+  return true;
+}
+
 Raster LayerImages::Layer(int layer, const Raster& montage, const Eigen::Vector3f& gain) const {
   Raster image = layer == 0 ? montage : Raster(montage.width, montage.height);
   for (size_t index = 0; index < tiles_.size(); ++index) {
@@ -373,25 +257,25 @@ Raster LayerImages::Layer(int layer, const Raster& montage, const Eigen::Vector3
 void LayerImages::Write(const std::filesystem::path& file, const Raster& montage,
                         const Eigen::Vector3d& gain, int orientation) const {
   Attributes attributes = {{"insituSum", SumText(chosen_)}};
-  if (IsChosen("object")) AddCryptomatte(kObjects, ObjectNames(things_), &attributes);
-  if (IsChosen("material")) AddCryptomatte(kMaterials, MaterialNames(things_), &attributes);
+  if (IsChosen("object")) AddCryptomatte(kObjectMatte, ObjectNames(things_), &attributes);
+  if (IsChosen("material")) AddCryptomatte(kMaterialMatte, MaterialNames(things_), &attributes);
   const bool is_turned = orientation >= 5;
   const int width = is_turned ? montage.height : montage.width;
   const int height = is_turned ? montage.width : montage.height;
   const auto write = [&](const std::filesystem::path& temporary) {
     PartsFile out(temporary, width, height, PartsOf(chosen_), attributes);
     const auto append = [&](const std::vector<const Raster*>& images) {
-      out.Append(Samples(images, orientation));
+      out.Append(PartSamples(images, orientation));
     };
     Raster sum(montage.width, montage.height), fine;
     for (const std::string& name : chosen_) {
-      const auto summed = std::find(kSummed.begin(), kSummed.end(), name);
-      if (summed != kSummed.end() || name == "uncertainty") {
-        const int layer = static_cast<int>(summed - kSummed.begin());
+      const auto summed = std::ranges::find(SummedLayers(), name);
+      if (summed != SummedLayers().end() || name == "uncertainty") {
+        const int layer = static_cast<int>(summed - SummedLayers().begin());
         const Raster image = Layer(layer, montage, gain.cast<float>());
         append({&image});
         if (layer != kUncertainty) AddUp(image, &sum);
-      } else if (name == kRest) {
+      } else if (name == kRestLayer) {
         fine = LeaveRest(montage, &sum);
         append({&sum});
       } else if (name == "object" || name == "material") {
@@ -400,11 +284,11 @@ void LayerImages::Write(const std::filesystem::path& file, const Raster& montage
           append({&ranks[i], &ranks[i + 1], &ranks[i + 2], &ranks[i + 3]});
         }
       } else {
-        append({name == kMontage     ? &montage
-                : name == kRestFine  ? &fine
-                : name == "coverage" ? &coverage_
-                : name == "depth"    ? &distance_
-                                     : &normal_});
+        append({name == kMontageLayer    ? &montage
+                : name == kRestFineLayer ? &fine
+                : name == "coverage"     ? &coverage_
+                : name == "depth"        ? &distance_
+                                         : &normal_});
       }
     }
     out.Close();

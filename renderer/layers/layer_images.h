@@ -12,18 +12,10 @@
 #include "calibration/photo/raster.h"
 #include "renderer/building/artificial_environment.h"
 #include "renderer/layers/light_errors.h"
-#include "renderer/picture/render.h"
+#include "renderer/picture/render_options.h"
 #include "renderer/trace/montage_scene.h"
 
 namespace insitu {
-
-// Names of the parts that `--layers` may choose, in the order of the file: first "montage", then
-// those that are added up, from "photo" to "rest_fine", then the others.
-const std::vector<std::string>& LayerNames();
-
-// "all", or names with commas between them, in that order; with any that is added up, what is left
-// of the sum, "rest" and "rest_fine". Throws InputError naming those there are.
-std::vector<std::string> ChosenLayers(const std::string& text);
 
 // What of a picture its layers are of, by the indices that LayeredPixel has.
 struct LayerThings {
@@ -47,6 +39,13 @@ class LayerImages {
   // From any thread, each pixel once, those of a tile from one.
   void Take(int x, int y, const LayeredPixel& pixel);
 
+  // All that was taken of a tile, for the day when its render goes on; from the thread that took
+  // it.
+  std::string TileBytes(int tile) const;
+  // Instead of its pixels, by any thread. False, and nothing is taken: they are of another picture
+  // or of other layers than those chosen.
+  bool TakeTile(int tile, const std::string& bytes);
+
   // One EXR of many parts, 32-bit float, turned upright as montages are by EXIF's `orientation`.
   // `montage` is what was delivered: in each pixel and channel it is, bit for bit, the sum of the
   // parts that the header's "insituSum" names, added as 32-bit floats in that order.
@@ -69,6 +68,7 @@ class LayerImages {
   std::vector<std::unique_ptr<TileLayers>> tiles_;     // null: the photograph stays in all of it
   Raster coverage_, distance_, normal_;                // empty: not chosen
   std::vector<Raster> object_ranks_, material_ranks_;  // (id, share), one channel each
+  std::vector<Raster*> filled_;                        // those that are not empty
 };
 
 }  // namespace insitu

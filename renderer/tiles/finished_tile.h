@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 namespace insitu {
@@ -38,6 +39,7 @@ struct FinishedTile {
   // Of these, how much of each is of surfaces, mirrored or behind glass, that no photograph shows
   // [1/255].
   std::vector<uint8_t> unseen;
+  std::string layers = {};  // what LayerImages has taken of it; "": nobody asked
 };
 
 }  // namespace insitu

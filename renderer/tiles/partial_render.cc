@@ -9,7 +9,7 @@
 #include <chrono>
 #include <condition_variable>
 #include <cstring>
-#include <set>
+#include <map>
 #include <stdexcept>
 #include <utility>
 
@@ -129,12 +129,14 @@ void PartialRender::Begin() {
 
 // What follows the last whole record is of a write that was cut short.
 void PartialRender::GoOn(const std::string& content, size_t header_bytes) {
-  std::set<int> seen;
+  std::map<int, size_t> places;  // in earlier_
   bytes_ = header_bytes;
   size_t length = 0;
   while (auto tile = ReadTileRecord(std::string_view(content).substr(bytes_), header_, &length)) {
     bytes_ += length;
-    if (seen.insert(tile->index).second) earlier_.push_back(std::move(*tile));
+    const auto [place, is_new] = places.try_emplace(tile->index, earlier_.size());
+    if (is_new) earlier_.emplace_back();
+    earlier_[place->second] = std::move(*tile);  // the last: it was wanted with other layers
   }
   if (ftruncate(file_, static_cast<off_t>(bytes_)) != 0) ThrowCannot(path_, "written");
 }
@@ -210,6 +212,7 @@ PartialRenderReader::News PartialRenderReader::Read() {
   }
   while (auto tile = ReadTileRecord(rest, *header_, &length)) {
     rest.remove_prefix(length);
+    tile->layers = {};
     news.tiles.push_back(std::move(*tile));
   }
   bytes_ += content.size() - rest.size();

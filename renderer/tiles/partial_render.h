@@ -64,7 +64,7 @@ class PartialRenderReader {
     std::optional<PartialHeader> header;  // nullopt: there is no such render
     bool is_anew = false;                 // all that was told before does not hold any more
     bool is_running = false;              // else it was stopped, and waits
-    std::vector<FinishedTile> tiles;      // since the last call
+    std::vector<FinishedTile> tiles;      // since the last call, without their layers
   };
   News Read();  // at most about 64 MB at a time
 

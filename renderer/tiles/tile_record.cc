@@ -16,7 +16,7 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little);  // as the file is
 
-constexpr char kFirstWord[] = "insitu-partial-2";
+constexpr char kFirstWord[] = "insitu-partial-3";
 constexpr size_t kFrameBytes = 2 * sizeof(uint32_t);  // length before, check sum after
 
 using CountMember = int64_t TileCounts::*;
@@ -73,11 +73,12 @@ std::optional<FinishedTile> ReadContent(std::string_view content, const PartialH
     computed += tile.is_computed.back();
   }
   content.remove_prefix(mask_bytes);
-  if (content.size() != computed * (3 * sizeof(float) + 1)) return std::nullopt;
+  const size_t rgb_bytes = computed * 3 * sizeof(float);
+  if (content.size() < rgb_bytes + computed) return std::nullopt;
+  tile.layers = content.substr(rgb_bytes + computed);
   tile.rgb.resize(3 * computed);
   tile.unseen.resize(computed);
   if (computed == 0) return tile;
-  const size_t rgb_bytes = tile.rgb.size() * sizeof(float);
   std::memcpy(tile.rgb.data(), content.data(), rgb_bytes);
   std::memcpy(tile.unseen.data(), content.data() + rgb_bytes, computed);
   return tile;
@@ -115,6 +116,7 @@ std::string TileRecord(const FinishedTile& tile) {
   content += mask;
   content.append(reinterpret_cast<const char*>(tile.rgb.data()), tile.rgb.size() * sizeof(float));
   content.append(tile.unseen.begin(), tile.unseen.end());
+  content += tile.layers;
   std::string record;
   Append(&record, static_cast<uint32_t>(content.size()));
   record += content;

@@ -10,7 +10,8 @@ cp -r -- "$DEMO_SITE" "$site"
 name=$(photo_names "$site" | head -n 1)
 partial=$site/work/render/$name.partial
 
-render() { "$INSITU_BIN/insitu-render" "$site" --photo "$name"; }
+layers=() # options
+render() { "$INSITU_BIN/insitu-render" "$site" --photo "$name" "${layers[@]}"; }
 # The light that the first render keeps stays: what is begun anew are pictures.
 anew() {
   rm -rf -- "$site/montages"
@@ -21,7 +22,7 @@ anew() {
 render_until() {
   local pid status=0
   # Not by the function, whose shell would be signalled.
-  "$INSITU_BIN/insitu-render" "$site" --photo "$name" >"$temporary/log" 2>&1 &
+  "$INSITU_BIN/insitu-render" "$site" --photo "$name" "${layers[@]}" >"$temporary/log" 2>&1 &
   pid=$!
   while kill -0 "$pid" 2>/dev/null && [[ $(stat -c %s "$partial" 2>/dev/null || echo 0) -lt $2 ]]; do sleep 0.02; done
   kill "-$1" "$pid" 2>/dev/null || true
@@ -59,6 +60,22 @@ stops_in_order() {
 check 'a signal as of Ctrl-C ends it with status 3 and tells how far it was' stops_in_order
 goes_on() { render >/dev/null && [[ $(cd "$site" && checksums montages) == "$expected" ]]; }
 check 'then it goes on to the same bytes' goes_on
+
+goes_on_with_its_layers() {
+  local status=0 parts=$site/montages/$name.parts.exr whole=$temporary/whole.parts.exr
+  layers=(--layers depth,building_sun,object)
+  anew
+  render >/dev/null && mv -- "$parts" "$whole" || return 1
+  anew
+  render_until KILL 400000 || status=$?
+  [[ $status -eq 137 && -s $partial && ! -e $parts ]] || return 1
+  render >/dev/null || return 1
+  cmp -- "$parts" "$whole"
+  status=$?
+  layers=()
+  return "$status"
+}
+check 'so do the layers that were chosen' goes_on_with_its_layers
 
 two_at_a_time() {
   local pid output status=0

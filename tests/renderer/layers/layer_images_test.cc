@@ -10,7 +10,9 @@
 #include <map>
 #include <sstream>
 
+#include "calibration/files/error.h"
 #include "renderer/layers/cryptomatte.h"
+#include "renderer/layers/layer_names.h"
 #include "renderer/picture/render.h"
 #include "renderer/trace/interreflected_light.h"
 #include "tests/calibration/files/scratch_folder.h"
@@ -140,6 +142,40 @@ TEST_F(LayerImagesTest, GlassMirrorsAndLetsThrough) {
   EXPECT_LT(Largest(parts.at("rest")), 1e-6);
   EXPECT_GT(Largest(parts.at("building_transmission")), 0.05);
   EXPECT_GT(Largest(parts.at("building_reflection")), 1e-3);
+}
+
+// A render that was stopped goes on with what it has kept of its layers.
+TEST_F(LayerImagesTest, GoOnWhereTheyWereStopped) {
+  const Parts parts = Render(true);
+  MontageScene scene = site_.With(building_);
+  AddInterreflection(&scene, 1, nullptr, 4);
+  const LayerThings things = ThingsOf(scene, building_, kErrors);
+  LayerImages before(site_.photo, nullptr, things, LayerNames());
+  LayerImages after(site_.photo, nullptr, things, LayerNames());
+  LayerImages others(site_.photo, nullptr, things, {"coverage"});
+  RenderOptions options;
+  options.threads = 1;
+  options.layers = [&](int x, int y, const LayeredPixel& pixel) { before.Take(x, y, pixel); };
+  RenderCourse course;
+  std::vector<FinishedTile> kept;
+  course.tile_done = [&](const FinishedTile& tile) {
+    kept.push_back(tile);
+    kept.back().layers = before.TileBytes(tile.index);
+  };
+  course.stops = [&] { return kept.size() == 2; };
+  RenderMontage(scene, site_.camera(), site_.photo, options, course);
+  for (const FinishedTile& tile : kept) {
+    EXPECT_FALSE(others.TakeTile(tile.index, tile.layers));
+    EXPECT_FALSE(after.TakeTile(tile.index, ""));
+    EXPECT_FALSE(after.TakeTile(tile.index, tile.layers + "x"));
+    EXPECT_TRUE(after.TakeTile(tile.index, tile.layers));
+  }
+  options.layers = [&](int x, int y, const LayeredPixel& pixel) { after.Take(x, y, pixel); };
+  const RenderResult result =
+      RenderMontage(scene, site_.camera(), site_.photo, options, {.earlier = kept});
+  const auto file = scratch_.path() / "b.parts.exr";
+  after.Write(file, result.linear, Eigen::Vector3d::Ones(), 1);
+  EXPECT_EQ(ReadParts(file, &sum_), parts);
 }
 
 // What is not chosen goes into the rest.

@@ -36,7 +36,7 @@ FinishedTile TileOf(int index) {
 
 bool IsSame(const FinishedTile& a, const FinishedTile& b) {
   return a.index == b.index && a.is_computed == b.is_computed && a.rgb == b.rgb &&
-         a.unseen == b.unseen && a.counts.building == b.counts.building &&
+         a.unseen == b.unseen && a.layers == b.layers && a.counts.building == b.counts.building &&
          a.counts.changed == b.counts.changed && a.counts.unseen == b.counts.unseen &&
          a.counts.rays == b.counts.rays;
 }
@@ -70,6 +70,24 @@ TEST_F(PartialRenderTest, GivesBackToTheBitWhatWasKept) {
   ASSERT_EQ(tiles.size(), 3u);
   EXPECT_TRUE(IsSame(tiles[0], TileOf(4)));
   EXPECT_TRUE(IsSame(tiles[2], TileOf(5)));
+}
+
+// A run with other layers renders a tile anew: what it has kept last is what the next one wants.
+TEST_F(PartialRenderTest, TheLastOfATileCountsWithItsLayers) {
+  FinishedTile with_layers = TileOf(1);
+  with_layers.layers = std::string("depth \n\0\1", 9);
+  {
+    PartialRender partial(path_, kHeader);
+    for (const FinishedTile& tile : {TileOf(1), TileOf(2), with_layers}) partial.Keep(tile);
+  }
+  PartialRender partial(path_, kHeader);
+  const std::vector<FinishedTile> tiles = partial.TakeEarlier();
+  ASSERT_EQ(tiles.size(), 2u);
+  EXPECT_TRUE(IsSame(tiles[0], with_layers));
+  EXPECT_TRUE(IsSame(tiles[1], TileOf(2)));
+  for (const FinishedTile& tile : PartialRenderReader(path_).Read().tiles) {
+    EXPECT_EQ(tile.layers, "");  // who looks on does not need them
+  }
 }
 
 // What kill -9, a full disk and power loss may leave: the file ends, or holds anything, from some
