@@ -24,6 +24,7 @@ void Lessen(Quality quality, RenderSiteOptions* options) {
   AtMost(4, 4, 1, 4, options);
   options->render.block = 4;
   options->find_shadows = false;
+  options->occlusion_pixels = 4;
   options->is_quick = true;
 }
 

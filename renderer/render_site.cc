@@ -18,6 +18,7 @@
 #include "radiometry/transport/cosine_directions.h"
 #include "renderer/building/building_outline.h"
 #include "renderer/layers/layer_images.h"
+#include "renderer/levels/simplified_building.h"
 #include "renderer/light_cache.h"
 #include "renderer/load_scene.h"
 #include "renderer/photo_gain.h"
@@ -131,8 +132,9 @@ std::string OptionsText(const RenderSiteOptions& options) {
                    render.fewest_rays, render.most_rays, render.outline_rays, render.tolerance,
                    render.reach, static_cast<int>(options.frame),
                    static_cast<int>(options.with_building), static_cast<int>(options.sharpness)) +
-         Formatted("block %d coarse %d avr %d ", render.block, options.light_coarseness,
-                   static_cast<int>(options.avr)) +
+         Formatted("block %d coarse %d avr %d occlusion %.17g ", render.block,
+                   options.light_coarseness, static_cast<int>(options.avr),
+                   options.occlusion_pixels) +
          Formatted("grain %d shadows %d ambient %d printed %d bounces %d",
                    static_cast<int>(options.with_grain), static_cast<int>(options.find_shadows),
                    static_cast<int>(options.uniform_ambient), static_cast<int>(options.as_printed),
@@ -141,9 +143,10 @@ std::string OptionsText(const RenderSiteOptions& options) {
 
 // Of the light among surfaces, which all photographs share.
 std::string LightOptionsText(const RenderSiteOptions& options) {
-  return Formatted("light, building %d bounces %d coarse %d form %d",
+  return Formatted("light, building %d bounces %d coarse %d form %d occlusion %.17g",
                    static_cast<int>(options.with_building), options.bounces.value_or(-1),
-                   options.light_coarseness, static_cast<int>(options.avr == AvrLevel::kForm));
+                   options.light_coarseness, static_cast<int>(options.avr == AvrLevel::kForm),
+                   options.occlusion_pixels);
 }
 
 // Each quality has its own, and the form without materials.
@@ -267,7 +270,7 @@ class SiteRender {
         inputs_(Sha256OfText(OptionsText(options) + "\n" + files_)),
         light_inputs_(Sha256OfText(LightOptionsText(options) + "\n" + files_)),
         kept_light_(std::async(std::launch::async, [this] { return KeptLightIfAny(); })),
-        scene_(LoadScene(site, std::move(natural), std::move(images_), building_)),
+        scene_(SceneOf(std::move(natural))),
         statement_(StatementOf(
             site, {options.with_building, options.avr, options.quality, OptionsText(options)})) {
     ThrowIfStopped();
@@ -278,6 +281,16 @@ class SiteRender {
     if (!IsLit()) return;
     AddInterreflection(&scene_, options.bounces, kept ? &*kept : nullptr, options.light_coarseness);
     if (kept) kept_points_ = GatheredPoints();
+  }
+
+  // The edges are the building's own in any case.
+  MontageScene SceneOf(NaturalEnvironment natural) {
+    if (options_.occlusion_pixels <= 0) {
+      return LoadScene(site_, std::move(natural), std::move(images_), building_);
+    }
+    const ArtificialEnvironment simple =
+        Simplified(building_, OcclusionSize(natural, building_, options_.occlusion_pixels));
+    return LoadScene(site_, std::move(natural), std::move(images_), simple);
   }
 
   bool IsLit() const { return !options_.uniform_ambient && !IsDrawn(options_.avr); }

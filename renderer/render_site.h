@@ -38,6 +38,8 @@ struct RenderSiteOptions {
   std::optional<int> bounces = {};  // of light among surfaces, at most; 0: sun and sky alone
   bool with_tiff = false;           // of 16 bits, of every photograph
   bool is_quick = false;            // pictures packed little
+  // What so many pixels hide of the building is taken together; 0: nothing is.
+  double occlusion_pixels = 0;
   AvrLevel avr = AvrLevel::kMaterials;
   std::string quality = {};  // what the pictures say of it; empty: final
   // By ChosenLayers(), to <photo>.parts.exr; empty: none. Of the tiles that an earlier run has kept
