@@ -10,10 +10,10 @@ const {IfcAPI, ...ifc} = require(path.join(folder, 'web-ifc-api-node.js'));
 const typeCode = (name) => ifc[name.toUpperCase()];
 const valueOf = (attribute) => (attribute && attribute.value !== undefined ? attribute.value : attribute);
 
-class Reader extends Georeference {
+class Reader extends Mending {
   constructor(api, model) {
     super();
-    Object.assign(this, {api, model, vertices: [], triangles: [], spheres: [], surfaces: [], indexOf: new Map()});
+    Object.assign(this, {api, model, vertices: [], triangles: [], spheres: [], surfaces: [], indexOf: new Map(), scale: 1});
     this.entities = {};
     this.skipped = [];
     this.warnings = [];
@@ -66,7 +66,7 @@ class Reader extends Georeference {
     const surface = this.surface({layer, block, material, srgb: isStyled ? [x, y, z] : null, opacity: w});
     const first = this.vertices.length / 3;
     const start = this.triangles.length;
-    const m = placed.flatTransformation;
+    const m = placed.flatTransformation.map((entry, i) => (i % 4 === 3 ? entry : entry * this.scale));
     if (!this.partsOf.has(element)) this.partsOf.set(element, {layer, ranges: [], spheres: []});
     const sphere = this.sphereOf(placed.geometryExpressID, data, m);
     if (sphere) {
@@ -283,39 +283,19 @@ function whatWasSaid() {
   });
 }
 
-// web-ifc passes over keywords in small letters and takes units with an offset, which of lengths is none, for metres.
-function asWebIfcReads(bytes) {
-  const offset = 'WITHOFFSET';
-  for (let at = bytes.indexOf(offset); at >= 0; at = bytes.indexOf(offset, at)) bytes.fill(' ', at, at + offset.length);
-  if (!['=Ifc', '= Ifc', '=ifc', '= ifc'].some((word) => bytes.includes(word))) return new Uint8Array(bytes);
-  const [quote, slash, star, a, z] = Buffer.from("'/*az");
-  let within = 0;  // a text or a comment
-  for (let i = 0; i < bytes.length; ++i) {
-    const byte = bytes[i];
-    if (within === quote) {
-      if (byte === quote) within = 0;
-    } else if (within === star) {
-      if (byte === slash && bytes[i - 1] === star) within = 0;
-    } else if (byte === quote || (byte === star && bytes[i - 1] === slash)) {
-      within = byte;
-    } else if (byte >= a && byte <= z) {
-      bytes[i] = byte - 32;
-    }
-  }
-  return new Uint8Array(bytes);
-}
-
 async function main() {
   console.log = console.warn = hear;
   const api = new IfcAPI();
   api.SetWasmPath(folder + path.sep, true);
   await api.Init();
   api.SetLogLevel(3);
-  const model = api.OpenModel(asWebIfcReads(fs.readFileSync(file)));
+  const bytes = asWebIfcReads(fs.readFileSync(file));
+  const model = api.OpenModel(bytes, {CIRCLE_SEGMENTS});
   if (model < 0) throw new Error('web-ifc knows no schema of it');
   const reader = new Reader(api, model);
   reader.readStyles();
   reader.readPlaces();
+  reader.mendLines(Buffer.from(bytes.buffer));
   reader.readMeshes();
   reader.countLost();
   reader.countLooks();
