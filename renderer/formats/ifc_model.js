@@ -19,6 +19,7 @@ class Reader extends Mending {
     this.warnings = [];
     this.shown = new Set();
     this.filled = [];  // elements of which triangles were missing
+    this.dropped = [];  // ranges of triangles
     this.isSolid = new Map();  // element -> by the type of its shapes
     this.partsOf = new Map();  // element -> [from, to) in triangles, spheres
   }
@@ -45,14 +46,47 @@ class Reader extends Mending {
 
   readMeshes() {
     this.api.StreamAllMeshes(this.model, (mesh) => {
-      const kind = this.kindOf(mesh.expressID);
-      const name = valueOf(this.line(mesh.expressID).Name);
       const before = this.triangles.length + this.spheres.length;
-      for (let i = 0; i < mesh.geometries.size(); ++i) {
-        this.addGeometry(mesh.expressID, name ? kind + '_' + name : kind, mesh.geometries.get(i));
-      }
+      const kind = this.addMesh(mesh);
       if (this.triangles.length + this.spheres.length > before) this.entities[kind] = (this.entities[kind] || 0) + 1;
     });
+  }
+  addMesh(mesh) {
+    const kind = this.kindOf(mesh.expressID);
+    const name = valueOf(this.line(mesh.expressID).Name);
+    for (let i = 0; i < mesh.geometries.size(); ++i) {
+      this.addGeometry(mesh.expressID, name ? kind + '_' + name : kind, mesh.geometries.get(i));
+    }
+    return kind;
+  }
+  // Cuts through round things fail at some numbers of sides and not at others: solids that come out open are read with
+  // fewer sides.
+  readOpenAgain(bytes) {
+    const open = [...this.partsOf].filter(([element, part]) => part.spheres.length === 0 && part.ranges.length > 0 &&
+      this.isSolidElement(element) && this.volume(element) === null);
+    if (open.length === 0) return;
+    this.model = this.api.OpenModel(bytes, {CIRCLE_SEGMENTS: FEW_SEGMENTS});
+    this.mendLines(Buffer.from(bytes.buffer));
+    for (const [element] of open) this.partsOf.delete(element);
+    this.api.StreamMeshes(this.model, open.map(([element]) => element), (mesh) => { this.addMesh(mesh); });
+    for (const [element, part] of open) {
+      if (!this.partsOf.has(element)) {
+        this.partsOf.set(element, part);
+        continue;
+      }
+      this.filled = this.filled.filter((one) => !part.ranges.includes(one.range));
+      this.dropped.push(...part.ranges);
+    }
+  }
+  // Without those that were read again.
+  keptTriangles() {
+    const kept = [];
+    let at = 0;
+    for (const [from, to] of this.dropped.sort((a, b) => a[0] - b[0])) {
+      for (; at < from; ++at) kept.push(this.triangles[at]);
+      at = to;
+    }
+    return this.dropped.length === 0 ? this.triangles : kept.concat(this.triangles.slice(at));
   }
   addGeometry(element, layer, placed) {
     const geometry = this.api.GetGeometry(this.model, placed.geometryExpressID);
@@ -87,7 +121,7 @@ class Reader extends Mending {
     const range = [start, this.triangles.length];
     this.partsOf.get(element).ranges.push(range);
     const added = this.isSolidElement(element) ? this.fillTriangles(range, surface) : 0;
-    if (added > 0) this.filled.push({size: added, text: layer + ' (' + added + ')'});
+    if (added > 0) this.filled.push({range, size: added, text: layer + ' (' + added + ')'});
     geometry.delete();
   }
   // x, y, z, radius of a whole one: all its corners are as far from the middle of its box, and no
@@ -297,6 +331,7 @@ async function main() {
   reader.readPlaces();
   reader.mendLines(Buffer.from(bytes.buffer));
   reader.readMeshes();
+  reader.readOpenAgain(bytes);
   reader.countLost();
   reader.countLooks();
   reader.nameOpenSolids();
@@ -304,10 +339,11 @@ async function main() {
   reader.readMapConversion();
   const has_unit = reader.hasLengthUnit();
   fs.writeFileSync(out + '.bin', Buffer.from(new Float64Array(reader.vertices).buffer));
-  fs.appendFileSync(out + '.bin', Buffer.from(new Uint32Array(reader.triangles).buffer));
+  const triangles = reader.keptTriangles();
+  fs.appendFileSync(out + '.bin', Buffer.from(new Uint32Array(triangles).buffer));
   const {surfaces, spheres, entities, skipped, map} = reader;
   const warnings = [...reader.warnings, ...whatWasSaid()];
-  const counts = {vertices: reader.vertices.length / 3, triangles: reader.triangles.length / 4};
+  const counts = {vertices: reader.vertices.length / 3, triangles: triangles.length / 4};
   fs.writeFileSync(out + '.json', JSON.stringify(
     {schema: api.GetModelSchema(model), has_unit, ...counts, surfaces, spheres, entities, skipped, warnings, map}));
 }
