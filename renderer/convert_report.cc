@@ -4,6 +4,10 @@
 #include <algorithm>
 #include <functional>
 #include <initializer_list>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "calibration/files/json_file.h"
 #include "calibration/files/whole_file.h"
@@ -136,12 +140,51 @@ std::string Row(std::initializer_list<std::string> cells) {
   return row + "</tr>\n";
 }
 
+constexpr size_t kMostRows = 500;  // of a table of the page
+
+// Behind the rows of a table that holds the first of so many.
+std::string TableEnd(size_t rows) {
+  if (rows <= kMostRows) return "</table></section>\n";
+  return "</table><p>and " + std::to_string(rows - kMostRows) +
+         " smaller ones, which --report lists</p></section>\n";
+}
+
 std::string CountsTable(const std::string& title, const std::string& what,
                         const std::map<std::string, int>& counts) {
   std::string table =
       "<section><h2>" + title + "</h2><table><tr><th>" + what + "</th><th>count</th></tr>\n";
-  for (const auto& [name, count] : counts) table += Row({name, std::to_string(count)});
-  return table + "</table></section>\n";
+  std::vector<std::pair<std::string, int>> rows(counts.begin(), counts.end());
+  if (rows.size() > kMostRows) {
+    std::ranges::stable_sort(rows, std::greater(), &std::pair<std::string, int>::second);
+  }
+  for (size_t i = 0; i < std::min(rows.size(), kMostRows); ++i) {
+    table += Row({rows[i].first, std::to_string(rows[i].second)});
+  }
+  return table + TableEnd(rows.size());
+}
+
+using NamedMeasures = std::vector<std::pair<std::string, ElementMeasures>>;
+
+NamedMeasures LargestFirst(const std::map<std::string, ElementMeasures>& elements) {
+  NamedMeasures largest(elements.begin(), elements.end());
+  std::ranges::stable_sort(largest, std::greater(),
+                           [](const auto& element) { return element.second.area; });
+  return largest;
+}
+
+std::string ElementsTable(const Conversion& conversion) {
+  std::string table =
+      "<section><h2>Layers</h2><table><tr><th>layer</th><th>faces</th><th>area [m²]</th>"
+      "<th>volume [m³]</th></tr>\n";
+  const NamedMeasures largest = LargestFirst(conversion.elements);
+  for (size_t i = 0; i < std::min(largest.size(), kMostRows); ++i) {
+    const auto& [name, measures] = largest[i];
+    table += Row({name, std::to_string(conversion.triangles_of_layer.at(name)),
+                  Number("%.2f", measures.area),
+                  measures.volume ? Number("%.2f", *measures.volume)
+                                  : std::to_string(measures.open_edges) + " open edges"});
+  }
+  return table + TableEnd(largest.size());
 }
 
 std::string SkippedTable(const SkippedEntities& skipped) {
@@ -193,10 +236,9 @@ constexpr char kPageHead[] = R"(<!DOCTYPE html>
  body { font: 15px/1.45 system-ui, sans-serif; margin: 2rem auto; max-width: 72rem;
         padding: 0 1rem; color: #222; }
  img { max-width: 100%; height: auto; border: 1px solid #ddd; }
- main { columns: 20rem; column-gap: 2rem; }
- section { padding-bottom: .6rem; }
- tr { break-inside: avoid; }
- h2 { break-after: avoid; }
+ main { display: grid; grid-template-columns: repeat(auto-fit, minmax(min(22rem, 100%), 1fr));
+        gap: 1.2rem 2rem; align-items: start; }
+ section { max-height: 28rem; overflow-y: auto; }
  table { border-collapse: collapse; width: 100%; }
  th, td { text-align: left; padding: .15rem .6rem .15rem 0; border-bottom: 1px solid #eee;
           vertical-align: top; overflow-wrap: anywhere; }
@@ -224,7 +266,7 @@ std::string Page(const std::string& picture, const Conversion& conversion) {
     page += "</ul>\n";
   }
   page += "<main>\n" + BoxTable(conversion.box) + FilesTable(conversion) +
-          CountsTable("Triangles by layer", "layer", conversion.triangles_of_layer) +
+          ElementsTable(conversion) +
           CountsTable("Triangles by material", "material", conversion.triangles_of_material) +
           CountsTable("Entities", "kind", sums.entities) + SkippedTable(sums.skipped);
   std::map<std::string, int> solids;
@@ -245,9 +287,7 @@ std::string Conversion::BriefReport() const {
     report += "  from " + Written(box.min()) + " to " + Written(box.max()) + " m\n";
   }
   constexpr size_t kMostElements = 30;
-  std::vector<std::pair<std::string, ElementMeasures>> largest(elements.begin(), elements.end());
-  std::ranges::stable_sort(largest, std::greater(),
-                           [](const auto& element) { return element.second.area; });
+  const NamedMeasures largest = LargestFirst(elements);
   for (size_t i = 0; i < std::min(largest.size(), kMostElements); ++i) {
     const auto& [name, measures] = largest[i];
     report += "  " + name + ": " + std::to_string(triangles_of_layer.at(name)) +

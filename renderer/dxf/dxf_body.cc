@@ -128,7 +128,9 @@ FacetedBody Facet(const DxfBody& body, const std::string& sab,
   AcisShape shape = FacetedAcis(*file, options.tolerance / scale, options.most_vertices);
   if (shape.faces == 0) result.skipped[{name, "its body has no face"}] = 1;
   for (const auto& [reason, count] : shape.unread) {
-    result.skipped[{"face of " + name, reason}] += count;
+    const bool is_free_form = reason.starts_with("on a ") || reason.starts_with("bounded by ");
+    const char* remedy = is_free_form ? ": make it a mesh (AutoCAD: MESHSMOOTH)" : "";
+    result.skipped[{"face of " + name, reason + remedy}] += count;
   }
   for (const AcisSphere& sphere : shape.spheres) {
     if (IsSimilarity(world_from_block, scale)) {

@@ -48,6 +48,8 @@ DxfInsert ReadInsert(const DxfRecord& record, const DxfLook& look) {
   return insert;
 }
 
+constexpr int kLastColor = 257;  // BYENTITY; 256: BYLAYER
+
 // A colour that is no number costs itself.
 std::optional<int> ColorNumber(const DxfRecord& record, int code, SkippedEntities* skipped) {
   const DxfTag* tag = record.Find(code);
@@ -60,14 +62,28 @@ std::optional<int> ColorNumber(const DxfRecord& record, int code, SkippedEntitie
   }
 }
 
+// What an entity says of its look that is not shown.
+void CountNotShown(const DxfRecord& record, SkippedEntities* skipped) {
+  constexpr int kByValue = 0x02000000, kOpaque = 255;
+  const int value = ColorNumber(record, 440, skipped).value_or(0);
+  if ((value & kByValue) != 0 && (value & kOpaque) != kOpaque) {
+    ++(*skipped)[{"transparency", "of the drawing: shown opaque, see materials.json"}];
+  }
+  if (record.Find(347)) {
+    ++(*skipped)[{"material", "of the drawing: not read, see materials.json"}];
+  }
+}
+
 DxfLook LookOf(const DxfRecord& record, SkippedEntities* skipped) {
   DxfLook look;
+  CountNotShown(record, skipped);
   if (const DxfTag* tag = record.Find(8)) {
     if (tag->value != "0") look.layer = record.Name(8);
   }
   // A colour is negative only in the layer table, but some programs write it so here too.
   const int64_t index = ColorNumber(record, 62, skipped).value_or(kColorByLayer);
   look.color = static_cast<int>(std::abs(index) & 0xFFFF);
+  if (look.color > kLastColor) ++(*skipped)[{"colour", "no index of one: shown in mid grey"}];
   if (const auto color = ColorNumber(record, 420, skipped)) look.true_color = *color & 0xFFFFFF;
   return look;
 }
@@ -119,16 +135,21 @@ void DxfEntityReader::Skip(std::string_view kind, const std::string& reason) {
 }
 
 void DxfEntityReader::Add(const DxfRecord& record) {
-  if (record.kind() == "VERTEX" && polyline_) return AddVertex(record);
+  const bool is_vertex = record.kind() == "VERTEX" && polyline_;
+  try {
+    is_vertex ? AddVertex(record) : Begin(record);
+  } catch (const DxfNoNumber&) {
+    Skip(is_vertex ? "POLYLINE" : record.kind(), "holds a coordinate that is no number");
+    if (polyline_) polyline_->hidden = true;  // with what follows of it
+  }
+}
+
+void DxfEntityReader::Begin(const DxfRecord& record) {
   if (record.kind() == "SEQEND" || record.kind() == "VERTEX") return Finish();
   if (record.kind() == "ATTRIB") return;  // the lettering of an INSERT
   Finish();
   ++block_->entities[NameOfKind(record.kind())];
-  try {
-    Read(record);
-  } catch (const DxfNoNumber&) {
-    Skip(record.kind(), "holds a coordinate that is no number");
-  }
+  Read(record);
 }
 
 void DxfEntityReader::Read(const DxfRecord& record) {

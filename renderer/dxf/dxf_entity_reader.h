@@ -40,6 +40,7 @@ class DxfEntityReader {
     bool hidden = false;                                  // skipped already
   };
 
+  void Begin(const DxfRecord& record);
   void Read(const DxfRecord& record);
   bool ReadSurface(const DxfRecord& record, int look);
   void BeginPolyline(const DxfRecord& record, int look);

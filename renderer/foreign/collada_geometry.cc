@@ -132,6 +132,11 @@ class ColladaGeometryReader {
     part.colors = RowsFor("COLOR");
     for (const Vector3d& row : RowsFor("TEXCOORD")) part.uvs.emplace_back(row.head<2>());
     AddFaces(node, kind, &part);
+    const int lost =
+        WholeAttribute(node, "count").value_or(0) - static_cast<int>(part.faces.size());
+    const bool is_counted = kind == "triangles" || kind == "polylist" || kind == "polygons";
+    if (is_counted && lost > 0)
+      model_.skipped[{"face", "stated by its count and not there"}] += lost;
     geometry_.parts.push_back(std::move(part));
   }
 
@@ -190,13 +195,16 @@ class ColladaGeometryReader {
     }
   }
 
-  static void AddList(const std::string& kind, const std::vector<ColladaCorner>& corners,
-                      ColladaPart* part) {
+  void AddList(const std::string& kind, const std::vector<ColladaCorner>& corners,
+               ColladaPart* part) {
     if (kind == "polygons") {
       part->faces.push_back({corners, {}});
       return;
     }
     const size_t step = kind == "triangles" ? 3 : 1;
+    if (step == 3 && corners.size() % 3 != 0) {
+      ++model_.skipped[{"corners", "too few for a last triangle"}];
+    }
     for (size_t i = 0; i + 2 < corners.size(); i += step) {
       const bool turned = kind == "tristrips" && i % 2 == 1;
       part->faces.push_back({{corners[kind == "trifans" ? 0 : i], corners[turned ? i + 2 : i + 1],

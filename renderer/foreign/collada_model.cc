@@ -2,14 +2,17 @@
 #include "renderer/foreign/collada_model.h"
 
 #include <Eigen/Geometry>
+#include <cmath>
 #include <numbers>
 
 #include "calibration/color/color_space.h"
 #include "calibration/files/error.h"
+#include "calibration/files/wording.h"
 #include "renderer/foreign/collada_geometry.h"
 #include "renderer/foreign/collada_library.h"
 #include "renderer/foreign/collada_material.h"
 #include "renderer/foreign/mesh_builder.h"
+#include "renderer/foreign/unit_comment.h"
 #include "renderer/mesh/outline_with_holes.h"
 
 namespace insitu {
@@ -72,17 +75,36 @@ class ColladaReader {
  private:
   Affine3d WorldFromFile() {
     const auto asset = root_.Find("asset");
-    const auto unit = asset ? asset->Find("unit") : std::nullopt;
-    const double metres =
-        unit && unit->Attribute("meter") ? unit->NumberAttribute("meter") : 1;  // by definition
-    if (!(metres > 0)) throw unit->Error("is of no length");
     const auto up = asset ? asset->Find("up_axis") : std::nullopt;
-    const std::string axis = up ? up->Text() : "Y_UP";
+    std::string axis = up ? up->Text() : "Y_UP";
+    if (axis != "X_UP" && axis != "Y_UP" && axis != "Z_UP") {
+      if (!axis.empty()) Warn("its up_axis " + Quoted(axis) + " is none: y is taken as up");
+      axis = "Y_UP";  // by definition
+    }
     Affine3d turn = Affine3d::Identity();
     if (axis == "Y_UP") turn.linear() << 1, 0, 0, 0, 0, -1, 0, 1, 0;
     if (axis == "X_UP") turn.linear() << 0, -1, 0, 0, 0, -1, 1, 0, 0;
-    model_.metres_per_unit = metres;
-    return Eigen::Scaling(metres) * turn;
+    model_.metres_per_unit = MetresPerUnit(asset ? asset->Find("unit") : std::nullopt);
+    return Eigen::Scaling(model_.metres_per_unit.value_or(1)) * turn;
+  }
+  // nullopt: not stated; what its unit is called counts for nothing, as in other programs.
+  std::optional<double> MetresPerUnit(const std::optional<XmlNode>& unit) {
+    const std::string name = unit ? unit->Attribute("name").value_or("") : "";
+    if (!unit || !unit->Attribute("meter")) {
+      if (!name.empty()) Warn("its unit " + Quoted(name) + " has no length: taken as 1 m");
+      return std::nullopt;
+    }
+    const double metres = unit->NumberAttribute("meter");
+    if (!(metres > 0)) throw unit->Error("is of no length");
+    const auto named = MetresOfUnitNamed(name);
+    if (named && std::abs(*named / metres - 1) > 0.01) {
+      Warn(Formatted("its unit is called %s and stated to be %g m, which is taken",
+                     Quoted(name).c_str(), metres));
+    }
+    return metres;
+  }
+  void Warn(const std::string& message) {
+    model_.warnings.emplace_back(InputError(path_, message).what());
   }
 
   std::vector<XmlNode> Scenes() const {
@@ -133,15 +155,11 @@ class ColladaReader {
     if (kind == "node") {
       AddNode(child, world_from_node, layer, depth + 1);
     } else if (kind == "instance_node") {
-      const std::string url = child.RequiredAttribute("url");
-      if (!url.starts_with('#')) {
-        ++model_.skipped[{"node of another file", "not read: " + url.substr(0, 80)}];
-        return;
-      }
-      AddNode(library_.At("node", url, child), world_from_node, layer, depth + 1);
+      const auto node = Instanced("node", child);
+      if (node) AddNode(*node, world_from_node, layer, depth + 1);
     } else if (kind == "instance_geometry") {
-      const XmlNode geometry = library_.At("geometry", child.RequiredAttribute("url"), child);
-      AddGeometry(geometry, BoundBy(child), world_from_node, layer);
+      const auto geometry = Instanced("geometry", child);
+      if (geometry) AddGeometry(*geometry, BoundBy(child), world_from_node, layer);
     } else if (kind == "instance_controller") {
       AddController(child, world_from_node, layer);
     } else if (kind == "instance_light" || kind == "instance_camera") {
@@ -149,11 +167,23 @@ class ColladaReader {
     }
   }
 
+  // One that is of another file, or not there, costs itself alone.
+  std::optional<XmlNode> Instanced(const std::string& kind, const XmlNode& instance) {
+    const std::string url = instance.RequiredAttribute("url");
+    if (url.find('#') != url.npos && !url.starts_with('#')) {
+      ++model_.skipped[{kind + " of another file", "not read: " + url.substr(0, 80)}];
+      return std::nullopt;
+    }
+    auto found = library_.Find(kind, url);
+    if (!found) ++model_.skipped[{kind, Quoted(url) + " is named and not there"}];
+    return found;
+  }
+
   void AddController(const XmlNode& instance, const Affine3d& world_from_node,
                      const std::string& layer) {
-    const XmlNode controller =
-        library_.At("controller", instance.RequiredAttribute("url"), instance);
-    const auto skin = controller.Find("skin"), morph = controller.Find("morph");
+    const auto controller = Instanced("controller", instance);
+    if (!controller) return;
+    const auto skin = controller->Find("skin"), morph = controller->Find("morph");
     if (!skin && !morph) return;
     ++model_.skipped[{skin ? "skin" : "morph", "its mesh is shown at rest"}];
     const std::string source = (skin ? *skin : *morph).RequiredAttribute("source");

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "calibration/files/whole_file.h"
+#include "calibration/files/wording.h"
 #include "calibration/photo/photograph.h"
 #include "renderer/foreign/mesh_builder.h"
 #include "renderer/foreign/ply_values.h"
@@ -75,7 +76,8 @@ class PlyReader {
   Model Read() {
     model_.format = "PLY";
     for (const PlyElement& element : head_.elements) ReadElement(element);
-    if (values_.HasMore()) ++model_.skipped[{"bytes behind the last element", "not looked at"}];
+    if (values_.HasMore())
+      ++model_.skipped[{"rest of the file behind the last element", "not looked at"}];
     SurfaceNames names;
     names.layer = path_.stem().string();
     names.texture = head_.texture;
@@ -218,7 +220,7 @@ class PlyReader {
       const double index = all_corners_[i];
       if (!(index >= 0 && index < count)) {
         throw InputError(path_, "face " + std::to_string(f + 1) + " names vertex " +
-                                    ShortNumber(index) + ", expected 0 to " +
+                                    Formatted("%.0f", index) + ", expected 0 to " +
                                     std::to_string(model_.mesh.vertices.size() - 1));
       }
       const auto vertex = static_cast<size_t>(index);

@@ -108,7 +108,9 @@ TextLines::TextLines(const std::filesystem::path& path) {
 
 bool TextLines::Next(std::string* line) {
   if (!std::getline(*stream_, *line, end_)) return false;
-  if (line->ends_with('\r')) line->pop_back();
+  // Zeros, and the mark of old systems, fill the end of some files.
+  const auto is_end = [](char c) { return c == '\r' || c == '\0' || c == '\x1A'; };
+  while (!line->empty() && is_end(line->back())) line->pop_back();
   return true;
 }
 

@@ -13,7 +13,11 @@ struct UnitComment {
   std::optional<double> metres;  // nullopt: a unit that we do not know
 };
 
-// "# File units = millimeters" as SketchUp writes it, "# units: inches", "#units mm" and the like.
+// "Feet" -> 0.3048; in English, German, Italian or Spanish, or short. nullopt: not known.
+std::optional<double> MetresOfUnitNamed(const std::string& name);
+
+// "# File units = millimeters" as SketchUp writes it, "# units: inches", "#units mm", "all
+// dimensions in cm", "1 unit = 0.01 meters" and the like.
 // nullopt: the line is no comment on units.
 std::optional<UnitComment> ReadUnitComment(std::string_view line);
 

@@ -80,8 +80,22 @@ constexpr UnreadFormat kUnread[] = {
      "an IGES model: in FreeCAD open it, then File > Export > IFC, COLLADA or OBJ"},
     {".sat .sab .asat .asab ", "ACIS BinaryFile",
      "an ACIS body: read are those in DXF; import it into the CAD program and save as DXF"},
-    {".jt .x_t .x_b .prt .sldprt .catpart .ipt ", "",
+    {".jt .x_t .x_b .prt .sldprt .catpart .ipt .iam .sldasm .asm .3dxml .catproduct ", "",
      "a model of mechanical CAD: export IFC, OBJ or STL"},
+    {".gsm .lcf ", "",
+     "an ArchiCAD library part: place it in a project, there File > Save As > IFC"},
+    {".dxb ", "AutoCAD DXB", "a DXB drawing without surfaces: save it as DXF"},
+    {".u3d .prc ", "", "a model made for PDF documents: ask for IFC, DXF or glTF"},
+    {".xkt .frag .svf .bimx ", "",
+     "a model made for a viewer: ask for the IFC that it was made from"},
+    {".splat .ksplat .spz ", "", "Gaussian splats without surfaces: ask for the model itself"},
+    {".vtk .vtp .vtu ", "# vtk DataFile", "a VTK mesh: in ParaView File > Save Data > PLY or STL"},
+    {".abc ", "Ogawa",
+     "an Alembic scene: in Blender File > Import > Alembic, then File > Export > "
+     "glTF 2.0"},
+    {".layout ", "",
+     "a LayOut document: ask for the SketchUp model that it shows, exported as COLLADA, glTF or "
+     "IFC"},
     {".dwf .dwfx ", "(DWF V", "a DWF plot without surfaces: ask for DXF or IFC"},
     {".pdf ", "%PDF", "a PDF document: ask the architect for IFC, DXF or glTF"},
     {".las .laz ", "LASF", "a point cloud without surfaces: ask for the model itself"},
@@ -120,6 +134,10 @@ bool Is3ds(std::string_view head) {
 }  // namespace
 
 std::string AdviceOnFormat(std::string_view head, std::string_view ending) {
+  // What is told by its content alone goes before endings, which may lie.
+  for (const UnreadFormat& format : kUnread) {
+    if (format.endings.empty() && head.starts_with(format.magic)) return std::string(format.advice);
+  }
   for (const UnreadFormat& format : kUnread) {
     if (IsOneOf(format.endings, ending)) return std::string(format.advice);
   }

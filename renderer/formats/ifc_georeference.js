@@ -27,6 +27,15 @@ class Georeference extends Names {
     const base = factor.UnitComponent ? this.metresOf(this.line(factor.UnitComponent.value), power) : 1;
     return (Number(valueOf(factor.ValueComponent)) || 1) * base;
   }
+  // Of a unit of length that is defined by another that is itself defined by one (feet by inches by millimetres), web-ifc
+  // reads the first step: the factor that it misses.
+  missedUnit() {
+    const assigned = this.lines('IfcUnitAssignment').flatMap((one) => one.Units || []).map((one) => this.line(one.value));
+    const length = assigned.find((unit) => valueOf(unit.UnitType) === 'LENGTHUNIT');
+    const factor = length && length.ConversionFactor && this.line(length.ConversionFactor.value);
+    const base = factor && factor.UnitComponent ? this.line(factor.UnitComponent.value) : {};
+    return base.ConversionFactor ? this.metresOf(base) : 1;
+  }
   // Where the file says the model stands: applied if placement.json says so.
   readMapConversion() {
     const values = [...this.lines('IfcMapConversion'), ...this.lines('IfcMapConversionScaled'), ...this.rigidOperations(),

@@ -65,7 +65,7 @@ class Arrays {
   size_t next_ = 0;
 };
 
-void ReadMesh(const fs::path& file, const JsonNode& root, Model* model) {
+void ReadMesh(const fs::path& path, const fs::path& file, const JsonNode& root, Model* model) {
   constexpr double kLargest = 1e12;  // [m]
   ModelMesh& mesh = model->mesh;
   Arrays arrays(file);
@@ -74,7 +74,7 @@ void ReadMesh(const fs::path& file, const JsonNode& root, Model* model) {
     const auto x = arrays.Take<double>(), y = arrays.Take<double>();
     mesh.vertices.emplace_back(x, y, arrays.Take<double>());
     if (!(mesh.vertices.back().array().abs() <= kLargest).all()) {
-      throw InputError(file, "a vertex is not finite or beyond 1e12 m");
+      throw InputError(path, "a vertex is not finite or beyond 1e12 m");
     }
   }
   for (int i = 0; i < triangles; ++i) {
@@ -97,7 +97,7 @@ Model ModelIn(const fs::path& path, const fs::path& stem) {
   for (const JsonNode& node : root.At("surfaces").Items()) {
     model.mesh.surfaces.push_back(NamesOf(node));
   }
-  ReadMesh(stem.string() + ".bin", root, &model);
+  ReadMesh(path, stem.string() + ".bin", root, &model);
   for (const JsonNode& node : root.At("spheres").Items()) {
     const std::vector<double> s = node.Numbers();  // place, radius, surface
     model.mesh.spheres.push_back(

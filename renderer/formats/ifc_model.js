@@ -10,15 +10,16 @@ const {IfcAPI, ...ifc} = require(path.join(folder, 'web-ifc-api-node.js'));
 const typeCode = (name) => ifc[name.toUpperCase()];
 const valueOf = (attribute) => (attribute && attribute.value !== undefined ? attribute.value : attribute);
 
-class Reader extends Georeference {
+class Reader extends Mending {
   constructor(api, model) {
     super();
-    Object.assign(this, {api, model, vertices: [], triangles: [], spheres: [], surfaces: [], indexOf: new Map()});
+    Object.assign(this, {api, model, vertices: [], triangles: [], spheres: [], surfaces: [], indexOf: new Map(), scale: 1});
     this.entities = {};
     this.skipped = [];
     this.warnings = [];
     this.shown = new Set();
     this.filled = [];  // elements of which triangles were missing
+    this.dropped = [];  // ranges of triangles
     this.isSolid = new Map();  // element -> by the type of its shapes
     this.partsOf = new Map();  // element -> [from, to) in triangles, spheres
   }
@@ -45,14 +46,47 @@ class Reader extends Georeference {
 
   readMeshes() {
     this.api.StreamAllMeshes(this.model, (mesh) => {
-      const kind = this.kindOf(mesh.expressID);
-      const name = valueOf(this.line(mesh.expressID).Name);
       const before = this.triangles.length + this.spheres.length;
-      for (let i = 0; i < mesh.geometries.size(); ++i) {
-        this.addGeometry(mesh.expressID, name ? kind + '_' + name : kind, mesh.geometries.get(i));
-      }
+      const kind = this.addMesh(mesh);
       if (this.triangles.length + this.spheres.length > before) this.entities[kind] = (this.entities[kind] || 0) + 1;
     });
+  }
+  addMesh(mesh) {
+    const kind = this.kindOf(mesh.expressID);
+    const name = valueOf(this.line(mesh.expressID).Name);
+    for (let i = 0; i < mesh.geometries.size(); ++i) {
+      this.addGeometry(mesh.expressID, name ? kind + '_' + name : kind, mesh.geometries.get(i));
+    }
+    return kind;
+  }
+  // Cuts through round things fail at some numbers of sides and not at others: solids that come out open are read with
+  // fewer sides.
+  readOpenAgain(bytes) {
+    const open = [...this.partsOf].filter(([element, part]) => part.spheres.length === 0 && part.ranges.length > 0 &&
+      this.isSolidElement(element) && this.volume(element) === null);
+    if (open.length === 0) return;
+    this.model = this.api.OpenModel(bytes, {CIRCLE_SEGMENTS: FEW_SEGMENTS});
+    this.mendLines(Buffer.from(bytes.buffer));
+    for (const [element] of open) this.partsOf.delete(element);
+    this.api.StreamMeshes(this.model, open.map(([element]) => element), (mesh) => { this.addMesh(mesh); });
+    for (const [element, part] of open) {
+      if (!this.partsOf.has(element)) {
+        this.partsOf.set(element, part);
+        continue;
+      }
+      this.filled = this.filled.filter((one) => !part.ranges.includes(one.range));
+      this.dropped.push(...part.ranges);
+    }
+  }
+  // Without those that were read again.
+  keptTriangles() {
+    const kept = [];
+    let at = 0;
+    for (const [from, to] of this.dropped.sort((a, b) => a[0] - b[0])) {
+      for (; at < from; ++at) kept.push(this.triangles[at]);
+      at = to;
+    }
+    return this.dropped.length === 0 ? this.triangles : kept.concat(this.triangles.slice(at));
   }
   addGeometry(element, layer, placed) {
     const geometry = this.api.GetGeometry(this.model, placed.geometryExpressID);
@@ -66,7 +100,7 @@ class Reader extends Georeference {
     const surface = this.surface({layer, block, material, srgb: isStyled ? [x, y, z] : null, opacity: w});
     const first = this.vertices.length / 3;
     const start = this.triangles.length;
-    const m = placed.flatTransformation;
+    const m = placed.flatTransformation.map((entry, i) => (i % 4 === 3 ? entry : entry * this.scale));
     if (!this.partsOf.has(element)) this.partsOf.set(element, {layer, ranges: [], spheres: []});
     const sphere = this.sphereOf(placed.geometryExpressID, data, m);
     if (sphere) {
@@ -87,7 +121,7 @@ class Reader extends Georeference {
     const range = [start, this.triangles.length];
     this.partsOf.get(element).ranges.push(range);
     const added = this.isSolidElement(element) ? this.fillTriangles(range, surface) : 0;
-    if (added > 0) this.filled.push({size: added, text: layer + ' (' + added + ')'});
+    if (added > 0) this.filled.push({range, size: added, text: layer + ' (' + added + ')'});
     geometry.delete();
   }
   // x, y, z, radius of a whole one: all its corners are as far from the middle of its box, and no
@@ -283,40 +317,21 @@ function whatWasSaid() {
   });
 }
 
-// web-ifc passes over keywords in small letters and takes units with an offset, which of lengths is none, for metres.
-function asWebIfcReads(bytes) {
-  const offset = 'WITHOFFSET';
-  for (let at = bytes.indexOf(offset); at >= 0; at = bytes.indexOf(offset, at)) bytes.fill(' ', at, at + offset.length);
-  if (!['=Ifc', '= Ifc', '=ifc', '= ifc'].some((word) => bytes.includes(word))) return new Uint8Array(bytes);
-  const [quote, slash, star, a, z] = Buffer.from("'/*az");
-  let within = 0;  // a text or a comment
-  for (let i = 0; i < bytes.length; ++i) {
-    const byte = bytes[i];
-    if (within === quote) {
-      if (byte === quote) within = 0;
-    } else if (within === star) {
-      if (byte === slash && bytes[i - 1] === star) within = 0;
-    } else if (byte === quote || (byte === star && bytes[i - 1] === slash)) {
-      within = byte;
-    } else if (byte >= a && byte <= z) {
-      bytes[i] = byte - 32;
-    }
-  }
-  return new Uint8Array(bytes);
-}
-
 async function main() {
   console.log = console.warn = hear;
   const api = new IfcAPI();
   api.SetWasmPath(folder + path.sep, true);
   await api.Init();
   api.SetLogLevel(3);
-  const model = api.OpenModel(asWebIfcReads(fs.readFileSync(file)));
+  const bytes = asWebIfcReads(fs.readFileSync(file));
+  const model = api.OpenModel(bytes, {CIRCLE_SEGMENTS});
   if (model < 0) throw new Error('web-ifc knows no schema of it');
   const reader = new Reader(api, model);
   reader.readStyles();
   reader.readPlaces();
+  reader.mendLines(Buffer.from(bytes.buffer));
   reader.readMeshes();
+  reader.readOpenAgain(bytes);
   reader.countLost();
   reader.countLooks();
   reader.nameOpenSolids();
@@ -324,10 +339,11 @@ async function main() {
   reader.readMapConversion();
   const has_unit = reader.hasLengthUnit();
   fs.writeFileSync(out + '.bin', Buffer.from(new Float64Array(reader.vertices).buffer));
-  fs.appendFileSync(out + '.bin', Buffer.from(new Uint32Array(reader.triangles).buffer));
+  const triangles = reader.keptTriangles();
+  fs.appendFileSync(out + '.bin', Buffer.from(new Uint32Array(triangles).buffer));
   const {surfaces, spheres, entities, skipped, map} = reader;
   const warnings = [...reader.warnings, ...whatWasSaid()];
-  const counts = {vertices: reader.vertices.length / 3, triangles: reader.triangles.length / 4};
+  const counts = {vertices: reader.vertices.length / 3, triangles: triangles.length / 4};
   fs.writeFileSync(out + '.json', JSON.stringify(
     {schema: api.GetModelSchema(model), has_unit, ...counts, surfaces, spheres, entities, skipped, warnings, map}));
 }

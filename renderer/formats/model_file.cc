@@ -5,6 +5,7 @@
 #include <fstream>
 #include <functional>
 #include <string_view>
+#include <utility>
 
 #include "calibration/files/error.h"
 #include "calibration/files/plain_text.h"
@@ -106,15 +107,7 @@ Model ReadIfcFile(const std::filesystem::path& path, int most_seconds) {
   return ReadCopy(path, text, [&](const auto& file) { return ReadIfc(file, seconds); });
 }
 
-}  // namespace
-
-void ImportOptions::Check() const {
-  dxf.Check();
-  INSITU_CHECK(seconds > 0);
-}
-
-Model ReadModel(const std::filesystem::path& path, const ImportOptions& options) {
-  options.Check();
+Model ReadByFormat(const std::filesystem::path& path, const ImportOptions& options) {
   switch (RequireModelFormat(path)) {
     case ModelFormat::kDxf:
       return ReadDxfFile(path, options.dxf);
@@ -134,6 +127,41 @@ Model ReadModel(const std::filesystem::path& path, const ImportOptions& options)
       return ReadObjects(path);
   }
   throw InputError(path, "is of no format that is read");
+}
+
+// Lines of lists, and terminals, end at what some files have within names.
+void BlankControls(std::string* name) {
+  const auto is_control = [](char c) { return (c >= 0 && c < ' ') || c == 127; };
+  std::ranges::replace_if(*name, is_control, ' ');
+}
+
+void BlankControls(Model* model) {
+  for (SurfaceNames& names : model->mesh.surfaces) {
+    for (std::string* name : {&names.layer, &names.block, &names.material}) BlankControls(name);
+  }
+  for (std::string& warning : model->warnings) BlankControls(&warning);
+  SkippedEntities skipped;
+  for (const auto& [what, count] : model->skipped) {
+    auto shown = what;
+    BlankControls(&shown.first);
+    BlankControls(&shown.second);
+    skipped[shown] += count;
+  }
+  model->skipped = std::move(skipped);
+}
+
+}  // namespace
+
+void ImportOptions::Check() const {
+  dxf.Check();
+  INSITU_CHECK(seconds > 0);
+}
+
+Model ReadModel(const std::filesystem::path& path, const ImportOptions& options) {
+  options.Check();
+  Model model = ReadByFormat(path, options);
+  BlankControls(&model);
+  return model;
 }
 
 }  // namespace insitu

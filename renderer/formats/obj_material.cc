@@ -13,29 +13,35 @@ namespace {
 namespace fs = std::filesystem;
 using Eigen::Vector3d;
 
-// The image comes last, after options; its name may hold blanks.
-std::string TextureName(ObjWords words) {
+// The image comes last, after options; its name may hold blanks. Options that move it on its faces
+// are counted.
+std::string TextureName(ObjWords words, SkippedEntities* skipped) {
   for (auto option = ObjWords(words).Next(); option && option->starts_with('-');) {
     words.Next();
     const bool up_to_three = *option == "-o" || *option == "-s" || *option == "-t";
     const int most = up_to_three ? 3 : *option == "-mm" ? 2 : 1;
+    const double usual = *option == "-s" ? 1 : 0;
     double number = 0;
+    bool moves = false;
     for (int i = 0; i < most; ++i) {
       const auto value = ObjWords(words).Next();
       if (!value || (up_to_three && !ObjWords::ParseAll(*value, &number))) break;
       words.Next();
+      moves = moves || (up_to_three && number != usual);
     }
+    if (moves) ++(*skipped)[{std::string(*option), "moves an image on its faces: not read"}];
     option = ObjWords(words).Next();
   }
   return words.Name();
 }
 
 // "Kd r" means r r r; nullopt: "spectral" or "xyz", or no number.
-std::optional<Vector3d> ColorOf(ObjWords words) {
+std::optional<Vector3d> ColorOf(ObjWords words, SkippedEntities* skipped) {
   const std::optional<double> r = words.FindNumber();
   if (!r) return std::nullopt;
   const std::optional<double> g = words.FindNumber(), b = words.FindNumber();
   const Vector3d color(*r, g.value_or(*r), b.value_or(g.value_or(*r)));
+  if (color.maxCoeff() > 1) ++(*skipped)[{"Kd", "over 1: taken as 1"}];
   return color.cwiseMax(0).cwiseMin(1);
 }
 
@@ -49,7 +55,10 @@ class MaterialsReader {
         path_,
         [this](std::string_view keyword, ObjWords& words, int line) {
           if (keyword == "newmtl") {
-            current_ = &materials_[words.Name()];
+            const auto [found, is_new] = materials_.try_emplace(words.Name());
+            if (!is_new) Skip("newmtl", "of a name that is there already: the last one counts");
+            current_ = &found->second;
+            *current_ = {};
             has_dissolve_ = false;
           } else if (current_) {
             ReadLine(keyword, words, line);
@@ -62,12 +71,12 @@ class MaterialsReader {
  private:
   void ReadLine(std::string_view keyword, ObjWords& words, int line) {
     if (keyword == "Kd") {
-      current_->rgb = ColorOf(words);
+      current_->rgb = ColorOf(words, skipped_);
       if (!current_->rgb) Skip("Kd", "a colour that is no number: shown in mid grey");
     } else if (keyword == "d" || keyword == "Tr") {
       ReadOpacity(keyword == "d", words);
     } else if (keyword == "map_Kd") {
-      current_->texture = TextureName(words);
+      current_->texture = TextureName(words, skipped_);
       current_->texture_place = path_.string() + ":" + std::to_string(line);
     } else if (const auto map = MapOf(keyword, words)) {
       current_->maps.push_back(*map);
@@ -79,14 +88,14 @@ class MaterialsReader {
     }
   }
   // Of programs that write physically based materials into MTL; roughness is its root, as in glTF.
-  static std::optional<SurfaceMap> MapOf(std::string_view keyword, const ObjWords& words) {
+  std::optional<SurfaceMap> MapOf(std::string_view keyword, const ObjWords& words) const {
     using Kind = SurfaceMap::Kind;
     static const std::map<std::string_view, Kind> kKinds = {
         {"norm", Kind::kNormal}, {"map_Pr", Kind::kRoughness}, {"map_Pm", Kind::kMetallic}};
     const auto kind = kKinds.find(keyword);
     if (kind == kKinds.end()) return std::nullopt;
     return SurfaceMap{.kind = kind->second,
-                      .file = TextureName(words),
+                      .file = TextureName(words, skipped_),
                       .is_squared = kind->second == Kind::kRoughness};
   }
   // What says something that is not shown; Ns and the like only qualify others.

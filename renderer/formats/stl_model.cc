@@ -20,6 +20,7 @@
 #include "renderer/foreign/cut_short.h"
 #include "renderer/foreign/single_precision.h"
 #include "renderer/foreign/text_lines.h"
+#include "renderer/foreign/unit_comment.h"
 #include "renderer/mesh/face_triangles.h"
 
 namespace insitu {
@@ -48,6 +49,14 @@ void AddStlFacet(const Vector3d corners[3], int surface, Model* model) {
   model->mesh.surface_of_triangle.push_back(surface);
 }
 
+// STL has no unit, but some programs put one where a name stands.
+void TakeStlUnit(const fs::path& path, std::string_view text, Model* model) {
+  const auto comment = ReadUnitComment(text);
+  if (!comment || !comment->metres || model->metres_per_unit) return;
+  model->metres_per_unit = comment->metres;
+  model->warnings.emplace_back(InputError(path, UnitNote(*comment)).what());
+}
+
 // Facets until the file ends; a head that counts none, or all there can be, was never filled in.
 void ReadBinaryStl(const fs::path& path, Model* model) {
   const std::string bytes = ReadWhole(path);
@@ -59,8 +68,9 @@ void ReadBinaryStl(const fs::path& path, Model* model) {
   if (is_stated) RequireLength(path, start + kStlFacet * uint64_t{stated});
   const size_t facets = is_stated ? stated : held;
   if (bytes.size() > start + facets * kStlFacet) {
-    ++model->skipped[{"bytes behind the last facet", "not looked at"}];
+    ++model->skipped[{"rest of the file behind the last facet", "not looked at"}];
   }
+  TakeStlUnit(path, std::string_view(bytes.data(), std::min(kStlHead, bytes.find('\0'))), model);
   bool colored = bytes.find("COLOR=") < kStlHead;
   double largest = 0;
   for (size_t f = 0; f < facets; ++f) {
@@ -159,6 +169,7 @@ class StlTextReader {
   }
   void BeginSolid(std::istringstream* words) {
     const std::string name = TakeName(words);
+    TakeStlUnit(path_, name, model_);
     const auto found = std::ranges::find(solids_, name);
     solid_ = static_cast<int>(found - solids_.begin());
     if (found == solids_.end()) solids_.push_back(name);
@@ -233,6 +244,7 @@ Model ReadStl(const fs::path& path) {
   } else {
     ReadBinaryStl(path, &model);
   }
+  for (Vector3d& vertex : model.mesh.vertices) vertex *= model.metres_per_unit.value_or(1);
   DropUnused(&model.mesh);
   return model;
 }

@@ -96,6 +96,9 @@ class GltfPrimitiveReader {
     }
     const bool is_list = mode == kTriangleList || draco_;
     const size_t step = is_list ? 3 : 1;
+    if (is_list && indices.size() % 3 != 0) {
+      ++model_.skipped[{"indices", "too few for a last triangle"}];
+    }
     primitive_.triangles.reserve(indices.size() / step);
     for (size_t i = 0; i + 2 < indices.size(); i += step) {
       const uint32_t first = mode == kTriangleFan && !is_list ? indices[0] : indices[i];

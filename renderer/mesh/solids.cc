@@ -7,10 +7,12 @@
 #include <cstdint>
 #include <map>
 #include <numeric>
+#include <set>
 #include <tuple>
 #include <utility>
 
 #include "renderer/mesh/face_triangles.h"
+#include "renderer/mesh/hollows.h"
 #include "renderer/mesh/near_vertices.h"
 
 namespace insitu {
@@ -172,6 +174,7 @@ class BodyCheck {
     }
     OpenAtCrowdedEdges();
     Gather();
+    FindHollows();
     Mend();
   }
 
@@ -254,12 +257,33 @@ class BodyCheck {
     }
   }
 
+  // Bodies that are drawn all one way round mean it.
+  void FindHollows() {
+    const auto is_drawn_alike = [](const BodyState& s) { return s.IsSolid() && s.turned == 0; };
+    if (std::ranges::none_of(state_, [&](const BodyState& s) {
+          return s.faces > 0 && s.volume < 0 && is_drawn_alike(s);
+        })) {
+      return;
+    }
+    std::map<int, DrawnBody> drawn;
+    for (size_t t = 0; t < mesh_.triangles.size(); ++t) {
+      const int body = bodies_.Find(static_cast<int>(t)).body;
+      if (!is_drawn_alike(state_[body])) continue;
+      drawn[body].triangles.push_back(static_cast<int>(t));
+    }
+    std::vector<DrawnBody> bodies;
+    for (auto& [body, one] : drawn) {
+      bodies.push_back({body, state_[body].volume < 0, std::move(one.triangles)});
+    }
+    hollows_ = HollowsAmong(mesh_, bodies);
+  }
+
   void Mend() {
     for (size_t t = 0; t < mesh_.triangles.size(); ++t) {
       const auto [body, turned] = bodies_.Find(static_cast<int>(t));
       const BodyState& state = state_[body];
       if (!state.IsSolid()) continue;
-      if (turned != (state.volume < 0)) Flip(t);
+      if (turned != (state.volume < 0) && !hollows_.contains(body)) Flip(t);
     }
   }
 
@@ -280,6 +304,7 @@ class BodyCheck {
   std::vector<BodyState> state_;
   std::vector<int> open_, one_sided_;
   std::vector<std::vector<int>> crowds_;  // faces at an edge of more than two
+  std::set<int> hollows_;                 // bodies that look inwards, as they should
 };
 
 }  // namespace

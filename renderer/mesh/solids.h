@@ -21,7 +21,8 @@ struct SolidsReport {
 };
 
 // Vertices of equal coordinates become one; whether faces meet is judged with `tolerance` [m].
-// Closed bodies come out with their faces counter-clockwise seen from outside.
+// Closed bodies come out with their faces counter-clockwise seen from outside; those that are
+// hollows of others of their layer, drawn so, from within.
 SolidsReport MendSolids(ModelMesh* mesh, double tolerance = kJoinTolerance);
 
 }  // namespace insitu

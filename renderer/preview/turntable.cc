@@ -14,7 +14,6 @@
 #include "calibration/files/error.h"
 #include "calibration/files/json_file.h"
 #include "calibration/files/whole_file.h"
-#include "calibration/program/html_text.h"
 #include "reconstruction/geometry/sphere_facets.h"
 #include "renderer/building/shown_environment.h"
 #include "renderer/mesh/open_edges.h"
@@ -73,20 +72,28 @@ std::vector<uint32_t> OpenEdges(const ArtificialEnvironment& building) {
   return ends;
 }
 
+// One part a material: its triangles in the order of their layers, and how many each layer has, so
+// that a page of 100 000 layers has few things to draw.
 Json::Value Parts(const ArtificialEnvironment& building, const TurntableLayers& layers) {
-  std::map<std::pair<int, int>, std::vector<uint32_t>> triangles;  // layer, material
+  std::map<int, std::map<int, std::vector<uint32_t>>> corners_of;  // by material, layer
   for (size_t t = 0; t < building.triangles.size(); ++t) {
-    auto& corners = triangles[{layers.layer_of_triangle[t], building.material_of_triangle[t]}];
+    auto& corners = corners_of[building.material_of_triangle[t]][layers.layer_of_triangle[t]];
     for (const int corner : building.triangles[t]) corners.push_back(static_cast<uint32_t>(corner));
   }
   Json::Value parts(Json::arrayValue);
-  for (const auto& [key, corners] : triangles) {
-    const SurfaceMaterial& material = building.materials[key.second];
+  for (const auto& [index, of_layers] : corners_of) {
+    std::vector<uint32_t> triangles, runs;
+    for (const auto& [layer, corners] : of_layers) {
+      triangles.insert(triangles.end(), corners.begin(), corners.end());
+      runs.push_back(static_cast<uint32_t>(layer));
+      runs.push_back(static_cast<uint32_t>(corners.size() / 3));
+    }
+    const SurfaceMaterial& material = building.materials[index];
     Json::Value part;
-    part["layer"] = key.first;
     part["rgb"] = ToJson(Eigen::VectorXd(material.diffuse_rgb));
     part["opacity"] = material.glass ? 1 - material.glass->weight : 1.0;
-    part["triangles"] = Base64(corners);
+    part["triangles"] = Base64(triangles);
+    part["runs"] = Base64(runs);
     parts.append(part);
   }
   return parts;
@@ -128,15 +135,6 @@ std::string Escaped(std::string json) {
   return json;
 }
 
-std::string LayerBoxes(const TurntableLayers& layers) {
-  std::string boxes;
-  for (size_t i = 0; i < layers.names.size(); ++i) {
-    boxes += "<label><input type=\"checkbox\" checked data-layer=\"" + std::to_string(i) + "\"> " +
-             HtmlText(layers.names[i]) + "</label>\n";
-  }
-  return boxes;
-}
-
 constexpr char kTurntable[] = R"(<style>
  #turn { width: 100%; height: 34rem; border: 1px solid #ddd; touch-action: none; }
  #turn-layers { max-height: 12rem; overflow-y: auto; display: grid;
@@ -148,7 +146,10 @@ constexpr char kTurntable[] = R"(<style>
  place, a second one for the distance.</p>
 <p><label><input type="checkbox" id="turn-edges" checked> open edges in red</label>
  <label><input type="checkbox" id="turn-backs"> backs of faces in magenta</label>
- <label><input type="checkbox" id="turn-all" checked> all layers</label></p>
+ <label><input type="checkbox" id="turn-all" checked> <span id="turn-all-said">all layers</span></label>
+ <label id="turn-find" hidden>named <input type="search" id="turn-name" size="20"></label></p>
+<div id="turn-layers"></div>
+<p id="turn-more" hidden></p>
 )";
 
 }  // namespace
@@ -196,8 +197,7 @@ std::string Turntable(const ArtificialEnvironment& building, const TurntableLaye
   Json::StreamWriterBuilder compact;
   compact["indentation"] = "";
   const std::string json = Json::writeString(compact, BuildingJson(building, layers));
-  return kTurntable + ("<div id=\"turn-layers\">" + LayerBoxes(layers)) + "</div>\n<script>" +
-         ReadWhole(*three / "three.min.js") + "</script>\n<script>" +
+  return kTurntable + ("<script>" + ReadWhole(*three / "three.min.js")) + "</script>\n<script>" +
          ReadWhole(*three / "OrbitControls.js") +
          "</script>\n<script>const BUILDING = " + Escaped(json) + ";</script>\n<script>" +
          kTurntableScript + "</script>\n";

@@ -16,34 +16,75 @@
   camera.position.set(-0.75, -1.1, 0.75).multiplyScalar(BUILDING.size);
   camera.add(sun);
   scene.add(camera);
-  const renderer = new THREE.WebGLRenderer({canvas, antialias: true});
+  let renderer;
+  try {
+    renderer = new THREE.WebGLRenderer({canvas, antialias: true});
+  } catch (error) {
+    told.textContent = 'This browser has no WebGL, by which the building is turned: another one shows it.';
+    return;
+  }
   renderer.outputEncoding = THREE.sRGBEncoding;
   const controls = new THREE.OrbitControls(camera, canvas);
 
-  // One mesh a layer and material, its back apart, so that both can be told.
-  const solids = [];
-  const backs = [];
-  for (const part of BUILDING.parts) {
+  // Two meshes a material, fronts and backs, so that both can be told; their triangles are in runs of layers, of which
+  // those that are shown are copied together.
+  const numbersOf = (text) => new Uint32Array(bytesOf(text));
+  const isShown = new Uint8Array(BUILDING.layers.length).fill(1);
+  const parts = BUILDING.parts.map((part) => {
+    const all = numbersOf(part.triangles);
     const geometry = new THREE.BufferGeometry();
     geometry.setAttribute('position', positions);
-    geometry.setIndex(new THREE.BufferAttribute(new Uint32Array(bytesOf(part.triangles)), 1));
+    geometry.setIndex(new THREE.BufferAttribute(all.slice(), 1));
     const look = {
       color: new THREE.Color(...part.rgb), flatShading: true,
       transparent: part.opacity < 1, opacity: Math.max(part.opacity, 0.15),
     };
     const front = new THREE.Mesh(geometry, new THREE.MeshLambertMaterial({...look, side: THREE.FrontSide}));
     const back = new THREE.Mesh(geometry, new THREE.MeshLambertMaterial({...look, side: THREE.BackSide}));
-    front.layer = back.layer = part.layer;
-    back.own = back.material.color.clone();
-    solids.push(front, back);
-    backs.push(back);
     scene.add(front, back);
-  }
+    return {all, runs: numbersOf(part.runs), geometry, front, back, own: back.material.color.clone(), ends: []};
+  });
+  const update = () => {
+    for (const part of parts) {
+      const {all, runs, geometry} = part;
+      let to = 0;
+      part.ends = [];  // of the runs that are shown, with their layers
+      for (let run = 0, from = 0; run < runs.length; run += 2) {
+        const end = from + 3 * runs[run + 1];
+        if (isShown[runs[run]]) {
+          geometry.index.array.set(all.subarray(from, end), to);
+          to += end - from;
+          part.ends.push([to, runs[run]]);
+        }
+        from = end;
+      }
+      geometry.setDrawRange(0, to);
+      geometry.index.needsUpdate = true;
+    }
+  };
+  const layerOf = (hit) => {
+    const part = parts.find(({front, back}) => front === hit.object || back === hit.object);
+    return BUILDING.layers[part.ends.find(([end]) => 3 * hit.faceIndex < end)[1]];
+  };
   const edgePlaces = new THREE.BufferGeometry();
   edgePlaces.setAttribute('position', positions);
   edgePlaces.setIndex(new THREE.BufferAttribute(new Uint32Array(bytesOf(BUILDING.open_edges)), 1));
   const edges = new THREE.LineSegments(edgePlaces, new THREE.LineBasicMaterial({color: 0xd00000}));
   scene.add(edges);
+
+  // From the last point to this one, seen through walls.
+  const measured = new THREE.BufferGeometry();
+  const line = new THREE.Line(measured, new THREE.LineBasicMaterial({color: 0x0050d0, depthTest: false}));
+  const ends = new THREE.Points(measured, new THREE.PointsMaterial(
+    {color: 0x0050d0, size: 7, sizeAttenuation: false, depthTest: false}));
+  line.renderOrder = ends.renderOrder = 1;
+  line.visible = ends.visible = false;
+  scene.add(line, ends);
+  const measure = (from, to) => {
+    measured.setFromPoints(from ? [from, to] : [to]);
+    line.visible = Boolean(from);
+    ends.visible = true;
+  };
 
   const draw = () => renderer.render(scene, camera);
   const fit = () => {
@@ -62,23 +103,53 @@
   });
   onChange('turn-edges', (shown) => { edges.visible = shown; });
   onChange('turn-backs', (shown) => {
-    for (const back of backs) back.material.color.copy(shown ? new THREE.Color(0xd000a0) : back.own);
+    for (const {back, own} of parts) back.material.color.copy(shown ? new THREE.Color(0xd000a0) : own);
   });
-  const boxes = document.querySelectorAll('[data-layer]');
-  const show = (box) => {
-    for (const mesh of solids) if (mesh.layer === Number(box.dataset.layer)) mesh.visible = box.checked;
+
+  // Of many layers those are listed that are named as asked for, the first ones.
+  const MOST_LISTED = 300;
+  const SOME = 20;
+  const allBox = document.getElementById('turn-all');
+  const name = document.getElementById('turn-name');
+  const list = document.getElementById('turn-layers');
+  const more = document.getElementById('turn-more');
+  document.getElementById('turn-find').hidden = BUILDING.layers.length <= SOME;
+  const keys = BUILDING.layers.map((layer) => layer.toLowerCase());
+  let named = [];
+  const tellAll = () => {
+    const shown = named.filter((layer) => isShown[layer]).length;
+    allBox.checked = shown === named.length;
+    allBox.indeterminate = shown > 0 && shown < named.length;
+    document.getElementById('turn-all-said').textContent = name.value.trim() ? 'all layers named so' : 'all layers';
   };
-  for (const box of boxes) {
+  const boxOf = (layer) => {
+    const label = document.createElement('label');
+    const box = document.createElement('input');
+    box.type = 'checkbox';
+    box.checked = isShown[layer] === 1;
+    box.dataset.layer = layer;
     box.addEventListener('change', () => {
-      show(box);
+      isShown[layer] = box.checked ? 1 : 0;
+      tellAll();
+      update();
       draw();
     });
-  }
+    label.append(box, ' ' + BUILDING.layers[layer]);
+    return label;
+  };
+  const listLayers = () => {
+    const key = name.value.trim().toLowerCase();
+    named = keys.flatMap((own, layer) => (own.includes(key) ? [layer] : []));
+    list.replaceChildren(...named.slice(0, MOST_LISTED).map(boxOf));
+    more.hidden = named.length <= MOST_LISTED;
+    more.textContent = `and ${named.length - MOST_LISTED} more: a part of their name finds them`;
+    tellAll();
+  };
+  name.addEventListener('input', listLayers);
   onChange('turn-all', (shown) => {
-    for (const box of boxes) {
-      box.checked = shown;
-      show(box);
-    }
+    for (const layer of named) isShown[layer] = shown ? 1 : 0;
+    listLayers();
+    update();
   });
 
   // Two clicks measure; a drag turns and is none.
@@ -92,14 +163,18 @@
       1 - (event.clientY - box.top) / box.height * 2);
     const ray = new THREE.Raycaster();
     ray.setFromCamera(at, camera);
-    const hit = ray.intersectObjects(solids.filter((mesh) => mesh.visible))[0];
+    const hit = ray.intersectObjects(parts.flatMap(({front, back}) => [front, back]))[0];
     if (!hit) return;
     const place = hit.point.toArray().map((value, i) => (value + center[i]).toFixed(3)).join(', ');
     const step = last && hit.point.clone().sub(last);
-    told.textContent = `${BUILDING.layers[hit.object.layer]} at (${place}) m` + (step ?
+    told.textContent = `${layerOf(hit)} at (${place}) m` + (step ?
       `; ${step.length().toFixed(3)} m from the last point, ${Math.hypot(step.x, step.y).toFixed(3)} m along and ` +
       `${step.z.toFixed(3)} m up` : '; click a second point to measure');
+    measure(last, hit.point);
     last = hit.point;
+    draw();
   });
+  listLayers();
+  update();
   fit();
 })();

@@ -25,7 +25,25 @@ check 'nothing else is' test "$(echo *)" = 'models out report.json tent_preview.
 if [[ -f $INSITU_BIN/../../three/three.min.js || -f $INSITU_BIN/../share/insitu/three/three.min.js ]]; then
   check 'the page holds the building' grep -q 'const BUILDING = {"center":\[1' tent_preview.html
 fi
-mkdir site
+mkdir site rooms
+/usr/bin/python3 - >rooms/boxes.obj <<'PYTHON'
+print('mtllib boxes.mtl\nusemtl green')
+for i in range(30):
+    print(f'o Box {i}')
+    for corner in range(8):
+        print('v', 2 * i + corner % 2, corner // 2 % 2, corner // 4)
+    faces = [(0, 1, 5, 4)] if i == 29 else [(0, 2, 3, 1), (4, 5, 7, 6), (0, 1, 5, 4), (2, 6, 7, 3), (0, 4, 6, 2), (1, 3, 7, 5)]
+    for face in faces:
+        print('f', *(8 * i + corner + 1 for corner in face))
+PYTHON
+printf 'newmtl green\nKd 0.05 0.4 0.05\n' >rooms/boxes.mtl
+check 'a row of boxes is converted' "$INSITU_BIN/insitu-convert" rooms/boxes.obj --preview
+if [[ -f ${PLAYWRIGHT:=$root/build/playwright-core}/package.json ]]; then
+  export PLAYWRIGHT
+  check_figures 'turning' node "$tests/preview/turn.mjs" "$temporary/boxes_preview.html" "${SCREENSHOTS:+$SCREENSHOTS/turn.png}"
+else
+  printf 'SKIPPED: the page in a browser: no playwright-core in %s; scripts/setup --developer fetches it\n' "$PLAYWRIGHT"
+fi
 refuses() { ! "$@"; }
 check '-o is of a model alone' refuses "$INSITU_BIN/insitu-convert" site -o x.json
 finish

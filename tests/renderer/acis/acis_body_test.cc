@@ -241,6 +241,23 @@ TEST(AcisBody, WhatIsNotReadIsCountedByReason) {
                                         {"with an edge whose ends are off its curve", 2}}));
 }
 
+// Beside planes that are read.
+TEST(AcisBody, AFaceOnASplineCostsOnlyItself) {
+  std::string text = HalfCylinder(true);
+  text.replace(text.find("cone-surface"), 12, "spline-surface");
+  const AcisShape shape = Faceted(text);
+  EXPECT_EQ(shape.faces, 4);
+  EXPECT_EQ(shape.unread, (std::map<std::string, int>{{"on a spline-surface", 1}}));
+  double area = 0;
+  for (const Eigen::Vector3i& t : shape.triangles) {
+    const Vector3d& a = shape.vertices[t[0]];
+    area += (shape.vertices[t[1]] - a).cross(shape.vertices[t[2]] - a).norm() / 2;
+  }
+  const AcisShape whole = Faceted(HalfCylinder(true));
+  EXPECT_GT(area, 0.4);
+  EXPECT_LT(shape.triangles.size(), whole.triangles.size());
+}
+
 TEST(AcisBody, BinaryFilesHoldTheSame) {
   const std::string sab = SabOf(*ReadSat(BlockWithHole()));
   const auto file = ReadSab(sab);

@@ -168,9 +168,25 @@ TEST(DxfBadInput, WhatIsLostIsCounted) {
     EXPECT_EQ(model.mesh.triangles.size(), 2u) << value;
     EXPECT_EQ(skipped(model, "3DFACE"), 1) << value;
   }
+  // Of a POLYLINE in its head or a vertex: it goes, with all its vertices.
+  const std::string wall =
+      "0 POLYLINE\n8 P\n66 1\n30 0\n39 2\n0 VERTEX\n8 P\n10 0\n20 0\n0 VERTEX\n8 P\n10 4\n20 0\n"
+      "0 SEQEND\n";
+  EXPECT_EQ(read(DrawingText(wall + UnitSquare("W"))).mesh.triangles.size(), 4u);
+  for (const char* at : {"30 0", "39 2", "20 0\n0 SEQEND"}) {
+    const std::string torn = Replaced(wall, at, std::string(at, 2) + " nan" + (at + 4));
+    const Model model = read(DrawingText(torn + UnitSquare("W")));
+    EXPECT_EQ(model.mesh.triangles.size(), 2u) << at;
+    EXPECT_EQ(skipped(model, "POLYLINE"), 1) << at;
+  }
   const Model colored = read(DrawingText(UnitSquare("W") + "420 42949672960\n62 red\n"));
   EXPECT_EQ(colored.mesh.triangles.size(), 2u);
   EXPECT_EQ(skipped(colored, "colour"), 2);
+  const Model looks = read(DrawingText(UnitSquare("W") + "62 999\n440 33554559\n347 2A\n" +
+                                       UnitSquare("W") + "62 256\n440 33554687\n"));
+  EXPECT_EQ(skipped(looks, "colour"), 1);
+  EXPECT_EQ(skipped(looks, "transparency"), 1);
+  EXPECT_EQ(skipped(looks, "material"), 1);
   const Model unknown =
       read(DxfText("0 SECTION\n2 HEADER\n9 $INSUNITS\n70 99\n0 ENDSEC\n0 SECTION\n2 ENTITIES\n" +
                    UnitSquare("W") + "0 ENDSEC\n0 EOF"));

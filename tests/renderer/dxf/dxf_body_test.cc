@@ -55,6 +55,16 @@ TEST(DxfBody, LinesOfTextGoOn) {
   }
 }
 
+TEST(DxfBody, AFaceThatIsNotReadIsNamedWithItsSolid) {
+  std::string sat = CubeText(700);
+  sat.replace(sat.find("plane-surface"), 13, "spline-surface");
+  const Model model = ReadEntities(SolidEntity(sat));
+  EXPECT_NEAR(AreaOf(model.mesh), 5, 1e-9);
+  EXPECT_EQ(model.skipped.at({"face of 3DSOLID 9C",
+                              "on a spline-surface: make it a mesh (AutoCAD: MESHSMOOTH)"}),
+            1);
+}
+
 TEST(DxfBody, SolidsFollowTheirInserts) {
   const std::string block = "0 BLOCK\n2 B\n" + SolidEntity(CubeText(400)) +
                             SolidEntity(SphereText(400, {0, 0, 0}, 1)) + "0 ENDBLK\n";

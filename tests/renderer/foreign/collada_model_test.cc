@@ -79,6 +79,42 @@ TEST_F(ColladaModel, EveryAxisMayPointUp) {
   EXPECT_THAT(Read({.axis = "X_UP"}).mesh.vertices, Contains(Vector3d(0, -3, 10)));
 }
 
+TEST_F(ColladaModel, UnitsAndAxesThatAreNotStatedAreTold) {
+  EXPECT_THAT(Read({.axis = ""}).mesh.vertices, Contains(Vector3d(10, -3, 0)));
+  EXPECT_THAT(Read({.axis = "W_UP"}).warnings, Contains(HasSubstr("W_UP")));
+  const auto with = [this](const std::string& unit) {
+    std::string text = Collada({});
+    return ReadCollada(folder_.Write("a.dae", text.replace(text.find("<unit"), 17, unit)));
+  };
+  EXPECT_EQ(with("").metres_per_unit, std::nullopt);
+  EXPECT_THAT(with("<unit name=\"feet\"/>").warnings,
+              Contains(HasSubstr("\"feet\" has no length: taken as 1 m")));
+  EXPECT_THAT(with("<unit meter=\"1\" name=\"centimeter\"/>").warnings,
+              Contains(HasSubstr("called \"centimeter\" and stated to be 1 m")));
+  const Model inches = with("<unit meter=\"0.0254\" name=\"inches\"/>");
+  EXPECT_EQ(inches.metres_per_unit, 0.0254);
+  EXPECT_TRUE(inches.warnings.empty());
+}
+
+TEST_F(ColladaModel, WhatIsElsewhereOrNotThereCostsOnlyItself) {
+  const Model model = Read({.transform = "<instance_geometry url=\"#lost\"/>"
+                                         "<instance_geometry url=\"b.dae#g\"/>"
+                                         "<instance_controller url=\"#lost\"/>"});
+  EXPECT_EQ(model.mesh.triangles.size(), 1u);
+  EXPECT_EQ(model.skipped.at({"geometry", "\"#lost\" is named and not there"}), 1);
+  EXPECT_EQ(model.skipped.at({"controller", "\"#lost\" is named and not there"}), 1);
+  EXPECT_EQ(model.skipped.at({"geometry of another file", "not read: b.dae#g"}), 1);
+}
+
+TEST_F(ColladaModel, FacesThatAreMissingAreCounted) {
+  std::string triangles = kTriangles;
+  triangles.replace(triangles.find("count=\"1\""), 9, "count=\"9\"");
+  triangles.replace(triangles.find("0 1 2"), 5, "0 1 2 0 1");
+  const Model model = Read({.faces = triangles});
+  EXPECT_EQ(model.skipped.at({"face", "stated by its count and not there"}), 8);
+  EXPECT_EQ(model.skipped.at({"corners", "too few for a last triangle"}), 1);
+}
+
 TEST_F(ColladaModel, HolesStayOpen) { EXPECT_NEAR(AreaOf(Read({.faces = kHoled}).mesh), 28, 1e-9); }
 
 TEST_F(ColladaModel, OpacityInFourWays) {
@@ -108,8 +144,8 @@ TEST_F(ColladaModel, FaultsAreNamed) {
   EXPECT_THAT(with("0 1 2</p>", "0 1 x</p>"), HasSubstr("expected whole numbers"));
   EXPECT_THAT(with("10 0 3", "10 0"), HasSubstr("holds 7 rows, expected 8"));
   EXPECT_THAT(with("10 0 3", "10 0 x"), HasSubstr("a position that is no number"));
-  EXPECT_EQ(with("10 0 3", "10 0 -1.#IND"), "");  // it costs its faces
-  EXPECT_THAT(with("url=\"#kept\"", "url=\"#lost\""), HasSubstr("the node \"#lost\""));
+  EXPECT_EQ(with("10 0 3", "10 0 -1.#IND"), "");          // it costs its faces
+  EXPECT_EQ(with("url=\"#kept\"", "url=\"#lost\""), "");  // it costs itself
   EXPECT_THAT(with("url=\"#kept\"", "url=\"#n\""), HasSubstr("over 1000 deep"));
 }
 

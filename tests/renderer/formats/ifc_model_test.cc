@@ -5,7 +5,9 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+#include <cmath>
 #include <cstdlib>
+#include <numbers>
 #include <string>
 
 #include "calibration/files/error.h"
@@ -270,6 +272,50 @@ TEST(IfcModel, UnitsWithAnOffsetAndSmallLettersAreRead) {
 }
 
 // Faces of a solid that lack one, and what web-ifc itself complains of.
+// A foot of twelve inches of 25.4 mm; directions of any length; a schema's full name.
+TEST(IfcModel, WhatWebIfcTakesOtherwiseIsMended) {
+  if (!WebIfcFolder()) GTEST_SKIP() << "web-ifc is not there: scripts/setup fetches it";
+  const ScratchFolder folder;
+  const double area = 216 * 0.3048 * 0.3048;
+  std::string text = kBox;
+  text.replace(text.find("#7=IFC"), 3, "#90=");
+  text.insert(text.find("#8=IFC"),
+              "#91=IFCMEASUREWITHUNIT(IFCRATIOMEASURE(12.),#92);\n"
+              "#92=IFCCONVERSIONBASEDUNIT(#4,.LENGTHUNIT.,'INCH',#93);\n"
+              "#93=IFCMEASUREWITHUNIT(IFCLENGTHMEASURE(25.4),#94);\n"
+              "#94=IFCSIUNIT(*,.LENGTHUNIT.,.MILLI.,.METRE.);\n"
+              "#7=IFCCONVERSIONBASEDUNIT(#4,.LENGTHUNIT.,'FOOT',#91);\n");
+  text.replace(text.find("(0.,0.,1.)"), 10, "(0.,0.,5.)");
+  text.replace(text.find("'IFC2X3'"), 8, "'IFC2X3_TC1'");
+  EXPECT_NEAR(AreaOf(ReadIfc(folder.Write("a.ifc", text), 60).mesh), area, 1e-5);
+}
+
+// A square whose corners are named by way of PnIndex.
+TEST(IfcModel, FacesNamePointsByWayOfAnIndex) {
+  if (!WebIfcFolder()) GTEST_SKIP() << "web-ifc is not there: scripts/setup fetches it";
+  const ScratchFolder folder;
+  std::string text = kBox;
+  text.replace(text.find("IFC2X3"), 6, "IFC4");
+  text.replace(text.find("#17,$);"), 7, "#17,$,$);");
+  text.replace(text.find("#15=IFC"), 3, "#95");
+  text.insert(
+      text.find("#16=IFC"),
+      "#96=IFCCARTESIANPOINTLIST3D(((0.,0.,0.),(4.,0.,0.),(4.,0.,4.),(9.,9.,9.),(0.,0.,4.)));\n"
+      "#97=IFCINDEXEDPOLYGONALFACE((1,2,3,4));\n"
+      "#15=IFCPOLYGONALFACESET(#96,.F.,(#97),(1,2,3,5));\n");
+  EXPECT_NEAR(AreaOf(ReadIfc(folder.Write("a.ifc", text), 60).mesh), 16 * 0.3048 * 0.3048, 1e-5);
+}
+
+TEST(IfcModel, RoundThingsAreRound) {
+  if (!WebIfcFolder()) GTEST_SKIP() << "web-ifc is not there: scripts/setup fetches it";
+  const ScratchFolder folder;
+  std::string text = kBox;
+  text.replace(text.find("IFCRECTANGLEPROFILEDEF(.AREA.,$,#12,10.,6.)"), 43,
+               "IFCCIRCLEPROFILEDEF(.AREA.,$,#12,2.)");
+  const double volume = std::numbers::pi * 4 * 3 * std::pow(0.3048, 3);
+  EXPECT_NEAR(VolumeOf(ReadIfc(folder.Write("a.ifc", text), 60).mesh), volume, 0.004 * volume);
+}
+
 TEST(IfcModel, OpenSolidsAndItsReadersLogAreTold) {
   if (!WebIfcFolder()) GTEST_SKIP() << "web-ifc is not there: scripts/setup fetches it";
   const ScratchFolder folder;

@@ -156,6 +156,23 @@ TEST_F(ModelFile, StlAsItIsWritten) {
     EXPECT_NEAR(AreaOf(model.mesh), 0.5, 1e-7);
     EXPECT_EQ(model.skipped.size(), 1u);  // the bytes behind
   }
+  const Model named = Read("a.stl", "solid house units: mm" + stl.substr(stl.find('\n')));
+  EXPECT_EQ(named.metres_per_unit, 0.001);
+  EXPECT_NEAR(AreaOf(named.mesh), 0.5e-6, 1e-12);
+  std::string head = "by Acme; units=cm";
+  head.resize(80);
+  const Model headed = Read("a.stl", head + std::string("\1\0\0\0", 4) + facet);
+  EXPECT_NEAR(AreaOf(headed.mesh), 0.5e-4, 1e-10);
+}
+
+// They would break lists, and terminals.
+TEST_F(ModelFile, ControlCharactersInNamesAreBlanks) {
+  const std::string faces = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+  const Model model = ReadModel(folder_.Write("a.obj", "g a\x1B[31mb\n" + faces + "odd\x07 1\n"));
+  EXPECT_EQ(model.mesh.surfaces[0].layer, "a [31mb");
+  EXPECT_EQ(model.skipped.begin()->first.first, "odd ");
+  EXPECT_TRUE(Read("b.obj", faces + std::string(3, '\0')).skipped.empty());
+  EXPECT_TRUE(Read("b.obj", faces + "\x1A").skipped.empty());
 }
 
 TEST_F(ModelFile, GltfExtensionsAreRefusedOrNamed) {

@@ -53,6 +53,9 @@ TEST(ModelFormat, WhatIsNotReadIsNamed) {
   EXPECT_THAT(complaint("a.obj", "AC1032 ..."), HasSubstr("is a DWG drawing"));
   EXPECT_THAT(complaint("a.3dm", "3D Geometry File Format "), HasSubstr("is a Rhino model"));
   EXPECT_THAT(complaint("a.skp", "PK\x03\x04"), HasSubstr("SketchUp File > Export > 3D Model"));
+  EXPECT_THAT(complaint("a.fbx", "; FBX 7.4.0 project file"), HasSubstr("an FBX model as text"));
+  EXPECT_THAT(complaint("a.fbx", "Kaydara FBX Binary"), HasSubstr("in Blender File > Import"));
+  EXPECT_THAT(complaint("a.gsm", "...."), HasSubstr("is an ArchiCAD library part"));
   EXPECT_THAT(complaint("a.max", "\xD0\xCF\x11\xE0"), HasSubstr("is a 3ds Max scene"));
   EXPECT_THAT(complaint("a.zip", "PK\x03\x04"), HasSubstr("unpack it into building/"));
   EXPECT_THAT(complaint("a.obj", "PK\x03\x04"), HasSubstr("unpack it into building/"));

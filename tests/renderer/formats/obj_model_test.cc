@@ -63,6 +63,20 @@ TEST_F(ObjModel, MapsOfItsMaterials) {
   EXPECT_THAT(bump->first.second, HasSubstr("height_map"));
 }
 
+TEST_F(ObjModel, WhatOfItsMaterialsIsNotShownIsCounted) {
+  folder_.Write("house.mtl",
+                "newmtl BRICK\nKd 1 0 0\nmap_Kd old.png\nnewmtl BRICK\nKd 200 0.5 0\n"
+                "map_Kd -s 2 2 1 -o 0 0 0 brick.png\n");
+  const Model model = Read("house.obj", kObj);
+  EXPECT_EQ(model.mesh.surfaces[0].rgb, Vector3d(1, 0.5, 0));
+  EXPECT_EQ(model.mesh.surfaces[0].texture, "brick.png");
+  EXPECT_EQ(model.skipped.at({"newmtl", "of a name that is there already: the last one counts"}),
+            1);
+  EXPECT_EQ(model.skipped.at({"Kd", "over 1: taken as 1"}), 1);
+  EXPECT_EQ(model.skipped.at({"-s", "moves an image on its faces: not read"}), 1);
+  EXPECT_FALSE(model.skipped.contains({"-o", "moves an image on its faces: not read"}));
+}
+
 TEST_F(ObjModel, Faults) {
   const auto complaint = [&](const std::string& line) {
     return Complaint("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\n" + line + "\n");
@@ -154,6 +168,15 @@ TEST_F(ObjModel, CommentsNameTheUnit) {
   EXPECT_EQ(unit("#units: Inches").metres_per_unit, 0.0254);
   EXPECT_EQ(unit("# units mm").metres_per_unit, 0.001);
   EXPECT_EQ(unit("# unit cube").warnings.size(), 0u);
+  EXPECT_EQ(unit("# exported by Acme, unit cm").metres_per_unit, 0.01);
+  EXPECT_EQ(unit("# all units are in decimeters").metres_per_unit, 0.1);
+  EXPECT_EQ(unit("# Scale: 1 unit = 0.01 meters").metres_per_unit, 0.01);
+  EXPECT_EQ(unit("# 1 unit = 1 foot").metres_per_unit, 0.3048);
+  EXPECT_EQ(unit("# Unit of measurement: yards").metres_per_unit, 0.9144);
+  EXPECT_EQ(unit("# Units = US survey feet").metres_per_unit, 1200.0 / 3937);
+  EXPECT_EQ(unit("# Einheit: Zentimeter").metres_per_unit, 0.01);
+  EXPECT_EQ(unit("# what is in the unit in").metres_per_unit, std::nullopt);
+  EXPECT_EQ(unit("# one unit = a lot").metres_per_unit, std::nullopt);
   EXPECT_EQ(unit("# File units = furlongs").metres_per_unit, std::nullopt);
   EXPECT_EQ(unit("# File units = furlongs").warnings.size(), 1u);
   EXPECT_EQ(unit("# my house").warnings.size(), 0u);

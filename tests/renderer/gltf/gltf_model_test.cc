@@ -183,6 +183,12 @@ TEST_F(GltfModel, PunctualLightsBecomeLamps) {
   EXPECT_NEAR(*model.lamps[0].outer_deg, 45, 1e-9);
 }
 
+TEST_F(GltfModel, CornersBeyondTheLastTriangleAreCounted) {
+  std::string text = Gltf();
+  text.replace(text.find("\"count\": 3"), 10, "\"count\": 2");
+  EXPECT_EQ(Read(text).skipped.at({"indices", "too few for a last triangle"}), 1);
+}
+
 TEST_F(GltfModel, FaultsAreNamed) {
   EXPECT_THAT(Complaint(Gltf("{\"mesh\": 7}")), HasSubstr("meshes[7], which is not there"));
   EXPECT_THAT(Complaint(Gltf("{\"mesh\": 0, \"children\": [0]}")), HasSubstr("over 1000 deep"));

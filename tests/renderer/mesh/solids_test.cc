@@ -64,6 +64,26 @@ TEST(Solids, FlippedFacesOfAClosedBodyAreTurnedOut) {
   }
 }
 
+// A box of 3 m with a hollow of 1 m; the same that looks outwards, or stands beside, is no hollow.
+TEST(Solids, HollowsKeepTheirFacesInwards) {
+  const auto volume = [](const Vector3d& corner, bool inwards, const std::string& layer) {
+    ModelMesh boxes = Cube(Vector3d::Zero());
+    for (Vector3d& v : boxes.vertices) v *= 3;
+    ModelMesh small = Cube(corner);
+    small.surfaces[0].layer = layer;
+    for (auto& t : small.triangles) {
+      if (inwards) std::swap(t[0], t[1]);
+    }
+    Append(small, &boxes);
+    MendSolids(&boxes);
+    return VolumeOf(boxes);
+  };
+  EXPECT_NEAR(volume({1, 1, 1}, true, "W"), 26, 1e-9);
+  EXPECT_NEAR(volume({1, 1, 1}, false, "W"), 28, 1e-9);
+  EXPECT_NEAR(volume({4, 1, 1}, true, "W"), 28, 1e-9);
+  EXPECT_NEAR(volume({1, 1, 1}, true, "OTHER"), 28, 1e-9);
+}
+
 TEST(Solids, AMissingFaceLeavesOpenEdgesAndNothingIsTurned) {
   ModelMesh box = Cube(Vector3d::Zero());
   box.triangles.resize(10);

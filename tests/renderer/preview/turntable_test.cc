@@ -41,9 +41,21 @@ TEST_F(TurntablePage, HoldsAllThatItNeeds) {
   EXPECT_THAT(page, HasSubstr("/* controls */"));
   EXPECT_THAT(page, HasSubstr("\"center\":[2600001"));
   EXPECT_THAT(page, HasSubstr("a<\\/script>b"));
-  EXPECT_THAT(page, HasSubstr("a&lt;/script&gt;b"));
   // Edges 0-1, 0-3, 1-2, 2-3 as 32-bit numbers; 0-2 has two triangles.
   EXPECT_THAT(page, HasSubstr("\"open_edges\":\"AAAAAAEAAAAAAAAAAwAAAAEAAAACAAAAAgAAAAMAAAA=\""));
+}
+
+// Of one material one part, however many layers: its triangles go layer by layer, in runs.
+TEST_F(TurntablePage, TrianglesOfAMaterialAreInRunsOfLayers) {
+  ArtificialEnvironment building = Square();
+  building.triangles.emplace_back(1, 2, 3);
+  building.material_of_triangle = {0, 0, 0};
+  const std::string page = Turntable(building, {{"a", "b"}, {1, 0, 1}});
+  // 0 2 3, then 0 1 2 and 1 2 3; layer 0 has one triangle, layer 1 two.
+  EXPECT_THAT(page,
+              HasSubstr("\"triangles\":\"AAAAAAIAAAADAAAAAAAAAAEAAAACAAAAAQAAAAIAAAADAAAA\""));
+  EXPECT_THAT(page, HasSubstr("\"runs\":\"AAAAAAEAAAABAAAAAgAAAA==\""));
+  EXPECT_EQ(page.find("\"rgb\""), page.rfind("\"rgb\""));
 }
 
 // The long side of one triangle, the two halves of others: no gap.
