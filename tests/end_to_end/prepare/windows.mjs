@@ -76,6 +76,14 @@ report("and is the first thing to do", true, told);
 fs.writeFileSync(marks, whole);
 await anna.page.waitForSelector(".banner", {state: "detached"});
 report("mended, it is read again", (await row("left", "by_hand"))?.x === 410);
+await anna.photo("right");
+await anna.press("*"); // to the large pane, where its tiles are others
+const isShown = () => anna.page.evaluate(() => {
+  const canvas = document.querySelector('.pane[data-photo="right"] canvas');
+  const [red, green, blue] = canvas.getContext("2d").getImageData(canvas.width / 2, canvas.height / 2, 1, 1).data;
+  return red + green + blue > 3 * 0x1c;
+});
+report("a photo that is enlarged after that is shown", await until("the photo", isShown));
 report("the pages run without faults", anna.faults.length + ben.faults.length === 0, [...anna.faults, ...ben.faults][0] ?? "");
 await anna.browser.close();
 await server.stop();

@@ -106,7 +106,6 @@ export class Pane extends Zoomed {
   setPhoto(photo) {
     if (!photo || photo === this.photo) return;
     this.photo = photo;
-    this.index = state.photos.indexOf(photo);
     this.isDrawn = false;
     for (const layer of [this.markLayer, this.sampleLayer]) layer.replaceChildren();
     this.markNodes = new Map();
@@ -117,6 +116,11 @@ export class Pane extends Zoomed {
     this.root.dataset.photo = photo.name;
     this.fit();
     this.toCurrent(false);
+  }
+
+  /** Of its photo, as the server counts them. */
+  get index() {
+    return state.photos.indexOf(/** @type {any} */ (this.photo));
   }
 
   focus() {

@@ -208,6 +208,13 @@ async function load() {
   }
 }
 
+/**
+ * The same objects for the same photos, which panes hold.
+ * @param {Photo[]} photos
+ */
+const samePhotos = photos =>
+  photos.map(photo => Object.assign(photoOf(photo.name) ?? {}, {fault: undefined}, photo));
+
 /** What waits here stays on top. */
 function takeSite(site) {
   confirmed = Object.fromEntries(
@@ -221,7 +228,7 @@ function takeSite(site) {
     name: site.name,
     version: site.version,
     siteFolder: site.site_folder,
-    photos: site.photos,
+    photos: samePhotos(site.photos),
     readOnly: site.read_only ?? [],
     history: site.history,
     saved: site.saved,
