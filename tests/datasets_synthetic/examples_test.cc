@@ -57,6 +57,8 @@ TEST_P(EachExample, LeavesThePhotographersOutside) {
     const Scene building = BuildingScene(example_.building);
     EXPECT_FALSE(IsBlocked(building, {view.center, sight}, 4)) << view.photo;
     EXPECT_FALSE(IsBlocked(example_.site.natural, {view.center, sight}, 4)) << view.photo;
+    const Ray up{view.center, example_.site.zenith};
+    EXPECT_FALSE(IsBlocked(building, up) || IsBlocked(example_.site.natural, up)) << view.photo;
   }
 }
 

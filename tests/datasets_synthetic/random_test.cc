@@ -41,6 +41,10 @@ TEST(ValueNoise, PassesThroughItsLatticeAndIsContinuous) {
     EXPECT_LT(here, 1);
     EXPECT_NEAR(here, ValueNoise(u + 1e-6, 0.4, 9), 1e-5);
   }
+  for (int i = -2; i <= 2; ++i) {  // from cell to cell
+    EXPECT_NEAR(ValueNoise(i - 1e-9, 0.4, 9), ValueNoise(i + 1e-9, 0.4, 9), 1e-6) << i;
+    EXPECT_NEAR(ValueNoise(0.4, i - 1e-9, 9), ValueNoise(0.4, i + 1e-9, 9), 1e-6) << i;
+  }
 }
 
 }  // namespace

@@ -47,13 +47,15 @@ TEST(Intersect, RespectsAConcaveOutline) {
   EXPECT_NEAR(*Intersect(face, {{1.5, 0.5, 0}, up}), 2, 1e-15);
   EXPECT_FALSE(Intersect(face, {{1.5, 1.5, 0}, up}));  // in the notch
   EXPECT_FALSE(Intersect(face, {{2.5, 0.5, 0}, up}));
+  EXPECT_FALSE(Intersect(face, {{-0.1, 0.5, 0}, up}));
 }
 
 TEST(Intersect, SeesBothSidesButNotBehindTheOrigin) {
   const Face face = LShape();
   EXPECT_NEAR(*Intersect(face, {{0.5, 0.5, 5}, -Vector3d::UnitZ()}), 3, 1e-15);
   EXPECT_FALSE(Intersect(face, {{0.5, 0.5, 5}, Vector3d::UnitZ()}));
-  EXPECT_FALSE(Intersect(face, {{0.5, 0.5, 1}, Vector3d::UnitX()}));  // parallel
+  EXPECT_FALSE(Intersect(face, {{0.5, 0.5, 2.1}, Vector3d::UnitZ()}));  // close behind
+  EXPECT_FALSE(Intersect(face, {{0.5, 0.5, 1}, Vector3d::UnitX()}));    // parallel
 }
 
 TEST(NearestHit, TakesTheNearerOfTwoWithinTheLimit) {

@@ -35,8 +35,12 @@ leaves_at_most() { # FIELD BOUND
     $1 == "gallery" && $2 == "mean" { print $field; found = 1; exit !($field > 0 && $field <= bound) }
     END { if (!found) exit 1 }' "$temporary/first"
 }
-check 'the paper'\''s mode is no worse than showing nothing' leaves_at_most 5 1
-check 'the default mode is nearer to the truth' leaves_at_most 8 0.2
+# A tenth above what is measured at this size, 0.781 and 0.117. At the README's 720 px they are 0.784, since it is the
+# light that is off, by the samples' reflectance, and 0.092, since half as many pixels are outlines there.
+check 'the paper'\''s mode leaves what its dark light explains' leaves_at_most 5 0.86
+check 'the default mode is nearer to the truth' leaves_at_most 9 0.129
+has_sheet() { [[ $(file -b -- "$INSITU_EXAMPLES/gallery.jpg") == *'JPEG image'*1280x661* ]]; }
+check 'all pictures lie side by side' has_sheet
 
 does_nothing_again() {
   local before after
