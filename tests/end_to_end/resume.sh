@@ -63,7 +63,7 @@ check 'then it goes on to the same bytes' goes_on
 
 goes_on_with_its_layers() {
   local status=0 parts=$site/montages/$name.parts.exr whole=$temporary/whole.parts.exr
-  layers=(--layers depth,building_sun,object)
+  layers=(--layers "depth,building_sun,object")
   anew
   render >/dev/null && mv -- "$parts" "$whole" || return 1
   anew
