@@ -111,7 +111,8 @@ MontageScene LoadScene(const SitePaths& site, NaturalEnvironment natural,
   const PhaseScope shading(Phase::kShading);
   MontageScene scene = SceneWithoutImages(std::move(natural), building);
   scene.textures = std::move(textures);
-  std::visit([&](auto&& read) { SetInputImages(std::move(read), &scene); }, images.get());
+  SceneImages read_images = images.get();
+  std::visit([&](auto& read) { SetInputImages(std::move(read), &scene); }, read_images);
   return scene;
 }
 

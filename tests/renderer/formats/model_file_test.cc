@@ -151,7 +151,8 @@ TEST_F(ModelFile, StlAsItIsWritten) {
   const std::string facet = std::string(12, '\0') + corners + std::string(2, '\0');
   for (const std::string& count :
        {std::string(4, '\0'), std::string("\1\0\0\0", 4), std::string(4, '\xFF')}) {
-    const std::string binary = std::string(80, ' ') + count + facet + "\r\n";
+    std::string binary(80, ' ');
+    binary.append(count).append(facet).append("\r\n");
     const Model model = Read("a.stl", binary);
     EXPECT_NEAR(AreaOf(model.mesh), 0.5, 1e-7);
     EXPECT_EQ(model.skipped.size(), 1u);  // the bytes behind
