@@ -13,9 +13,14 @@
 namespace insitu {
 namespace {
 
-Eigen::AlignedBox3d BoxOf(const ArtificialEnvironment& building) {
+Eigen::AlignedBox3d BoxOfVertices(const ArtificialEnvironment& building) {
   Eigen::AlignedBox3d box;
   for (const Eigen::Vector3d& vertex : building.vertices) box.extend(vertex);
+  return box;
+}
+
+Eigen::AlignedBox3d BoxOf(const ArtificialEnvironment& building) {
+  Eigen::AlignedBox3d box = BoxOfVertices(building);
   for (const EnvironmentSphere& sphere : building.spheres) {
     box.extend(sphere.center - Eigen::Vector3d::Constant(sphere.radius));
     box.extend(sphere.center + Eigen::Vector3d::Constant(sphere.radius));
@@ -49,11 +54,13 @@ SortedCorners Sorted(const ArtificialEnvironment& building) {
   return sorted;
 }
 
+// The library's cells are a thousandth of a mesh at least; coarser ones than wanted would be seen.
+constexpr double kFinestCell = 1e-3;
+
 class Simplifier {
  public:
-  explicit Simplifier(const ArtificialEnvironment& building) : building_(building) {
-    const Eigen::AlignedBox3d box = BoxOf(building);
-    extent_ = box.sizes().maxCoeff();
+  Simplifier(const ArtificialEnvironment& building, const Eigen::AlignedBox3d& box)
+      : building_(building), extent_(box.sizes().maxCoeff()) {
     for (const Eigen::Vector3d& vertex : building.vertices) {
       positions_.push_back((vertex - box.min()).cast<float>());
     }
@@ -113,7 +120,7 @@ class Simplifier {
   }
 
   const ArtificialEnvironment& building_;
-  double extent_ = 0;
+  const double extent_;  // [m]
   std::vector<Eigen::Vector3f> positions_, normal_of_vertex_;
   ArtificialEnvironment simple_;
 };
@@ -133,7 +140,9 @@ double OcclusionSize(const NaturalEnvironment& natural, const ArtificialEnvironm
 
 ArtificialEnvironment Simplified(const ArtificialEnvironment& building, double size) {
   if (building.triangles.size() < kFewTriangles || !(size > 0)) return building;
-  return Simplifier(building).At(size);
+  const Eigen::AlignedBox3d box = BoxOfVertices(building);
+  if (size < kFinestCell * box.sizes().maxCoeff()) return building;
+  return Simplifier(building, box).At(size);
 }
 
 }  // namespace insitu

@@ -15,7 +15,7 @@ double OcclusionSize(const NaturalEnvironment& natural, const ArtificialEnvironm
 
 // The same with the corners of opaque faces without textures moved together, those of a cell of
 // about `size` [m] into one, and the faces that this leaves without area gone. Of fewer than
-// kFewTriangles, or with size 0, nothing changes.
+// kFewTriangles, with size 0, or over a thousand cells long, nothing changes.
 inline constexpr size_t kFewTriangles = 50'000;
 ArtificialEnvironment Simplified(const ArtificialEnvironment& building, double size);
 

@@ -89,6 +89,24 @@ TEST(Simplified, LeavesWhatIsSmallGlassOrTextured) {
   EXPECT_EQ(Simplified(whole, 0).triangles, whole.triangles);
 }
 
+// A building of kilometres has no cells as fine as they are wanted: none is coarser than that.
+TEST(Simplified, LeavesWhatIsTooLargeForItsCells) {
+  const SmallSite site = MakeSmallSite();
+  ArtificialEnvironment ball = Ball(site, 160, {});
+  for (Eigen::Vector3d& vertex : ball.vertices) vertex.x() *= 50;
+  EXPECT_EQ(Simplified(ball, 0.05).triangles, ball.triangles);
+  EXPECT_LT(Simplified(ball, 0.2).triangles.size(), ball.triangles.size());
+}
+
+// Spheres beside a mesh do not make its cells finer.
+TEST(Simplified, CellsAreOfTheMesh) {
+  const SmallSite site = MakeSmallSite();
+  ArtificialEnvironment ball = Ball(site, 160, {});
+  const size_t alone = Simplified(ball, 0.05).triangles.size();
+  ball.spheres.push_back({ball.vertices[0] + Eigen::Vector3d(20, 0, 0), 1, 0});
+  EXPECT_EQ(Simplified(ball, 0.05).triangles.size(), alone);
+}
+
 // Of a file that has them, each corner keeps a normal and a place on a texture.
 TEST(Simplified, CornersKeepNormals) {
   const SmallSite site = MakeSmallSite();
